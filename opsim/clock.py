@@ -1,0 +1,18 @@
+"""Time on a grid of 2^-20 s: sums are exact, ties are real, and pieces end when they should.
+
+The grid holds up to 2^33 s (272 years) in a float without loss.
+"""
+
+TICKS_PER_S = 2**20
+
+
+def on_grid(delay_s: float) -> float:
+    """A delay rounded once to a multiple of 2^-20 s, at least one of them."""
+    return max(1, round(delay_s * TICKS_PER_S)) / TICKS_PER_S
+
+
+def ticks(times_s):
+    """Times on the grid as whole ticks (int64), for sums that must be exact."""
+    import numpy as np
+
+    return np.rint(np.asarray(times_s) * TICKS_PER_S).astype(np.int64)

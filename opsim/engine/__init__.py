@@ -1,0 +1,1 @@
+"""Plan -> EventLog. SimPy is the reference and the default engine."""

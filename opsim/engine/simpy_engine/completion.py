@@ -1,0 +1,50 @@
+"""What follows when a stretch of time is over: arrivals of walks, ends of performances, automatic ends, new jobs."""
+
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.material import create, operation_done
+from opsim.engine.simpy_engine.release import ARRIVED
+from opsim.engine.simpy_engine.state import Job, Worker
+from opsim.engine.simpy_engine.station import AUTOMATIC_DONE, next_task, perform, task_done
+from opsim.engine.simpy_engine.worker import STRETCH_DONE, hold, log_worker, set_free
+from opsim.log import WALK
+
+
+def _stretch_done(floor: Floor, worker: Worker) -> None:
+    job: Job = worker.job  # type: ignore[assignment]
+    if worker.kind == WALK:
+        log_worker(floor, worker)
+        perform(floor, job, worker)
+    elif task_done(floor, job):
+        _station_done(floor, worker, job)
+    elif _is_automatic(floor, job):
+        set_free(floor, worker)
+        next_task(floor, job, None)
+    else:
+        next_task(floor, job, worker)
+
+
+def _station_done(floor: Floor, worker: Worker, job: Job) -> None:
+    operation_done(floor, job)
+    if floor.plan.when_blocked == "held" and job.number in floor.jobs:
+        hold(floor, worker, job)
+    else:
+        set_free(floor, worker)
+
+
+def _is_automatic(floor: Floor, job: Job) -> bool:
+    tasks = job.station.plan.tasks  # type: ignore[union-attr]
+    return floor.plan.tasks[tasks[job.task_position]].automatic
+
+
+def _automatic_done(floor: Floor, job: Job) -> None:
+    if task_done(floor, job):
+        operation_done(floor, job)
+    else:
+        next_task(floor, job, None)
+
+
+def _arrived(floor: Floor, _number: int) -> None:
+    create(floor)
+
+
+HANDLERS = {STRETCH_DONE: _stretch_done, AUTOMATIC_DONE: _automatic_done, ARRIVED: _arrived}

@@ -1,0 +1,76 @@
+"""All luck of a replication, by name: durations, gaps between arrivals, product mix."""
+
+from functools import cache
+from itertools import accumulate
+
+import numpy as np
+
+from opsim.plan import Plan
+from opsim.streams import BLOCK, Items, stream
+
+FIXED_WORKFORCE = 0
+"""Workers' own effects belong to the workforce, not to the replication: the same people work in every one."""
+
+
+class Draws:
+    """Looks up item after item of the named streams of one replication."""
+
+    def __init__(self, plan: Plan, replication: int):
+        self._plan, self._replication = plan, replication
+        release = plan.release
+        self._gaps = self._items(("interarrival", release.name), _exponential(release.every_s))
+        self._mix = self._items(("mix", release.name), _uniform)
+        self._cumulative = list(accumulate(product.share for product in plan.products))[:-1]
+        self._durations: dict[tuple[int, int], Items] = {}
+        self._automatic: dict[tuple[int, int], Items] = {}
+
+    def duration_s(self, task: int, worker: int, k: int) -> float:
+        """The k-th performance of a task by a worker, at skill rating 1."""
+        items = self._durations.get((task, worker))
+        if items is None:
+            items = self._durations[task, worker] = self._of_worker(task, worker)
+        return items[k]
+
+    def automatic_s(self, task: int, station: int, k: int) -> float:
+        """The k-th automatic run of a task at a station."""
+        items = self._automatic.get((task, station))
+        if items is None:
+            name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
+            items = self._automatic[task, station] = self._items(name, _performed(self._plan.tasks[task].model, None))
+        return items[k]
+
+    def gap_s(self, n: int) -> float:
+        """Time between arrival n - 1 and arrival n."""
+        return self._gaps[n]
+
+    def product(self, n: int) -> int:
+        """Rank of the product that the n-th job is."""
+        point = self._mix[n]
+        return sum(point >= share for share in self._cumulative)
+
+    def _of_worker(self, task: int, worker: int) -> Items:
+        plan, name = self._plan.tasks[task], self._plan.workers[worker].name
+        effect = plan.model.draw_worker(
+            stream(self._plan.seed, FIXED_WORKFORCE, "effect", name, plan.name, 0), self._plan.workers[worker].body
+        )
+        return self._items(("duration", plan.name, name), _performed(plan.model, effect))
+
+    def _items(self, name, draw) -> Items:
+        return Items(self._plan.seed, self._replication, name, draw)
+
+
+def _performed(model, effect):
+    """How a block of durations is drawn from a task model."""
+    at = getattr(model, "at", None) if getattr(model, "by_index", False) else None
+    if at is not None:
+        return lambda _rng, block: at(np.arange(block * BLOCK, (block + 1) * BLOCK)).tolist()
+    return lambda rng, _block: model.sample(BLOCK, rng, worker=effect).duration_s.tolist()
+
+
+@cache
+def _exponential(mean_s: float):
+    return lambda rng, _block: rng.exponential(mean_s, BLOCK).tolist()
+
+
+def _uniform(rng: np.random.Generator, _block: int) -> list[float]:
+    return rng.random(BLOCK).tolist()

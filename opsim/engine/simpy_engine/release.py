@@ -1,0 +1,20 @@
+"""Sources: the process of a release that does not wait for room."""
+
+from collections.abc import Generator
+
+import simpy
+
+from opsim.clock import on_grid
+from opsim.engine.rules import ARRIVAL
+from opsim.engine.simpy_engine.floor import Floor
+
+ARRIVED = "job arrived"
+
+
+def poisson_release(floor: Floor) -> Generator[simpy.Event, None, None]:
+    """The SimPy process of a Poisson source: wait a gap, report an arrival."""
+    number = 0
+    while True:
+        yield floor.env.timeout(on_grid(floor.draws.gap_s(number)))
+        floor.report(ARRIVAL, 0, number, ARRIVED, number)
+        number += 1

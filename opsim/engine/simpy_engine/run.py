@@ -1,0 +1,45 @@
+"""Plan -> EventLog, one replication."""
+
+import simpy
+
+from opsim.engine.simpy_engine.completion import HANDLERS
+from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.release import poisson_release
+from opsim.engine.simpy_engine.settle import dispatch
+from opsim.engine.simpy_engine.worker import log_worker, set_free, working_life
+from opsim.log import EventLog, names_of
+from opsim.plan import Plan
+
+
+def run_plan(plan: Plan, replication: int = 0) -> EventLog:
+    """Run a Plan to its horizon (exclusive); rows that are open there are closed there, with their progress.
+
+    Draws use one BLAS thread, so that the same seed gives the same bytes on any machine load and number of processes.
+    """
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        floor = _open(plan, replication)
+        floor.env.run(until=plan.horizon_s)
+    return _close(floor, replication)
+
+
+def _open(plan: Plan, replication: int) -> Floor:
+    env = simpy.Environment()
+    floor = Floor(env, plan, Draws(plan, replication), HANDLERS, dispatch)
+    for worker in floor.workers:
+        set_free(floor, worker)
+        env.process(working_life(floor, worker))
+    if plan.release.kind == "poisson":
+        env.process(poisson_release(floor))
+    floor.wake()
+    return floor
+
+
+def _close(floor: Floor, replication: int) -> EventLog:
+    for worker in floor.workers:
+        log_worker(floor, worker)
+    for job in floor.jobs.values():
+        floor.log_job(job)
+    return floor.log.close(replication, floor.plan.horizon_s, names_of(floor.plan))

@@ -1,0 +1,70 @@
+"""On a server: task after task, by a worker or automatically."""
+
+from bisect import insort
+
+from opsim.clock import on_grid
+from opsim.engine.rules import COMPLETION
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.state import Job, Performance, Station, Worker
+from opsim.log import HELD, NO_WORKER, WORK
+
+AUTOMATIC_DONE = "automatic task done"
+
+
+def seat(floor: Floor, station: Station, job: Job) -> None:
+    """The job takes a free server."""
+    station.free_servers -= 1
+    job.task_position = job.repeats_done = 0
+    next_task(floor, job, None)
+
+
+def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
+    """Begin the task the job has come to: automatically, by the worker at hand, or by calling for one."""
+    station: Station = job.station  # type: ignore[assignment]
+    if floor.plan.tasks[station.plan.tasks[job.task_position]].automatic:
+        _run_automatic(floor, station, job)
+    elif worker is None:
+        floor.job_now(job, HELD, NO_WORKER)
+        insort(station.calling, (floor.env.now, job.number, job))
+        floor.calling[station.rank] = station
+    else:
+        perform(floor, job, worker)
+
+
+def task_done(floor: Floor, job: Job) -> bool:
+    """Count one performance; True where all tasks of the station are done."""
+    tasks = job.station.plan.tasks  # type: ignore[union-attr]
+    job.repeats_done += 1
+    if job.repeats_done == floor.plan.tasks[tasks[job.task_position]].repeat:
+        job.repeats_done = 0
+        job.task_position += 1
+    return job.task_position == len(tasks)
+
+
+def perform(floor: Floor, job: Job, worker: Worker) -> None:
+    """The worker's next performance of the job's task begins now."""
+    station: Station = job.station  # type: ignore[assignment]
+    task = station.plan.tasks[job.task_position]
+    k = worker.next_k[task]
+    worker.next_k[task] = k + 1
+    duration_s = on_grid(floor.draws.duration_s(task, worker.rank, k) / worker.plan.rating[station.rank])
+    _begin(floor, job, worker.rank, task, k, duration_s)
+    worker.kind, worker.since_s = WORK, floor.env.now
+    floor.at_end_of(duration_s, worker.stretch_over)
+
+
+def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
+    task = station.plan.tasks[job.task_position]
+    k = floor.automatic_k.get((task, station.rank), 0)
+    floor.automatic_k[task, station.rank] = k + 1
+    duration_s = on_grid(floor.draws.automatic_s(task, station.rank, k))
+    _begin(floor, job, -1, task, k, duration_s)
+    rank = len(floor.workers) + station.rank
+    over = floor.env.timeout(duration_s)
+    over.callbacks.append(lambda _: floor.report(COMPLETION, rank, job.number, AUTOMATIC_DONE, job))
+
+
+def _begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
+    floor.job_now(job, WORK)
+    job.performance = Performance(worker, task, floor.n_performances, k, floor.env.now, duration_s)
+    floor.n_performances += 1

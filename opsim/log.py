@@ -1,0 +1,136 @@
+"""EventLog: one row for each thing that happened. Figures are pure functions of these rows; nothing else keeps count."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+KINDS = (
+    *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
+    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost"),
+)
+WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, _SETUP, _DOWN = range(12)
+_REPAIR, _TRANSPORT, CREATE, _JOIN, _SPLIT, FINISH, _SCRAP, LOST = range(12, 20)
+WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, _REPAIR)
+"""Kinds that are states of a worker, where the row names one."""
+JOB_KINDS = (QUEUE, WORK, _SETUP, _TRANSPORT, BLOCKED, HELD)
+"""Kinds that are states of a job, where the row names one."""
+
+CAUSES = ("", "idle", "blocked", "gate", "worker", "full")
+NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL = range(6)
+
+COLUMNS: dict[str, type] = {
+    "kind": np.int8,
+    "start_s": np.float64,
+    "end_s": np.float64,
+    "worker": np.int32,
+    "station": np.int32,
+    "place_from": np.int32,
+    "place_to": np.int32,
+    "source": np.int32,
+    "job": np.int64,
+    "product": np.int32,
+    "operation": np.int32,
+    "task": np.int32,
+    "performance_id": np.int64,
+    "k": np.int64,
+    "progress_from": np.float64,
+    "progress_to": np.float64,
+    "pace_shift": np.float64,
+    "cause": np.int8,
+}
+ORDER = ("end_s", "start_s", "kind", "worker", "station", "source", "job", "k")
+NAMED = ("kind", "worker", "station", "place_from", "place_to", "source", "product", "operation", "task", "cause")
+"""Columns that hold the number of a name; -1 where the row has none."""
+
+CHUNK_ROWS = 1 << 15
+
+
+@dataclass(frozen=True)
+class EventLog:
+    """Rows of one replication, sorted by ``ORDER``.
+
+    columns : a column each, all of one length; names as numbers, -1 for none; NaN progress where nothing was performed
+    names   : for each column of ``NAMED``, the names that its numbers stand for
+    """
+
+    replication: int
+    horizon_s: float
+    columns: dict[str, np.ndarray]
+    names: dict[str, tuple[str, ...]]
+
+    def __len__(self) -> int:
+        return self.columns["kind"].size
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        return self.columns[column]
+
+    def where(self, mask: np.ndarray) -> "EventLog":
+        """The rows of a mask or an index, in their order."""
+        return EventLog(
+            self.replication, self.horizon_s, {name: column[mask] for name, column in self.columns.items()}, self.names
+        )
+
+    def of(self, *kinds: int) -> "EventLog":
+        """The rows of some kinds."""
+        return self.where(np.isin(self["kind"], kinds))
+
+    @cached_property
+    def duration_s(self) -> np.ndarray:
+        """(rows,) seconds from start to end."""
+        return self["end_s"] - self["start_s"]
+
+    def clipped_s(self, from_s: float, to_s: float) -> np.ndarray:
+        """(rows,) seconds of each row that lie between two times."""
+        return np.maximum(np.minimum(self["end_s"], to_s) - np.maximum(self["start_s"], from_s), 0.0)
+
+
+class LogWriter:
+    """Takes rows as tuples in the order of ``COLUMNS``; packs them into columns chunk by chunk."""
+
+    def __init__(self) -> None:
+        self._rows: list[tuple] = []
+        self._chunks: list[dict[str, np.ndarray]] = []
+
+    def append(self, row: tuple) -> None:
+        self._rows.append(row)
+        if len(self._rows) >= CHUNK_ROWS:
+            self._pack()
+
+    def _pack(self) -> None:
+        columns = zip(*self._rows) if self._rows else ([] for _ in COLUMNS)
+        self._chunks.append({name: np.array(column, COLUMNS[name]) for name, column in zip(COLUMNS, columns)})
+        self._rows = []
+
+    def close(self, replication: int, horizon_s: float, names: dict[str, tuple[str, ...]]) -> EventLog:
+        """The finished log, rows in their one order."""
+        self._pack()
+        columns = {name: np.concatenate([chunk[name] for chunk in self._chunks]) for name in COLUMNS}
+        order = np.lexsort([columns[name] for name in reversed(ORDER)])
+        return EventLog(replication, horizon_s, {name: column[order] for name, column in columns.items()}, names)
+
+
+def event_log(rows: Iterable[tuple], horizon_s: float, names: dict[str, tuple[str, ...]], replication: int = 0) -> EventLog:
+    """A log of rows given as tuples in the order of ``COLUMNS``."""
+    writer = LogWriter()
+    for row in rows:
+        writer.append(row)
+    return writer.close(replication, horizon_s, names)
+
+
+def names_of(plan) -> dict[str, tuple[str, ...]]:
+    """For each column of ``NAMED`` the names of a Plan, each at its natural rank."""
+    places = plan.places
+    return {
+        "kind": KINDS,
+        "worker": tuple(worker.name for worker in plan.workers),
+        "station": tuple(station.name for station in plan.stations),
+        "place_from": places,
+        "place_to": places,
+        "source": (plan.release.name,),
+        "product": tuple(product.name for product in plan.products),
+        "operation": plan.operations,
+        "task": tuple(task.name for task in plan.tasks),
+        "cause": CAUSES,
+    }

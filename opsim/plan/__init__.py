@@ -1,0 +1,26 @@
+"""Scenario -> Plan: names become numbers (in natural order, so number = rank), routes become tables, units are gone.
+
+Both engines read a Plan and nothing else.
+"""
+
+from opsim.plan.compile import compile_plan
+from opsim.plan.loads import StationLoad, station_loads
+from opsim.plan.material import Operation, ProductPlan
+from opsim.plan.plan import Plan
+from opsim.plan.release import ReleasePlan
+from opsim.plan.station import StationPlan
+from opsim.plan.tasks import TaskPlan
+from opsim.plan.worker import WorkerPlan
+
+__all__ = [
+    "Operation",
+    "Plan",
+    "ProductPlan",
+    "ReleasePlan",
+    "StationLoad",
+    "StationPlan",
+    "TaskPlan",
+    "WorkerPlan",
+    "compile_plan",
+    "station_loads",
+]

@@ -1,0 +1,37 @@
+"""Scenario -> Plan."""
+
+from opsim.layout import distances_m
+from opsim.names import natural_key
+from opsim.plan.material import plan_products
+from opsim.plan.plan import Plan
+from opsim.plan.release import plan_release
+from opsim.plan.station import plan_stations
+from opsim.plan.tasks import plan_tasks
+from opsim.plan.worker import plan_workers
+
+
+def compile_plan(loaded, *, seed: int | None = None) -> Plan:
+    """The Plan of a scenario that was read; ``seed`` replaces the file's own."""
+    from opsim.tasks import task_model
+
+    scenario = loaded.scenario
+    places, stations = _ranks(scenario.layout.places), _ranks(scenario.stations)
+    return Plan(
+        name=scenario.name,
+        seed=scenario.run.seed if seed is None else seed,
+        horizon_s=scenario.run.horizon_s,
+        warm_up_s=scenario.run.warm_up_s,
+        places=tuple(places),
+        distance_m=distances_m([scenario.layout.places[name] for name in places], scenario.layout.distance),
+        tasks=plan_tasks(scenario, lambda task: task_model(task, loaded)),
+        stations=plan_stations(scenario, places, _ranks(scenario.tasks)),
+        products=plan_products(scenario, stations),
+        release=plan_release(scenario),
+        workers=plan_workers(scenario, places, tuple(stations)),
+        rule=scenario.allocation.rule,
+        when_blocked=scenario.allocation.when_blocked,
+    )
+
+
+def _ranks(names) -> dict[str, int]:
+    return {name: rank for rank, name in enumerate(sorted(names, key=natural_key))}

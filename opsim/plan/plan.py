@@ -1,0 +1,44 @@
+"""The Plan: one frozen thing that says everything an engine has to know."""
+
+from dataclasses import dataclass
+
+from opsim.names import natural_key
+from opsim.plan.material import ProductPlan
+from opsim.plan.release import ReleasePlan
+from opsim.plan.station import StationPlan
+from opsim.plan.tasks import TaskPlan
+from opsim.plan.worker import WorkerPlan
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A scenario as numbers. Every tuple is in natural order of names; an index is a natural rank.
+
+    distance_m : (P, P) metres between places
+    rule, when_blocked : named rules of allocation
+    """
+
+    name: str
+    seed: int
+    horizon_s: float
+    warm_up_s: float
+    places: tuple[str, ...]
+    distance_m: tuple[tuple[float, ...], ...]
+    tasks: tuple[TaskPlan, ...]
+    stations: tuple[StationPlan, ...]
+    products: tuple[ProductPlan, ...]
+    release: ReleasePlan
+    workers: tuple[WorkerPlan, ...]
+    rule: str
+    when_blocked: str
+
+    @property
+    def window_s(self) -> tuple[float, float]:
+        """What the figures count: from the end of the warm-up to the horizon."""
+        return self.warm_up_s, self.horizon_s
+
+    @property
+    def operations(self) -> tuple[str, ...]:
+        """Names of all operations, in natural order."""
+        names = {operation.name for product in self.products for operation in product.route}
+        return tuple(sorted(names, key=natural_key))

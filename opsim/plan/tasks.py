@@ -1,0 +1,28 @@
+"""Tasks with their models of time."""
+
+from dataclasses import dataclass
+
+from opsim.names import natural_key
+from opsim.task import TaskModel
+
+
+@dataclass(frozen=True, slots=True)
+class TaskPlan:
+    """repeat : performances in a row, each a draw of its own; automatic : needs a server but no worker."""
+
+    name: str
+    model: TaskModel
+    repeat: int
+    automatic: bool
+
+    def mean_s(self, worker=None) -> float:
+        """Mean time of all repeats together, in seconds, of a worker with skill rating 1."""
+        return self.repeat * self.model.mean_duration_s(worker)
+
+
+def plan_tasks(scenario, model_of) -> tuple[TaskPlan, ...]:
+    """Tasks in natural order; ``model_of(task)`` finds the model of a scenario's task."""
+    return tuple(
+        TaskPlan(name, model_of(task), task.repeat, task.automatic)
+        for name, task in sorted(scenario.tasks.items(), key=lambda item: natural_key(item[0]))
+    )

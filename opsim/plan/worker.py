@@ -1,0 +1,46 @@
+"""Workers: where they start, how fast they walk, what they can do."""
+
+from dataclasses import dataclass
+
+from opsim.names import natural_key
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """What is known of a worker's body; None where it was not measured."""
+
+    height_m: float | None
+    mass_kg: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class WorkerPlan:
+    """rating : (S,) performance rating at each station, 0 where the worker lacks the skill; place : where he starts."""
+
+    name: str
+    place: int
+    walk_m_per_s: float
+    rating: tuple[float, ...]
+    body: Body
+
+
+def plan_workers(scenario, places: dict[str, int], station_names: tuple[str, ...]) -> tuple[WorkerPlan, ...]:
+    """Workers in natural order. Who has no ``home`` starts at the first of his stations in natural order."""
+    return tuple(
+        WorkerPlan(
+            name,
+            places[start_place(worker, scenario)],
+            worker.walk_m_per_s,
+            tuple(worker.skills.get(station, 0.0) for station in station_names),
+            Body(worker.height_m, worker.mass_kg),
+        )
+        for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
+    )
+
+
+def start_place(worker, scenario) -> str:
+    """The name of the place where a worker stands at the start."""
+    if worker.home is not None:
+        return worker.home
+    stations = sorted(worker.skills or scenario.stations, key=natural_key)
+    return scenario.stations[stations[0]].at
