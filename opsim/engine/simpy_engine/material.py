@@ -3,9 +3,9 @@
 from bisect import insort
 
 from opsim.engine.rules import shortest_queue
-from opsim.engine.simpy_engine import station as stations
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Gate, Job, Station
+from opsim.engine.simpy_engine.station import seat
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
 
@@ -100,7 +100,7 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
     job.station = station
     station.n_inside += 1
     if station.free_servers:
-        stations.seat(floor, station, job)
+        seat(floor, station, job)
     else:
         station.queue.append(job)
 
@@ -114,7 +114,7 @@ def _leave_station(floor: Floor, job: Job) -> None:
         worker, job.held_by = job.held_by, None
         set_free(floor, worker)
     if station.queue:
-        stations.seat(floor, station, station.queue.popleft())
+        seat(floor, station, station.queue.popleft())
     floor.stirred.update(station.wanted_by)
 
 

@@ -17,7 +17,9 @@ def dispatch(floor: Floor) -> None:
         if not _round(floor):
             return
     names = ", ".join(station.plan.name for station in floor.calling.values())
-    raise EndlessInstant(f"t = {floor.env.now} s: more than {MOST_ROUNDS} rounds in one instant; still calling: {names}")
+    raise EndlessInstant(
+        f"t = {floor.env.now} s: more than {MOST_ROUNDS} rounds in one instant; still calling: {names}"
+    )
 
 
 def _round(floor: Floor) -> bool:

@@ -1,0 +1,53 @@
+# make demo | test | test-fast | lint | bench | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+VENV := .venv
+RUN := $(VENV)/bin/python
+READY := $(VENV)/.ready
+MOTION ?= ../shared/data/motion
+PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
+
+.PHONY: demo test test-fast test-slow lint bench libraries lock wheel clean
+.DEFAULT_GOAL := demo
+
+$(READY): requirements.lock pyproject.toml
+	@echo "Setting up $(VENV) with the locked packages (once) ..."
+	$(PYTHON) -c 'import sys; assert sys.version_info >= (3, 11), f"Python 3.11 or newer is needed, this is {sys.version}"'
+	test -x $(RUN) || $(PYTHON) -m venv $(VENV)
+	$(RUN) -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(RUN) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $(READY)
+
+demo: $(READY)
+	$(VENV)/bin/opsim run scenarios/repack_cell.yaml
+
+test: lint test-fast test-slow
+
+lint: $(READY)
+	$(RUN) -m ruff check .
+	$(RUN) -m ruff format --check .
+	$(RUN) -m mypy
+
+test-fast: $(READY)
+	$(RUN) -m pytest -n 2 -m "not slow"
+
+test-slow: $(READY)
+	$(RUN) -m pytest -n 2 -m slow
+
+bench: $(READY)
+	$(RUN) -m pytest tests/bench -p no:xdist -q -s
+
+libraries: $(READY)
+	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
+	$(RUN) -m emulator.synthetic -o scenarios/libraries/bench_work.npz
+
+lock:
+	test -x $(RUN) || $(PYTHON) -m venv $(VENV)
+	$(RUN) -m pip install --quiet pip-tools
+	$(VENV)/bin/pip-compile --quiet --extra dev --generate-hashes --strip-extras --allow-unsafe --no-header \
+	  --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o requirements.lock pyproject.toml
+
+wheel: $(READY)
+	$(RUN) -m pip wheel --quiet --no-deps --no-build-isolation -w dist .
+
+clean:
+	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

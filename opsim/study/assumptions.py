@@ -1,0 +1,106 @@
+"""The assumption sheet: what was not measured, what was left at its default, what is read and not used yet."""
+
+from collections.abc import Iterator
+
+from opsim.plan import Plan
+from opsim.plan.worker import start_place
+from opsim.streams import stream
+
+Assumption = tuple[str, str]
+"""(topic, what is assumed)"""
+
+
+def assumptions_of(loaded, plan: Plan) -> list[Assumption]:
+    """Every assumption of a run that its reader should know, most weighty first."""
+    return [line for part in (_times, _people, _flow, _window) for line in part(loaded, plan)]
+
+
+def _times(loaded, plan: Plan) -> Iterator[Assumption]:
+    tasks = loaded.scenario.tasks
+    made_up = [
+        task.name for task in plan.tasks if hasattr(tasks[task.name], "dist") or hasattr(tasks[task.name], "fixed_s")
+    ]
+    if made_up:
+        yield "task times", f"{_list(made_up)}: from the scenario, not from recordings; no posture is known for them"
+    for task in plan.tasks:
+        if hasattr(tasks[task.name], "emulator"):
+            report = task.model.report
+            yield (
+                "task times",
+                f"{task.name}: people at this station move and take their time like the {report.n_workers} people of "
+                f"{tasks[task.name].emulator} ({report.n_sequences} recordings)",
+            )
+    repeated = [f"{task.name} ({task.repeat} times)" for task in plan.tasks if task.repeat > 1]
+    if repeated:
+        yield (
+            "task times",
+            f"{_list(repeated)}: one performance follows the other without a pause, each a draw of its own",
+        )
+    loads = [name for name, task in tasks.items() if task.load_kg is not None]
+    if loads:
+        yield "loads", f"{_list(loads)}: the load is kept with the task; it does not change pace or posture"
+
+
+def _people(loaded, plan: Plan) -> Iterator[Assumption]:
+    workers = loaded.scenario.workers
+    if not workers:
+        yield "workers", "none: every task is automatic"
+        return
+    if any(worker.height_m is not None or worker.mass_kg is not None for worker in workers.values()):
+        yield "bodies", "height and mass are kept with the worker; they do not change pace or posture"
+    walkers = [worker.name for worker in plan.workers if _walks(plan, worker)]
+    default_walk = [name for name in walkers if f"workers.{name}.walk" not in loaded.given]
+    if default_walk:
+        yield (
+            "walking",
+            f"{_list(default_walk)}: walking speed not given, {workers[default_walk[0]].walk_m_per_s:g} m/s assumed",
+        )
+    homeless = [
+        f"{name} at {start_place(workers[name], loaded.scenario)}" for name in walkers if workers[name].home is None
+    ]
+    if homeless:
+        yield "walking", f"at t = 0 stand {_list(homeless)} (first of their stations by name)"
+    yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
+    if any(_differ(task) for task in plan.tasks):
+        yield "workers", "the same people work in every replication: a worker's own pace is drawn once for the study"
+
+
+def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
+    yield "transport", "jobs pass between stations without time"
+    yield "stations", "no set-ups, breakdowns, scrap or rework"
+    if plan.workers:
+        rule, blocked = plan.rule.replace("_", " "), plan.when_blocked
+        chosen = "chosen" if "allocation.rule" in loaded.given else "default"
+        yield (
+            "allocation",
+            f"free workers go by {rule} ({chosen}); idle workers stay; with a blocked job a worker is {blocked}",
+        )
+    unlimited = [station.name for station in plan.stations if station.buffer == float("inf")]
+    if unlimited:
+        yield "buffers", f"unlimited in front of {_list(unlimited)}"
+    if plan.release.kind == "poisson":
+        yield (
+            "release",
+            f"jobs come at random (Poisson), one every {plan.release.every_s:g} s on average; none come in lots",
+        )
+
+
+def _window(loaded, plan: Plan) -> Iterator[Assumption]:
+    if plan.warm_up_s == 0:
+        yield "window", "no warm-up: figures include the time in which the empty floor fills"
+    for path, words in (("run.seed", f"seed {plan.seed}"), ("run.replications", "10 replications")):
+        if path not in loaded.given:
+            yield "window", f"{path.split('.')[1]} not given: {words}"
+
+
+def _walks(plan: Plan, worker) -> bool:
+    return len({worker.place} | {plan.stations[rank].place for rank, rating in enumerate(worker.rating) if rating}) > 1
+
+
+def _differ(task) -> bool:
+    return task.model.draw_worker(stream(0, 0, "effect", "anybody", task.name, 0)) is not None
+
+
+def _list(words) -> str:
+    words = list(words)
+    return ", ".join(words) if len(words) <= 8 else ", ".join(words[:7]) + f" and {len(words) - 7} more"

@@ -1,0 +1,43 @@
+"""Where the times of each task come from."""
+
+from opsim.plan import Plan
+
+
+def task_sources(loaded, plan: Plan) -> list[dict]:
+    """A row a task, in natural order: its model in words, and for an emulated one the recordings behind it."""
+    return [_source(loaded, plan, task.name, task.model) for task in plan.tasks]
+
+
+def _source(loaded, plan: Plan, name: str, model) -> dict:
+    task = loaded.scenario.tasks[name]
+    stations = [station.name for station in plan.stations if name in loaded.scenario.stations[station.name].tasks]
+    row = {"task": name, "station": ", ".join(stations), "emulated": hasattr(task, "emulator")}
+    row |= {"repeat": task.repeat, "automatic": task.automatic, "mean_s": model.mean_duration_s()}
+    if not row["emulated"]:
+        return row | {"model": in_words(task)}
+    report = model.report
+    return row | {
+        "model": f"emulator {task.emulator}",
+        "library": loaded.scenario.libraries[task.library],
+        "library_task": task.library_task,
+        "source": report.source,
+        "licence": report.licence,
+        "n_sequences": report.n_sequences,
+        "n_workers": report.n_workers,
+    }
+
+
+def in_words(task) -> str:
+    """A time without a body, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
+    if hasattr(task, "fixed_s"):
+        return f"fixed, {task.fixed_s:g} s"
+    if hasattr(task, "recorded"):
+        return f"recorded, {task.recorded} ({task.by})"
+    if task.dist == "uniform":
+        return f"uniform, {task.low_s:g} to {task.high_s:g} s"
+    words = f"{task.dist}, mean {task.mean_s:g} s"
+    if hasattr(task, "cv"):
+        words += f", cv {task.cv:g}"
+    if getattr(task, "between_share", 0):
+        words += f", {task.between_share:.0%} of it between workers"
+    return words

@@ -1,0 +1,98 @@
+"""Replications -> the table of intervals, histograms, tasks and assumptions that report and tables show."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from opsim import __version__
+from opsim.audit import CHECKS
+from opsim.log_store import connect, quoted
+from opsim.plan import Plan
+from opsim.study.assumptions import assumptions_of
+from opsim.study.interval import CONFIDENCE, t_interval
+from opsim.study.replicate import Replicated
+from opsim.study.sources import task_sources
+from opsim.whole import whole_file
+
+QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
+MOST_BINS = 40
+
+
+def summary_of(loaded, plan: Plan, done: Sequence[Replicated]) -> dict:
+    """The content of ``summary.json``."""
+    return {
+        "opsim": __version__,
+        "scenario": plan.name,
+        "variant": loaded.variant,
+        "file": loaded.file.name,
+        "seed": plan.seed,
+        "replications": len(done),
+        "confidence": CONFIDENCE,
+        "start": loaded.scenario.run.start,
+        "window_s": list(plan.window_s),
+        "kpis": _intervals(done, set(loaded.scenario.outputs)),
+        "distributions": _distributions(done),
+        "tasks": task_sources(loaded, plan),
+        "assumptions": [{"topic": topic, "says": says} for topic, says in assumptions_of(loaded, plan)],
+        "checks": list(CHECKS),
+    }
+
+
+def write_kpis(done: Sequence[Replicated], path: Path) -> None:
+    """Every figure of every replication as Parquet: replication, kpi, subject, part, unit, value."""
+    rows = [(result.replication, *figure) for result in done for figure in result.figures]
+    columns = [np.array(column) for column in zip(*rows)]
+    table = dict(zip(("replication", "kpi", "subject", "part", "unit", "value"), columns))
+    with connect() as connection, whole_file(path) as temporary:
+        connection.register("kpi_rows", {name: _as_object(column) for name, column in table.items()})
+        connection.execute(
+            "COPY (SELECT replication, kpi, subject, part, unit, CASE WHEN isnan(value) THEN NULL ELSE value END AS value "
+            f"FROM kpi_rows) TO {quoted(str(temporary))} (FORMAT parquet, COMPRESSION zstd)"
+        )
+
+
+def _as_object(column: np.ndarray) -> np.ndarray:
+    return column.astype(object) if column.dtype.kind == "U" else column
+
+
+def _intervals(done: Sequence[Replicated], headline: set[str]) -> list[dict]:
+    values: dict[tuple[str, str, str, str], list[float]] = {}
+    for result in done:
+        for *key, value in result.figures:
+            values.setdefault(tuple(key), []).append(value)  # type: ignore[arg-type]
+    return [_row(key, found, key[0] in headline) for key, found in values.items()]
+
+
+def _row(key: tuple[str, str, str, str], values: list[float], headline: bool) -> dict:
+    interval = t_interval(values)
+    return {
+        **dict(zip(("kpi", "subject", "part", "unit"), key)),
+        "mean": interval.mean,
+        "low": interval.low,
+        "high": interval.high,
+        "half_width": interval.half_width,
+        "sd": interval.sd,
+        "n": interval.n,
+        "headline": headline,
+    }
+
+
+def _distributions(done: Sequence[Replicated]) -> list[dict]:
+    keys = list(dict.fromkeys(key for result in done for key in result.samples))
+    pooled = {key: np.concatenate([result.samples[key] for result in done if key in result.samples]) for key in keys}
+    return [_distribution(*key, values) for key, values in pooled.items() if values.size]
+
+
+def _distribution(kpi: str, subject: str, values: np.ndarray) -> dict:
+    bins = int(np.clip(np.sqrt(values.size), 5, MOST_BINS))
+    low, high = float(values.min()), float(np.quantile(values, 0.995))
+    counts, edges = np.histogram(values, bins=bins, range=(low, high if high > low else low + 1e-6))
+    return {
+        "kpi": kpi,
+        "subject": subject,
+        "n": int(values.size),
+        "beyond": int((values > edges[-1]).sum()),
+        "quantiles": {str(q): float(np.quantile(values, q)) for q in QUANTILES},
+        "histogram": {"edges": edges.tolist(), "counts": counts.tolist()},
+    }

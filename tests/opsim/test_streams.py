@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+
+from opsim.streams import BLOCK, Items, stream
+
+
+def normals(rng, _block):
+    return rng.standard_normal(BLOCK)
+
+
+def test_a_stream_is_what_it_always_was():
+    assert stream(7, 0, "duration", "lift", "ana", 0).integers(10**9) == 250868333
+
+
+def test_every_part_of_the_name_counts():
+    names = [(7, 0, "a", "b"), (8, 0, "a", "b"), (7, 1, "a", "b"), (7, 0, "ab"), (7, 0, "b", "a"), (7, 0, "a", "b", 0)]
+    assert len({stream(*name).integers(2**60) for name in names}) == len(names)
+
+
+@pytest.mark.parametrize("item", [0, 1, 63, 64, 200])
+def test_an_item_drawn_alone_equals_the_item_of_its_block(item):
+    alone = Items(3, 2, ("duration", "lift", "ana"), normals)[item]
+    in_order = Items(3, 2, ("duration", "lift", "ana"), normals)
+    assert [in_order[i] for i in range(item + 1)][-1] == alone
+
+
+def test_items_can_be_had_again_in_any_order():
+    items = Items(3, 2, ("uptime", "press"), normals)
+    forward = [items[i] for i in range(300)]
+    assert [items[i] for i in reversed(range(300))] == forward[::-1]
+
+
+def test_items_are_uniform_over_blocks():
+    items = Items(1, 0, ("mix", "release"), lambda rng, _b: rng.random(BLOCK))
+    values = np.array([items[i] for i in range(64 * 100)])
+    assert abs(values.mean() - 0.5) < 4 * np.sqrt(1 / 12 / values.size)
+    assert abs(np.corrcoef(values[:-1], values[1:])[0, 1]) < 4 / np.sqrt(values.size)

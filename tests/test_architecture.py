@@ -1,0 +1,125 @@
+"""The house: who may import whom, no cycles, nothing heavy at the door."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+FORBIDDEN = {
+    "emulator": {"opsim", "simpy", "yaml", "pydantic", "click", "rich", "duckdb", "matplotlib"},
+    "opsim": {"emulator", "matplotlib", "numba"},
+}
+MAY_MEET_THE_EMULATOR = ("opsim/cli/", "opsim/libraries.py")
+RULES_MAY_IMPORT = {"opsim"}
+
+
+def modules(package: str) -> dict[str, Path]:
+    def name(path: Path) -> str:
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+    return {name(path): path for path in sorted((ROOT / package).rglob("*.py"))}
+
+
+def imported(path: Path, *, everywhere: bool) -> set[str]:
+    """Full names of what a file imports: at its top level, or everywhere. Imports for type checkers do not count."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = ast.walk(tree) if everywhere else tree.body
+    names = set()
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and not node.level and node.module:
+            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+def top(names: set[str]) -> set[str]:
+    return {name.partition(".")[0] for name in names}
+
+
+@pytest.mark.parametrize("package", FORBIDDEN)
+def test_dependence_points_one_way(package):
+    broken = [
+        f"{path.relative_to(ROOT)}: imports {name}"
+        for path in modules(package).values()
+        for name in top(imported(path, everywhere=False)) & FORBIDDEN[package]
+    ]
+    assert not broken, broken
+
+
+def test_the_emulator_knows_nothing_of_opsim_even_inside_functions():
+    broken = [path for path in modules("emulator").values() if "opsim" in top(imported(path, everywhere=True))]
+    assert not broken, broken
+
+
+def test_opsim_meets_the_emulator_only_at_its_two_doors():
+    meeting = [
+        path.relative_to(ROOT).as_posix()
+        for path in modules("opsim").values()
+        if "emulator" in top(imported(path, everywhere=True))
+    ]
+    assert meeting and all(path.startswith(MAY_MEET_THE_EMULATOR) for path in meeting), meeting
+
+
+def test_rules_are_plain_arithmetic():
+    for path in (ROOT / "opsim/engine/rules").glob("*.py"):
+        assert top(imported(path, everywhere=True)) <= RULES_MAY_IMPORT, path
+        calls = {
+            node.func.id
+            for node in ast.walk(ast.parse(path.read_text()))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+        }
+        assert calls <= {"min", "max", "range"}, (path, calls)
+
+
+@pytest.mark.parametrize("package", FORBIDDEN)
+def test_no_import_cycles(package):
+    known = modules(package)
+    graph = {
+        name: {target for target in imported(path, everywhere=False) if target in known and target != name}
+        for name, path in known.items()
+    }
+    done: set[str] = set()
+    for start in graph:
+        _visit(start, graph, [], done)
+
+
+def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[str]) -> None:
+    # A package's __init__ is its table of contents: importing a sibling passes through it, which Python allows.
+    assert name not in trail, f"import cycle: {' -> '.join([*trail[trail.index(name) :], name])}"
+    if name in done:
+        return
+    for target in sorted(graph[name]):
+        _visit(target, graph, [*trail, name], done)
+    done.add(name)
+
+
+@pytest.mark.parametrize(
+    ("statement", "absent"),
+    [
+        ("import opsim", {"numpy", "simpy", "pydantic"}),
+        ("import emulator", {"numpy", "numba"}),
+        ("import opsim.scenario.read", {"numpy", "numba", "matplotlib", "emulator"}),
+        ("import opsim.engine.simpy_engine", {"numba", "matplotlib", "scipy", "emulator"}),
+    ],
+)
+def test_importing_is_light(statement, absent):
+    code = f"import sys; {statement}; print(*sys.modules)"
+    loaded = set(
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    )
+    assert not absent & loaded
+
+
+def test_no_file_holds_more_than_a_page_or_two():
+    long = {
+        str(path): n
+        for package in FORBIDDEN
+        for path in modules(package).values()
+        if (n := len(path.read_text().splitlines())) > 400
+    }
+    assert not long, long
