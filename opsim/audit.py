@@ -1,4 +1,4 @@
-"""What must be true of every event log, checked after every run: nothing lost, nobody in two places, no gap, no overfull room.
+"""What must be true of every event log, checked after every run: nothing lost, nobody in two places, no gap.
 
 All sums are over whole ticks of 2^-20 s, so that equal means equal.
 """

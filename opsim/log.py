@@ -1,8 +1,9 @@
-"""EventLog: one row for each thing that happened. Figures are pure functions of these rows; nothing else keeps count."""
+"""EventLog: one row for each thing that happened. Figures are pure functions of rows; nothing else keeps count."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from math import nan
 
 import numpy as np
 
@@ -86,6 +87,33 @@ class EventLog:
         return np.maximum(np.minimum(self["end_s"], to_s) - np.maximum(self["start_s"], from_s), 0.0)
 
 
+def row(
+    kind: int,
+    start_s: float,
+    end_s: float,
+    worker: int = -1,
+    station: int = -1,
+    place_from: int = -1,
+    place_to: int = -1,
+    source: int = -1,
+    job: int = -1,
+    product: int = -1,
+    operation: int = -1,
+    task: int = -1,
+    performance_id: int = -1,
+    k: int = -1,
+    progress_from: float = nan,
+    progress_to: float = nan,
+    pace_shift: float = nan,
+    cause: int = 0,
+) -> tuple:
+    """One row, in the order of ``COLUMNS``."""
+    return (
+        *(kind, start_s, end_s, worker, station, place_from, place_to, source, job, product, operation, task),
+        *(performance_id, k, progress_from, progress_to, pace_shift, cause),
+    )
+
+
 class LogWriter:
     """Takes rows as tuples in the order of ``COLUMNS``; packs them into columns chunk by chunk."""
 
@@ -111,7 +139,9 @@ class LogWriter:
         return EventLog(replication, horizon_s, {name: column[order] for name, column in columns.items()}, names)
 
 
-def event_log(rows: Iterable[tuple], horizon_s: float, names: dict[str, tuple[str, ...]], replication: int = 0) -> EventLog:
+def event_log(
+    rows: Iterable[tuple], horizon_s: float, names: dict[str, tuple[str, ...]], replication: int = 0
+) -> EventLog:
     """A log of rows given as tuples in the order of ``COLUMNS``."""
     writer = LogWriter()
     for row in rows:

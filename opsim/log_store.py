@@ -56,7 +56,7 @@ def read_events(path: Path) -> EventLog:
         names = {column: tuple(values) for column, values in meta["names"].items()}
         select = ", ".join(_to_number(names, column) for column in COLUMNS)
         table = connection.execute(f"SELECT {select} FROM read_parquet({name})").fetchnumpy()
-    columns = {column: np.asarray(table[column], dtype=kind) for column, kind in COLUMNS.items()}
+    columns: dict[str, np.ndarray] = {column: np.asarray(table[column], dtype=kind) for column, kind in COLUMNS.items()}
     return EventLog(meta["replication"], meta["horizon_s"], columns, names)
 
 

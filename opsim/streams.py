@@ -1,7 +1,7 @@
 """Named streams of random numbers, drawn in blocks of 64.
 
-Item i of a stream is row i mod 64 of block i // 64, and block b has a generator of its own, found by name. So any item can be
-had again later and alone, blocks may be drawn ahead, and adding a worker or moving a bench moves nobody else's luck.
+Item i of a stream is row i mod 64 of block i // 64, and block b has a generator of its own, found by name. So any
+item can be had again later and alone, blocks may be drawn ahead, and adding a worker moves nobody else's luck.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,7 +33,11 @@ class Items:
     __slots__ = ("_block", "_draw", "_first", "_name", "_replication", "_seed")
 
     def __init__(
-        self, seed: int, replication: int, name: Sequence[str], draw: Callable[[np.random.Generator, int], Sequence[Any]]
+        self,
+        seed: int,
+        replication: int,
+        name: Sequence[str],
+        draw: Callable[[np.random.Generator, int], Sequence[Any]],
     ):
         self._seed, self._replication, self._name, self._draw = seed, replication, tuple(name), draw
         self._first = -BLOCK

@@ -1,6 +1,6 @@
-"""The seam between a station model and whatever knows how long work takes: two small Protocols.
+"""The seam between a station model and whatever knows how long work takes.
 
-Anything that satisfies them is an emulator: ``emulator.MotionEmulator``, the distributions of ``opsim.tasks``, or your own.
+Anything that satisfies these Protocols is an emulator: ``emulator.MotionEmulator``, ``opsim.tasks``, or your own.
 Letters: ``n`` performances, ``E`` marks, ``K`` coefficients, ``T`` times, ``B`` bones, ``J`` joints.
 """
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 
 class Figure(NamedTuple):
-    """kpi : its name, ending in the unit; subject : worker, station, product or task, empty for the whole; part : a state."""
+    """kpi : its name; subject : worker, station, product or task, empty for the whole; part : a state."""
 
     kpi: str
     subject: str

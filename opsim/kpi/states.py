@@ -26,7 +26,7 @@ def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
 
 def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Of each station, per server: work, blocked, waiting (a job stands on it, a worker is wanted), starved (no job)."""
+    """Of each station, per server: work, blocked, waiting (a job wants a worker), starved (no job)."""
     length_s = plan.window_s[1] - plan.window_s[0]
     parts = {
         part: _sums(log, plan, log["kind"] == kind, "station", len(plan.stations))

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from opsim.plan import Plan
 from opsim.plan.worker import start_place
 from opsim.streams import stream
+from opsim.study.sources import fit_report
 
 Assumption = tuple[str, str]
 """(topic, what is assumed)"""
@@ -24,7 +25,7 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
         yield "task times", f"{_list(made_up)}: from the scenario, not from recordings; no posture is known for them"
     for task in plan.tasks:
         if hasattr(tasks[task.name], "emulator"):
-            report = task.model.report
+            report = fit_report(task.model)
             yield (
                 "task times",
                 f"{task.name}: people at this station move and take their time like the {report.n_workers} people of "

@@ -10,7 +10,7 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """mean and its interval; ``half_width`` is nan where fewer than two values are known; ``n`` values that are not nan."""
+    """A mean and its interval; ``half_width`` is nan where fewer than two of the ``n`` values are known."""
 
     mean: float
     half_width: float
@@ -27,7 +27,7 @@ class Interval:
 
 
 def t_interval(values: Sequence[float], confidence: float = CONFIDENCE) -> Interval:
-    """Student's t interval of a mean from independent values; nan values (nothing observed) are left out and show in ``n``.
+    """Student's t interval of a mean from independent values; nan (nothing observed) is left out and shows in ``n``.
 
     Source: Law, Simulation Modeling and Analysis, 5th ed., eq. 4.12.
     """

@@ -47,7 +47,8 @@ def write_kpis(done: Sequence[Replicated], path: Path) -> None:
     with connect() as connection, whole_file(path) as temporary:
         connection.register("kpi_rows", {name: _as_object(column) for name, column in table.items()})
         connection.execute(
-            "COPY (SELECT replication, kpi, subject, part, unit, CASE WHEN isnan(value) THEN NULL ELSE value END AS value "
+            "COPY (SELECT replication, kpi, subject, part, unit, "
+            "CASE WHEN isnan(value) THEN NULL ELSE value END AS value "
             f"FROM kpi_rows) TO {quoted(str(temporary))} (FORMAT parquet, COMPRESSION zstd)"
         )
 

@@ -1,3 +1,5 @@
+import os
+
 import pytest
 
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
@@ -25,8 +27,21 @@ def test_a_library_outside_the_folder_is_refused(tmp_path):
         resolve_library("../../moves.npz", tmp_path)
 
 
+def test_the_tasks_come_from_the_header_of_the_file_as_it_is_now(tmp_path, monkeypatch):
+    headers = {b"one": {"tasks": {"lift": {}}}, b"two": {"tasks": {"lift": {}, "carry": {}}}, b"other": {}}
+    monkeypatch.setattr("emulator.library.read_header", lambda path: headers[path.read_bytes()])
+    file = tmp_path / "moves.npz"
+    file.write_bytes(b"one")
+    assert library_tasks(file) == ["lift"]
+    file.write_bytes(b"two")
+    os.utime(file, ns=(1, 1))
+    assert library_tasks(file) == ["lift", "carry"]
+    file.write_bytes(b"other")
+    with pytest.raises(LibraryMissing, match="without a list of tasks"):
+        library_tasks(file)
+
+
 def test_a_file_that_is_no_library_is_said_to_be_none(tmp_path):
-    pytest.importorskip("emulator.library")
     (tmp_path / "moves.npz").write_bytes(b"not a library")
-    with pytest.raises(LibraryMissing, match=r"'moves\.npz' is not a motion library"):
+    with pytest.raises(LibraryMissing, match=r"^moves\.npz: not a motion library"):
         library_tasks(tmp_path / "moves.npz")

@@ -1,6 +1,6 @@
 """What follows when a stretch of time is over: arrivals of walks, ends of performances, automatic ends, new jobs."""
 
-from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.material import create, operation_done
 from opsim.engine.simpy_engine.release import ARRIVED
 from opsim.engine.simpy_engine.state import Job, Worker
@@ -47,4 +47,4 @@ def _arrived(floor: Floor, _number: int) -> None:
     create(floor)
 
 
-HANDLERS = {STRETCH_DONE: _stretch_done, AUTOMATIC_DONE: _automatic_done, ARRIVED: _arrived}
+HANDLERS: dict[str, Handler] = {STRETCH_DONE: _stretch_done, AUTOMATIC_DONE: _automatic_done, ARRIVED: _arrived}

@@ -1,7 +1,6 @@
 """The floor: everything the processes share. Processes report; one settle step an instant does everything else."""
 
 from collections.abc import Callable, Mapping
-from math import nan
 from operator import itemgetter
 from typing import Any
 
@@ -9,8 +8,8 @@ import simpy
 
 from opsim.engine.rules import ALLOCATION_RULES
 from opsim.engine.simpy_engine.draws import Draws
-from opsim.engine.simpy_engine.state import Gate, Job, Station, Worker
-from opsim.log import BLOCKED, HELD, QUEUE, WORK, LogWriter
+from opsim.engine.simpy_engine.state import Gate, Job, Performance, Station, Worker
+from opsim.log import WORK, LogWriter, row
 from opsim.plan import Plan
 
 AFTER_EVERYTHING = 2
@@ -73,7 +72,7 @@ class Floor:
     def at_end_of(self, delay_s: float, event: simpy.Event, priority: int = simpy.events.NORMAL) -> simpy.Event:
         """``event`` happens after a delay.
 
-        NOTE: what ``simpy.Timeout`` does for an event that exists already, so that a process waits for one event a stretch
+        NOTE: what ``simpy.Timeout`` does, for an event that exists already: so a process waits for one event a stretch
         instead of two (an order and a timeout).
         """
         event._ok, event._value = True, None
@@ -95,18 +94,21 @@ class Floor:
         if job.performance is not None:
             self._log_performance(job, job.performance, now)
         elif now > job.since_s:
-            station = -1 if job.station is None else job.station.rank
-            self.log.append(_state_row(job, station, now))
+            place = -1 if job.station is None else job.station.rank
+            self._log(job.kind, job.since_s, now, -1, place, job, cause=job.cause)
 
-    def _log_performance(self, job: Job, done: "tuple", now: float) -> None:
+    def _log_performance(self, job: Job, done: Performance, now: float) -> None:
         worker, task, number, k, start_s, duration_s = done
-        progress = 1.0 if now == start_s + duration_s else (now - start_s) / duration_s
-        station = job.station.rank  # type: ignore[union-attr]
         if now > start_s:
-            self.log.append(
-                (WORK, start_s, now, worker, station, -1, -1, 0, job.number, job.product, job.operation_rank, task)
-                + (number, k, 0.0, progress, 0.0, 0)
-            )
+            station: Station = job.station  # type: ignore[assignment]
+            progress = 1.0 if now == start_s + duration_s else (now - start_s) / duration_s
+            self._log(WORK, start_s, now, worker, station.rank, job, task, number, k, 0.0, progress, 0.0)
+
+    def _log(self, kind: int, start_s: float, end_s: float, worker: int, station: int, job: Job, *more, **named):
+        source, number, product, operation = 0, job.number, job.product, job.operation_rank
+        self.log.append(
+            row(kind, start_s, end_s, worker, station, -1, -1, source, number, product, operation, *more, **named)
+        )
 
     def job_now(self, job: Job, kind: int, cause: int = 0) -> None:
         """The job changes its state: the old one is written, the new one begins."""
@@ -117,18 +119,7 @@ class Floor:
     def log_instant(self, kind: int, job: Job, cause: int = 0) -> None:
         """Write something that happened to a job at once."""
         now = self.env.now
-        self.log.append(
-            (kind, now, now, -1, -1, -1, -1, 0, job.number, job.product, job.operation_rank, -1)
-            + (-1, -1, nan, nan, nan, cause)
-        )
-
-
-def _state_row(job: Job, station: int, now: float) -> tuple:
-    assert job.kind in (QUEUE, HELD, BLOCKED)
-    return (
-        (job.kind, job.since_s, now, -1, station, -1, -1, 0, job.number, job.product, job.operation_rank, -1)
-        + (-1, -1, nan, nan, nan, job.cause)
-    )  # fmt: skip
+        self._log(kind, now, now, -1, -1, job, cause=cause)
 
 
 def _gates(plan: Plan, stations: list[Station]) -> dict[tuple[int, ...], Gate]:

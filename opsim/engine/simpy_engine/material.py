@@ -31,7 +31,7 @@ def want_in(floor: Floor, job: Job) -> None:
 
 
 def operation_done(floor: Floor, job: Job) -> None:
-    """All tasks at a station are done: the job leaves the floor, or asks for its next operation and blocks the server."""
+    """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
     route = floor.plan.products[job.product].route
     job.step += 1
     if job.step == len(route):

@@ -23,7 +23,7 @@ class Performance(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Job:
-    """One unit of a product. ``kind`` and ``since_s``: the state it is in; ``task_position``: where in the station's tasks."""
+    """One unit of a product; ``kind`` and ``since_s``: the state it is in, ``task_position``: where in the tasks."""
 
     number: int
     product: int
@@ -46,7 +46,7 @@ Claim = tuple[float, int, Job]
 
 @dataclass(slots=True, eq=False)
 class Station:
-    """``calling``: jobs on servers that need a worker nobody has sent yet; ``wanted_by``: gates of jobs that want in."""
+    """``calling``: jobs on servers for which nobody was sent yet; ``wanted_by``: gates of jobs that want in."""
 
     plan: StationPlan
     rank: int

@@ -1,14 +1,13 @@
 """Workers: the process that spends their time, and the states between."""
 
 from collections.abc import Generator
-from math import nan
 
 import simpy
 
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Worker
-from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK
+from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, row
 
 STRETCH_DONE = "stretch done"
 
@@ -47,17 +46,13 @@ def _wait(floor: Floor, worker: Worker, cause: int) -> None:
 
 
 def _row(worker: Worker, now: float) -> tuple:
-    station = -1 if worker.station is None else worker.station.rank
-    job, product, operation = (-1, -1, -1) if worker.job is None else _names(worker.job)
     walking = worker.kind == WALK
     place_from = worker.walk_from if walking else worker.place
-    place_to = worker.place if worker.station is None else worker.station.plan.place
-    source, cause = (-1 if worker.job is None else 0), (0 if walking else worker.cause)
-    return (
-        (worker.kind, worker.since_s, now, worker.rank, station, place_from, place_to, source, job, product, operation, -1)
-        + (-1, -1, nan, nan, nan, cause)
-    )  # fmt: skip
-
-
-def _names(job: Job) -> tuple[int, int, int]:
-    return job.number, job.product, job.operation_rank
+    if worker.station is None or worker.job is None:
+        return row(worker.kind, worker.since_s, now, worker.rank, -1, place_from, worker.place, cause=worker.cause)
+    station, job = worker.station, worker.job
+    return row(
+        *(worker.kind, worker.since_s, now, worker.rank, station.rank, place_from, station.plan.place),
+        *(0, job.number, job.product, job.operation_rank),
+        cause=0 if walking else worker.cause,
+    )

@@ -12,7 +12,7 @@ from opsim.log import BLOCKED, COLUMNS, CREATE, FINISH, HELD, JOB_BLOCKED, LOST,
 
 
 def naive_line(times, buffers):
-    """Departures (jobs, stations) of a saturated line with blocking after service; job i needs times[i, j] at station j.
+    """Departures (jobs, stations) of a saturated line, blocking after service; job i needs times[i, j] at station j.
 
     Source: the max-plus recursion, e.g. Dallery & Gershwin 1992, sec. 5.
     """

@@ -1,0 +1,67 @@
+"""Motion libraries as scenarios name them: found, looked into, loaded. The only door to ``emulator`` beside the CLI."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from opsim.files import NotInside, inside
+from opsim.problems import did_you_mean, shown
+from opsim.shipped import shipped_folder
+
+
+class LibraryMissing(ValueError):
+    """A library that is not there or cannot be read: ``message`` and ``hint`` in plain words."""
+
+    def __init__(self, message: str, hint: str = ""):
+        super().__init__(f"{message}; {hint}" if hint else message)
+        self.message, self.hint = message, hint
+
+
+def resolve_library(name: str, folder: Path) -> Path:
+    """The library's file: in the scenario's folder, else in the shipped one. Raises LibraryMissing."""
+    try:
+        found = inside(name, folder, shipped_folder())
+    except NotInside as error:
+        raise LibraryMissing(f"cannot use {shown(name)}: {error}", "copy the library there") from None
+    if found is None:
+        near = [str(path.relative_to(root)) for root in (folder, shipped_folder()) for path in _libraries_below(root)]
+        hint = did_you_mean(name, near, otherwise="libraries found") or "'opsim motion fit' makes one from recordings"
+        raise LibraryMissing(f"no library file {shown(name)}", hint)
+    return found
+
+
+def library_tasks(path: Path) -> list[str]:
+    """The tasks a library holds, from its header alone. Raises LibraryMissing where it is no library."""
+    status = path.stat()
+    return list(_tasks(path, status.st_mtime_ns, status.st_size))
+
+
+def load_library(path: Path) -> Any:
+    """The library itself; ``library[task]`` is a TaskModel. Read once for as long as the file does not change."""
+    status = path.stat()
+    return _library(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=8)
+def _library(path: Path, _changed: int, _size: int) -> Any:
+    from emulator.library import MotionLibrary
+
+    return MotionLibrary.load(path)
+
+
+@lru_cache(maxsize=64)
+def _tasks(path: Path, _changed: int, _size: int) -> tuple[str, ...]:
+    from emulator.library import read_header
+
+    try:
+        return tuple(read_header(path)["tasks"])
+    except (OSError, ValueError) as error:
+        raise LibraryMissing(str(error).removeprefix(f"{path.parent}/")) from None
+    except (KeyError, TypeError):
+        raise LibraryMissing(f"{path.name}: a motion library without a list of tasks") from None
+
+
+def _libraries_below(folder: Path) -> list[Path]:
+    return sorted([*folder.glob("*.npz"), *folder.glob("libraries/*.npz")])

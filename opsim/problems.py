@@ -1,0 +1,93 @@
+"""A user's mistakes: each with its place, what was found, what was expected and the nearest right word."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+MOST_SHOWN = 50
+WIDEST_LINE = 160
+
+
+@dataclass(frozen=True, order=True)
+class Problem:
+    """One mistake. ``line`` and ``column`` count from 1; line 0 means the file as a whole."""
+
+    file: str
+    line: int
+    column: int
+    path: str
+    message: str
+    hint: str = ""
+    source_line: str = ""
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+        head = ": ".join(part for part in (place, self.path, self.message) if part)
+        if not self.line:
+            return f"{head}\n  {self.hint}" if self.hint else head
+        shown_line, caret = _window(self.source_line, self.column - 1)
+        remark = f" {self.hint}" if self.hint else ""
+        return f"{head}\n{self.line:6d} | {shown_line}\n       | {' ' * caret}^{remark}"
+
+
+class ScenarioError(Exception):
+    """A scenario that cannot be read; ``problems`` is a tuple of Problem, in the order of the file."""
+
+    def __init__(self, problems: Iterable[Problem]):
+        self.problems = tuple(problems)
+        super().__init__(self.problems)
+
+    def __str__(self) -> str:
+        shown_problems = [str(problem) for problem in self.problems[:MOST_SHOWN]]
+        return "\n".join([*shown_problems, self._total()])
+
+    def _total(self) -> str:
+        n = len(self.problems)
+        files = sorted({problem.file for problem in self.problems})
+        total = f"{n} problem{'' if n == 1 else 's'} in {', '.join(files)}"
+        return total if n <= MOST_SHOWN else f"{total} (the first {MOST_SHOWN} are shown)"
+
+
+def shown(value: object) -> str:
+    """A value as a message names it: text in quotes, short and printable; nothing, a list, a block in words."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        return "a block of keys"
+    if isinstance(value, list | tuple):
+        return f"a list of {len(value)}" if value else "an empty list"
+    text = repr(value) if isinstance(value, str) else str(value)
+    return text if len(text) <= 60 else text[:56] + "..." + (text[-1] if isinstance(value, str) else "")
+
+
+def nearest(word: object, known: Iterable[str]) -> str | None:
+    """The known word most like this one, or None where none is near."""
+    text = str(word)[:60]
+    words = sorted(known)
+    by_folded = {known_word.casefold(): known_word for known_word in reversed(words)}
+    match = get_close_matches(text.casefold(), by_folded, n=1)
+    return by_folded[match[0]] if match else None
+
+
+def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known") -> str:
+    """The hint for an unknown word: the nearest right one, or the words that are known."""
+    words = sorted(known)
+    near = nearest(word, words)
+    if near is not None:
+        return f"did you mean {shown(near)}?"
+    if not words:
+        return ""
+    return f"{otherwise}: {', '.join(words[:12])}{', ...' if len(words) > 12 else ''}"
+
+
+def _window(line: str, column: int) -> tuple[str, int]:
+    """The part of a long line around a column, and the column in it; characters that do not print become '?'."""
+    printable = "".join(c if c.isprintable() else (" " if c == "\t" else "?") for c in line)
+    if len(printable) <= WIDEST_LINE:
+        return printable, column
+    start = max(0, column - WIDEST_LINE // 2)
+    return printable[start : start + WIDEST_LINE], column - start

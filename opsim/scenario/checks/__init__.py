@@ -1,0 +1,29 @@
+"""What the schema cannot see: names that lead nowhere, work nobody can do, lines without end. One file a subject."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+from pathlib import Path
+
+from opsim.problems import Problem
+from opsim.scenario.checks.additions import addition_problems
+from opsim.scenario.checks.files import file_problems
+from opsim.scenario.checks.material import material_problems
+from opsim.scenario.checks.references import reference_problems
+from opsim.scenario.checks.staffing import staffing_problems
+from opsim.scenario.positions import Node
+
+
+def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
+    """The problems of a variant, found one by one; parts that the schema refuses are passed over.
+
+    tree : the variant's tree, ``like`` resolved; base : the file's tree before any override.
+    """
+    return chain(
+        reference_problems(tree),
+        staffing_problems(tree),
+        material_problems(tree),
+        addition_problems(tree, base),
+        file_problems(tree, folder),
+    )

@@ -1,0 +1,42 @@
+"""The files a scenario names: they exist, can be read, and hold what is asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from opsim.libraries import LibraryMissing, library_tasks, resolve_library
+from opsim.problems import Problem, did_you_mean, shown
+from opsim.recorded import RecordedError, read_times, resolve_times
+from opsim.scenario.positions import Node, entries, problem, text
+
+
+def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
+    """Libraries that are missing or broken, tasks they do not have, recorded times that cannot be read."""
+    tasks_of: dict[str, list[str]] = {}
+    for name, node in entries(tree, "libraries").items():
+        if not isinstance(node.value, str):
+            continue
+        try:
+            tasks_of[name] = library_tasks(resolve_library(node.value, folder))
+        except LibraryMissing as error:
+            yield problem(node.place, ("libraries", name), error.message, error.hint)
+    for name, task in entries(tree, "tasks").items():
+        library, _, inside = (text(task, "emulator") or "").partition("/")
+        if inside and library in tasks_of and inside not in tasks_of[library]:
+            hint = did_you_mean(inside, tasks_of[library], otherwise="tasks in it")
+            place = task.value["emulator"].place
+            yield problem(
+                place, ("tasks", name, "emulator"), f"no task {shown(inside)} in library {shown(library)}", hint
+            )
+        yield from _recorded(name, task, folder)
+
+
+def _recorded(name: str, task: Node, folder: Path) -> Iterator[Problem]:
+    file = text(task, "recorded")
+    if file is None:
+        return
+    try:
+        read_times(resolve_times(file, folder), text(task, "column"))
+    except RecordedError as error:
+        yield problem(task.value["recorded"].place, ("tasks", name, "recorded"), error.message, error.hint)

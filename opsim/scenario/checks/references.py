@@ -1,0 +1,55 @@
+"""A name that is used must be the name of something."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from opsim.problems import Problem, did_you_mean, shown
+from opsim.scenario.positions import Node, Part, child, entries, items, problem
+
+
+def reference_problems(tree: Node) -> Iterator[Problem]:
+    """Places, tasks, stations and libraries that are named and do not exist."""
+    places, tasks, stations = entries(tree, "layout", "places"), entries(tree, "tasks"), entries(tree, "stations")
+    for name, station in stations.items():
+        yield from _named(child(station, "at"), places, "place", ("stations", name, "at"))
+        for number, task in enumerate(items(station, "tasks")):
+            yield from _named(task, tasks, "task", ("stations", name, "tasks", number))
+    for name, product in entries(tree, "products").items():
+        for number, step in enumerate(items(product, "route")):
+            path = ("products", name, "route", number)
+            for one in [step, *items(step)]:
+                yield from _named(one, stations, "station", path)
+    for name, worker in entries(tree, "workers").items():
+        yield from _named(child(worker, "home"), places, "place", ("workers", name, "home"))
+        for skill, rating in entries(worker, "skills").items():
+            named = Node(skill, rating.name_place)
+            yield from _named(named, stations, "station", ("workers", name, "skills", skill))
+    yield from _libraries(tree)
+
+
+def _libraries(tree: Node) -> Iterator[Problem]:
+    libraries = entries(tree, "libraries")
+    for name, task in entries(tree, "tasks").items():
+        model = child(task, "emulator")
+        if model is None or not isinstance(model.value, str):
+            continue
+        path = ("tasks", name, "emulator")
+        library, slash, inside = model.value.partition("/")
+        if not (library and slash and inside):
+            found = f"expected library/task, found {shown(model.value)}"
+            hint = f"such as {next(iter(libraries), 'moves')}/deep_squat"
+            yield problem(model.place, path, found, hint)
+        elif library not in libraries:
+            hint = (
+                did_you_mean(library, libraries)
+                or "there are no libraries in this file: add 'libraries: {moves: FILE.npz}'"
+            )
+            yield problem(model.place, path, f"no library {shown(library)}", hint)
+
+
+def _named(node: Node | None, known: Collection[str], what: str, path: tuple[Part, ...]) -> Iterator[Problem]:
+    """The problem of one name, where it is a text and not known."""
+    if node is not None and isinstance(node.value, str) and node.value not in known:
+        hint = did_you_mean(node.value, known, otherwise=f"known {what}s") or f"there are no {what}s yet"
+        yield problem(node.place, path, f"no {what} {shown(node.value)}", hint)

@@ -1,0 +1,35 @@
+"""Work that no worker can do would wait for ever."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from opsim.problems import Problem, shown
+from opsim.scenario.checks.material import visited
+from opsim.scenario.positions import Node, child, entries, items, problem
+
+
+def staffing_problems(tree: Node) -> Iterator[Problem]:
+    """Stations on a route with a task for a worker, and no worker with the skill."""
+    skilled = {station for worker in entries(tree, "workers").values() for station in entries(worker, "skills")}
+    on_a_route = visited(tree)
+    for name, station in entries(tree, "stations").items():
+        manual = _manual_task(tree, station)
+        if manual is not None and name in on_a_route and name not in skilled:
+            found = f"task {shown(manual)} needs a worker, and no worker has the skill {shown(name)}"
+            workers = entries(tree, "workers")
+            first = next(iter(workers), None)
+            hint = (
+                f"add '{name}: 1.0' to the skills of {first} or another worker" if first else "add a section 'workers:'"
+            )
+            yield problem(station.name_place, ("stations", name), found, hint)
+
+
+def _manual_task(tree: Node, station: Node) -> str | None:
+    """The first task of a station that is not automatic, or None."""
+    for task in items(station, "tasks"):
+        node = entries(tree, "tasks").get(task.value) if isinstance(task.value, str) else None
+        automatic = child(node, "automatic")
+        if node is not None and (automatic is None or automatic.value is not True):
+            return task.value
+    return None

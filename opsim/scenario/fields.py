@@ -1,0 +1,92 @@
+"""The fields a scenario is made of: quantities with units, names, whole numbers; wrong ones answered in plain words."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from opsim import units
+from opsim.problems import shown
+
+_NAME = re.compile(r"[\w][\w \-]*")
+
+
+def plain_error(message: str, hint: str = "", *, on: str | int | None = None) -> PydanticCustomError:
+    """An error already in our words; ``on`` names the key inside the block that it is about."""
+    return PydanticCustomError("plain", "{message}", {"message": message, "hint": hint, "on": on})
+
+
+def _quantity(
+    kind: str, *, above: float | None = None, at_least: float | None = None, at_most: float | None = None
+) -> BeforeValidator:
+    """Reads a quantity of a kind; bounds in SI."""
+    unit = units.SI[kind]
+
+    def read(value: object) -> float:
+        try:
+            number = units.parse(value, kind)
+        except units.UnitError as error:
+            raise plain_error(error.message, error.hint) from None
+        if above is not None and not number > above:
+            raise plain_error(f"must be more than {above:g} {unit}, found {shown(value)}")
+        if at_least is not None and number < at_least:
+            raise plain_error(f"must be at least {at_least:g} {unit}, found {shown(value)}")
+        if at_most is not None and number > at_most:
+            raise plain_error(f"must be at most {at_most:g} {unit}, found {shown(value)}")
+        return number
+
+    return BeforeValidator(read)
+
+
+def _as_text(kind: str) -> WithJsonSchema:
+    """In the file a quantity is text; editors should know."""
+    known = ", ".join(units.UNITS[kind])
+    return WithJsonSchema(
+        {"type": "string", "description": f"a {kind} with its unit ({known})", "examples": [units.EXAMPLES[kind]]}
+    )
+
+
+def _name_text(value: object) -> object:
+    if isinstance(value, int | float):
+        raise plain_error(f"expected a name, found {shown(value)}", f"write it in quotes: '{shown(value)}'")
+    if not isinstance(value, str):
+        raise plain_error(f"expected a name, found {shown(value)}")
+    return value
+
+
+def is_name(value: str) -> bool:
+    """Whether things may be called so: the name appears in dotted paths, tables and folders."""
+    return len(value) <= 100 and _NAME.fullmatch(value) is not None and value == value.strip()
+
+
+def not_a_name(value: str) -> tuple[str, str]:
+    """What to say of a name that cannot be one, and the way out."""
+    return f"{shown(value)} cannot be a name", "use letters, digits, _ and - (at most 100)"
+
+
+def _good_name(value: str) -> str:
+    if not is_name(value):
+        raise plain_error(*not_a_name(value))
+    return value
+
+
+def _whole(value: object) -> object:
+    if isinstance(value, bool) or not isinstance(value, int):
+        quoted = isinstance(value, str) and value.strip().isdecimal()
+        raise plain_error(f"expected a whole number, found {shown(value)}", "remove the quotes" if quoted else "")
+    return value
+
+
+Seconds = Annotated[float, _quantity("time", above=0), _as_text("time")]
+SecondsOrZero = Annotated[float, _quantity("time", at_least=0), _as_text("time")]
+Length = Annotated[float, _quantity("length"), _as_text("length")]
+Height = Annotated[float, _quantity("length", at_least=0.5, at_most=2.6), _as_text("length")]
+Speed = Annotated[float, _quantity("speed", above=0), _as_text("speed")]
+Mass = Annotated[float, _quantity("mass", at_least=20, at_most=400), _as_text("mass")]
+Load = Annotated[float, _quantity("mass", at_least=0), _as_text("mass")]
+NameText = Annotated[str, BeforeValidator(_name_text)]
+Name = Annotated[str, AfterValidator(_good_name)]
+Whole = Annotated[int, BeforeValidator(_whole)]

@@ -1,0 +1,146 @@
+"""What the schema finds wrong, in plain words and at its place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import ValidationError
+
+from opsim.problems import Problem, did_you_mean, nearest, shown
+from opsim.scenario import like
+from opsim.scenario.positions import Node, Part, child, problem
+from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Scenario
+from opsim.scenario.yaml_nodes import scalar
+
+_TYPES = {
+    "string_type": "text",
+    "int_type": "a whole number",
+    "float_type": "a number",
+    "bool_type": "true or false",
+    "list_type": "a list",
+    "dict_type": "a block of names",
+    "model_type": "a block of keys",
+    "model_attributes_type": "a block of keys",
+}
+_BOUNDS = {
+    "greater_than": ("more than", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("less than", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+
+
+def schema_problems(error: ValidationError, tree: Node) -> Iterator[Problem]:
+    """Every error of a validation as a problem at its place in the tree."""
+    missing: dict[tuple[Part, ...], list[str]] = {}
+    meant: set[tuple[Part, ...]] = set()
+    for item in error.errors(include_url=False, include_input=False):
+        loc, on = item["loc"], item.get("ctx", {}).get("on")
+        if item["type"] == "missing":
+            missing.setdefault(loc[:-1], []).append(str(loc[-1]))
+        else:
+            if item["type"] == "extra_forbidden":
+                meant.add((*loc[:-1], nearest(loc[-1], keys_allowed(loc[:-1])) or ""))
+            yield _in_words(dict(item), (*_path(loc), on) if on is not None else _path(loc), tree)
+    for loc, keys in missing.items():
+        lacking = [key for key in keys if (*loc, key) not in meant]  # a mistyped key is one mistake, not two
+        if lacking:
+            yield _missing(loc, lacking, tree)
+
+
+def _path(loc: tuple[Part, ...]) -> tuple[Part, ...]:
+    """A location without the marks the schema puts in: which kind of task, that it is a key."""
+    return tuple(part for part in loc if part not in TASK_KINDS and part != "[key]")
+
+
+def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Problem:
+    kind, ctx = item["type"], item.get("ctx", {})
+    if kind == "extra_forbidden":
+        hint = did_you_mean(path[-1], keys_allowed(item["loc"][:-1]), otherwise="keys here")
+        return problem(_key_place(tree, path), path, f"unknown key {shown(path[-1])}", hint)
+    node = _deepest(tree, path)
+    if kind == "plain":
+        place = node.name_place if item["loc"][-1:] == ("[key]",) or node.value is None else node.place
+        return problem(place, path, ctx["message"], ctx["hint"])
+    message, hint = _wrong_value(kind, ctx, node.value)
+    return problem(node.name_place if node.value is None else node.place, path, message, hint)
+
+
+def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, str]:
+    found = f"found {shown(value)}"
+    if kind in _TYPES:
+        return f"expected {_TYPES[kind]}, {found}", _type_hint(kind, value)
+    if kind in _BOUNDS:
+        words, bound = _BOUNDS[kind]
+        return f"must be {words} {ctx[bound]:g}, {found}", ""
+    if kind == "literal_error":
+        known = [word.strip("' ") for word in ctx["expected"].replace(" or ", ",").split(",")]
+        return f"expected {_either(known)}, {found}", _near(value, known)
+    if kind == "finite_number":
+        return f"expected a finite number, {found}", ""
+    if kind == "too_short":
+        return "expected at least one entry, found none", ""
+    return f"cannot be read, {found}", ""
+
+
+def _either(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
+
+
+def _near(value: object, known: list[str]) -> str:
+    near = nearest(value, known) if isinstance(value, str) else None
+    return f"did you mean {shown(near)}?" if near else ""
+
+
+def _type_hint(kind: str, value: object) -> str:
+    if kind == "string_type" and isinstance(value, int | float):
+        return f"write it in quotes: '{shown(value)}'"
+    if value is None:
+        return "fill it, or remove the line"
+    if kind == "list_type" and isinstance(value, str):
+        return f"write [{value}]" if len(value) < 40 else "write it in [ ]"
+    number = kind == "float_type" and isinstance(value, str) and isinstance(scalar(value), int | float)
+    return "remove the quotes" if number else ""
+
+
+def _missing(loc: tuple[Part, ...], keys: list[str], tree: Node) -> Problem:
+    """The keys that a block lacks, said at the block."""
+    path = _path(loc)
+    names = [shown(key) for key in keys]
+    listed = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    found = f"{listed} {'is' if len(names) == 1 else 'are'} missing"
+    return problem(_deepest(tree, path).name_place, path, found, _example(loc, keys[0]))
+
+
+def _example(loc: tuple[Part, ...], key: str) -> str:
+    fields = {field.alias or name: field for name, field in _model_at(loc).model_fields.items()}
+    examples = fields[key].examples if key in fields else None
+    return f"add e.g. '{key}: {examples[0]}'" if examples else f"add '{key}:'"
+
+
+def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
+    """The keys a block at a location may have, as they are written in the file."""
+    model = _model_at(loc)
+    keys = [field.alias or name for name, field in model.model_fields.items()]
+    if model is Scenario:
+        return [*keys, "overrides", "scenarios"]
+    return [*keys, "like"] if loc and loc[0] in like.SECTIONS else keys
+
+
+def _model_at(loc: tuple[Part, ...]) -> type[Block]:
+    if not loc:
+        return Scenario
+    kind = next((TASK_KINDS[part] for part in loc if isinstance(part, str) and part in TASK_KINDS), None)
+    return kind or BLOCKS.get(str(loc[0]), Scenario)
+
+
+def _deepest(tree: Node, path: tuple[Part, ...]) -> Node:
+    """The node at a path, or the last one on the way that exists."""
+    while path and child(tree, *path) is None:
+        path = path[:-1]
+    return child(tree, *path) or tree
+
+
+def _key_place(tree: Node, path: tuple[Part, ...]) -> Any:
+    return _deepest(tree, path).name_place

@@ -1,0 +1,124 @@
+"""A scenario file -> its variants, checked: YAML, overrides, likes, schema, cross references; all problems at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import chain, islice
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from opsim.problems import Problem, ScenarioError, did_you_mean, shown
+from opsim.scenario.checks import check_problems
+from opsim.scenario.like import without_likes
+from opsim.scenario.overrides import applied
+from opsim.scenario.plain_words import schema_problems
+from opsim.scenario.positions import Node, Place, Source, problem, written_paths
+from opsim.scenario.schema import Scenario
+from opsim.scenario.variants import variants
+from opsim.scenario.yaml_nodes import MOST_BYTES, read_tree
+from opsim.shipped import find_scenario
+
+# More would be read by nobody, and a hostile file could hold a million.
+MOST_PROBLEMS = 200
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """One variant of a scenario file, ready to plan.
+
+    given    : the dotted paths that stand in the file (after ``like`` and overrides), e.g. "workers.ana.walk"
+    resolved : the variant as plain values, quantities still as text, for scenario.resolved.yaml
+    """
+
+    scenario: Scenario
+    variant: str
+    file: Path
+    folder: Path
+    given: frozenset[str]
+    resolved: dict[str, Any]
+
+
+def read_scenarios(
+    path: str | Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
+) -> dict[str, Loaded]:
+    """The variants of a scenario file by name, in the file's order; with ``names`` those only, in that order.
+
+    A path that does not exist may be the name of a shipped scenario. All variants are checked.
+    changes : dotted paths and values from elsewhere, such as {"run.horizon": "4 h"}, laid over every variant.
+    Raises ScenarioError with every problem found.
+    """
+    file = find_scenario(path)
+    try:
+        with file.open("rb") as opened:
+            raw = opened.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise ScenarioError([Problem(str(file), 0, 0, "", f"cannot be read: {error.strerror}")]) from None
+    return scenarios_in(raw, file, names, changes)
+
+
+def scenarios_in(
+    raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
+) -> dict[str, Loaded]:
+    """As ``read_scenarios``, from the bytes of a file; ``file`` names it and places the files it mentions."""
+    root, problems = read_tree(raw, str(file))
+    if not isinstance(root.value, dict):
+        found = f"expected a scenario, found {shown(root.value)}"
+        raise ScenarioError([*problems, problem(root.place, "", found, "a scenario begins with 'opsim: 1'")])
+    base, trees, more = variants(root)
+    problems += more
+    loaded: dict[str, Loaded] = {}
+    for variant, tree in trees.items():
+        tree, wrong = applied(tree, "changes", _as_override(changes or {}))
+        problems += wrong
+        scenario, tree, found_here = _checked(tree, base, file.parent)
+        problems += found_here
+        if scenario is not None:
+            given = frozenset(written_paths(tree))
+            loaded[variant] = Loaded(scenario, variant, file, file.parent, given, tree.plain())
+    if problems:
+        raise ScenarioError(_once(problems))
+    return loaded if names is None else _chosen(loaded, names, file)
+
+
+def _as_override(changes: Mapping[str, str | int]) -> Node:
+    """Changes as a block of their own, a line each, so that what is wrong with them has a place too."""
+    source = Source("changes", tuple(f"{path}: {value}" for path, value in changes.items()))
+    nodes = {
+        path: Node(value, Place(source, line, len(path) + 2), Place(source, line, 0))
+        for line, (path, value) in enumerate(changes.items())
+    }
+    return Node(nodes, Place(source, 0, 0))
+
+
+def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Node, list[Problem]]:
+    """A variant's scenario (None where the schema refuses it), its tree without likes, and its problems."""
+    tree, problems = without_likes(tree)
+    scenario: Scenario | None = None
+    schema_found: Iterator[Problem] = iter(())
+    try:
+        scenario = Scenario.model_validate(tree.plain())
+    except ValidationError as error:
+        schema_found = schema_problems(error, tree)
+    found = islice(chain(schema_found, check_problems(tree, base, folder)), MOST_PROBLEMS)
+    return scenario, tree, [*problems, *found]
+
+
+def _once(problems: Iterable[Problem]) -> list[Problem]:
+    """In the order of the file, each place and message once: variants and likes repeat what they share."""
+    first: dict[tuple[str, int, int, str], Problem] = {}
+    for one in problems:
+        first.setdefault((one.file, one.line, one.column, one.message), one)
+    return sorted(first.values())
+
+
+def _chosen(loaded: dict[str, Loaded], names: Sequence[str], file: Path) -> dict[str, Loaded]:
+    unknown = [name for name in names if name not in loaded]
+    if unknown:
+        raise ScenarioError(
+            Problem(str(file), 0, 0, "", f"no scenario {shown(name)} in this file", did_you_mean(name, loaded))
+            for name in unknown
+        )
+    return {name: loaded[name] for name in names}

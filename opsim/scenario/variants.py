@@ -1,0 +1,67 @@
+"""``overrides`` and ``scenarios``: the variants of a file, each a tree of its own."""
+
+from __future__ import annotations
+
+from opsim.problems import Problem, did_you_mean, shown
+from opsim.scenario.fields import is_name, not_a_name
+from opsim.scenario.overrides import applied
+from opsim.scenario.positions import Node, entries, items, problem
+
+BASE = "base"
+_NOT_IN_A_VARIANT = ("overrides", "scenarios")
+
+
+def variants(root: Node) -> tuple[Node, dict[str, Node], list[Problem]]:
+    """The tree without overrides, that of every variant under ``scenarios`` ("base" where there are none), problems."""
+    problems = [*_wrong_shape(root, "overrides", "{near: {layout.places.rack: [6 m, 1 m]}}")]
+    problems += _wrong_shape(root, "scenarios", "{base: [], near: [rack_near]}")
+    base = root.with_entries({key: node for key, node in entries(root).items() if key not in _NOT_IN_A_VARIANT})
+    overrides = entries(root, "overrides")
+    problems += [*_bad_names(root, "overrides"), *_bad_names(root, "scenarios")]
+    trees: dict[str, Node] = {}
+    used: set[str] = set()
+    for variant, wanted in entries(root, "scenarios").items():
+        names, wrong = _names(variant, wanted, overrides)
+        used.update(names)
+        trees[variant] = base
+        for name in names:
+            trees[variant], more = applied(trees[variant], name, overrides[name])
+            wrong += more
+        problems += wrong
+    for name in overrides.keys() - used:
+        problems += applied(base, name, overrides[name])[1]
+    return base, trees or {BASE: base}, problems
+
+
+def _names(variant: str, wanted: Node, overrides: dict[str, Node]) -> tuple[list[str], list[Problem]]:
+    """The overrides a variant asks for, in its order, and those that do not exist."""
+    if not isinstance(wanted.value, list):
+        hint = f"write {variant}: [{wanted.value}]" if isinstance(wanted.value, str) else "such as [rack_near], or []"
+        found = f"expected a list of overrides, found {shown(wanted.value)}"
+        return [], [problem(wanted.place, ("scenarios", variant), found, hint)]
+    names = [node.value for node in items(wanted) if isinstance(node.value, str) and node.value in overrides]
+    wrong = [
+        problem(
+            node.place,
+            ("scenarios", variant),
+            f"no override {shown(node.value)}",
+            did_you_mean(node.value, overrides) or "there are no overrides in this file",
+        )
+        for node in items(wanted)
+        if not isinstance(node.value, str) or node.value not in overrides
+    ]
+    return names, wrong
+
+
+def _bad_names(root: Node, section: str) -> list[Problem]:
+    """A variant's name becomes that of a folder, so it is held to the same rule as all names."""
+    found = {name: node for name, node in entries(root, section).items() if not is_name(name)}
+    return [problem(node.name_place, (section, name), *not_a_name(name)) for name, node in found.items()]
+
+
+def _wrong_shape(root: Node, section: str, example: str) -> list[Problem]:
+    node = entries(root).get(section)
+    if node is None or isinstance(node.value, dict):
+        return []
+    found = f"expected a block of names, found {shown(node.value)}"
+    return [problem(node.name_place, (section,), found, f"such as {section}: {example}")]

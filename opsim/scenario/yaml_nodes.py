@@ -1,0 +1,202 @@
+"""YAML text -> a tree of nodes with their places.
+
+The C parser of PyYAML gives events; the tree is built here, so that depth, size and aliases of a hostile file are
+bounded, duplicate keys are found, and plain scalars follow the YAML 1.2 core schema (``no`` is text, ``10:30`` is text,
+``010`` is ten).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import yaml
+
+from opsim.problems import Problem, ScenarioError, did_you_mean, shown
+from opsim.scenario import yaml_words
+from opsim.scenario.positions import Node, Part, Place, Source, problem
+
+DEEPEST = 30
+MOST_NODES = 250_000
+MOST_PROBLEMS = 200
+MOST_BYTES = 8_000_000
+
+_Parser: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_WORDS = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL"), None),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **dict.fromkeys((".inf", ".Inf", ".INF", "+.inf", "+.Inf", "+.INF"), float("inf")),
+    **dict.fromkeys(("-.inf", "-.Inf", "-.INF"), float("-inf")),
+    **dict.fromkeys((".nan", ".NaN", ".NAN"), float("nan")),
+}
+
+
+def scalar(text: str) -> Any:
+    """The value of a plain scalar in the YAML 1.2 core schema."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if len(text) > 300:  # no number that can be meant, and int() would be slow or refuse
+        return text
+    if _INTEGER.fullmatch(text):
+        return int(text, {"0o": 8, "0x": 16}.get(text[:2], 10))
+    return float(text) if _FLOAT.fullmatch(text) else text
+
+
+def read_tree(raw: bytes, file: str) -> tuple[Node, list[Problem]]:
+    """The tree of a file and what is wrong with its keys. Raises ScenarioError where no tree can be had at all."""
+    text = _decoded(raw, file)
+    source = Source(file, tuple(text.splitlines()))
+    parser = _Parser(text)
+    try:
+        return _Builder(source, parser).document()
+    except yaml.MarkedYAMLError as error:
+        raise ScenarioError([yaml_words.syntax_problem(error, source)]) from None
+    except yaml.YAMLError:
+        raise ScenarioError([Problem(file, 0, 0, "", "this is not YAML")]) from None
+    finally:
+        parser.dispose()
+
+
+def _decoded(raw: bytes, file: str) -> str:
+    """The file as text: UTF-8, or UTF-16 with its mark; anything else is refused with the place of the bad byte."""
+    if len(raw) > MOST_BYTES:
+        big = f"the file is larger than {MOST_BYTES / 1e6:.0f} MB, the most a scenario may have"
+        raise ScenarioError([Problem(file, 0, 0, "", big)])
+    utf16 = raw[:2] in (b"\xff\xfe", b"\xfe\xff")
+    try:
+        text = raw.decode("utf-16" if utf16 else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        if b"\0" in raw:
+            raise ScenarioError([_binary(file)]) from None
+        before = raw[: error.start].decode("utf-8-sig", "replace")
+        place = _place_at(before + "\N{REPLACEMENT CHARACTER}", len(before), file)
+        found = f"byte 0x{raw[error.start]:02x} is not UTF-8 text"
+        raise ScenarioError([problem(place, "", found, "save the file as UTF-8")]) from None
+    bad = yaml_words.NOT_PRINTABLE.search(text)
+    if bad is not None and bad[0] == "\0":
+        raise ScenarioError([_binary(file)])
+    if bad is not None:
+        found = f"a control character (U+{ord(bad[0]):04X}) stands here"
+        raise ScenarioError([problem(_place_at(text, bad.start(), file), "", found, "remove it")])
+    return text
+
+
+def _binary(file: str) -> Problem:
+    return Problem(file, 0, 0, "", "this is a binary file, not a scenario", "a scenario is a YAML text file")
+
+
+def _place_at(text: str, index: int, file: str) -> Place:
+    before = text[:index]
+    line = len((before + "x").splitlines()) - 1
+    last = (before + "x").splitlines()[-1]
+    return Place(Source(file, tuple(text.splitlines())), line, len(last) - 1)
+
+
+class _Builder:
+    """Builds the tree from the events of one file."""
+
+    def __init__(self, source: Source, parser: Any):
+        self.source, self.parser = source, parser
+        self.problems: list[Problem] = []
+        self.anchors: dict[str, tuple[Node, int]] = {}
+        self.n_nodes = 0
+
+    def document(self) -> tuple[Node, list[Problem]]:
+        self.parser.get_event()
+        if self.parser.check_event(yaml.StreamEndEvent):
+            hint = "a scenario begins with 'opsim: 1'"
+            raise ScenarioError([Problem(self.source.file, 0, 0, "", "the file is empty", hint)])
+        self.parser.get_event()
+        root = self.node((), None)
+        self.parser.get_event()
+        if not self.parser.check_event(yaml.StreamEndEvent):
+            place = self.place(self.parser.get_event())
+            raise self.stop(place, (), "a second document begins here", "a file holds one scenario; remove the '---'")
+        return root, self.problems
+
+    def node(self, path: tuple[Part, ...], key: Place | None) -> Node:
+        """The next value, with everything inside it."""
+        event = self.parser.get_event()
+        place = self.place(event)
+        if isinstance(event, yaml.AliasEvent):
+            return self.alias(event.anchor, place, path, key)
+        before = self.n_nodes
+        self.count(1, place, path)
+        value: Any
+        if isinstance(event, yaml.ScalarEvent):
+            value = scalar(event.value) if event.implicit[0] and not event.style else event.value
+        elif len(path) >= DEEPEST:
+            raise self.stop(place, path[:3], f"blocks inside blocks, more than {DEEPEST} deep", "")
+        elif isinstance(event, yaml.SequenceStartEvent):
+            value = self.list_items(path)
+        else:
+            value = self.entries(path)
+        if event.tag not in (None, "!"):
+            self.problems.append(problem(place, path, f"the tag {shown(event.tag)} means nothing here", "remove it"))
+        node = Node(value, place, key)
+        if event.anchor is not None:
+            self.anchors[event.anchor] = (node, self.n_nodes - before)
+        return node
+
+    def list_items(self, path: tuple[Part, ...]) -> list[Node]:
+        found: list[Node] = []
+        while not self.parser.check_event(yaml.SequenceEndEvent):
+            found.append(self.node((*path, len(found)), None))
+        self.parser.get_event()
+        return found
+
+    def entries(self, path: tuple[Part, ...]) -> dict[str, Node]:
+        found: dict[str, Node] = {}
+        while not self.parser.check_event(yaml.MappingEndEvent):
+            if len(self.problems) >= MOST_PROBLEMS:
+                raise ScenarioError(self.problems)
+            key, place = self.key(path)
+            node = self.node((*path, key), place)
+            if key in found:
+                first = found[key].name_place.line + 1
+                self.problems.append(
+                    problem(place, (*path, key), "this key stands twice", f"the first is on line {first}")
+                )
+            elif key == "<<":
+                self.problems.append(
+                    problem(place, (*path, key), "merge keys are not read", "write 'like: NAME' instead")
+                )
+            else:
+                found[key] = node
+        self.parser.get_event()
+        return found
+
+    def key(self, path: tuple[Part, ...]) -> tuple[str, Place]:
+        """A key is the text that stands there: ``no``, ``1`` and ``010`` are the names they look like."""
+        event = self.parser.get_event()
+        place = self.place(event)
+        if not isinstance(event, yaml.ScalarEvent):
+            raise self.stop(place, path, "a key must be a word", "is a brace, a bracket or a '*' one too many?")
+        return event.value, place
+
+    def alias(self, anchor: Any, place: Place, path: tuple[Part, ...], key: Place | None) -> Node:
+        if anchor not in self.anchors:
+            raise self.stop(
+                place, path, f"no anchor {shown('&' + anchor)} before this", did_you_mean(anchor, self.anchors)
+            )
+        node, size = self.anchors[anchor]
+        self.count(size, place, path)
+        return replace(node, key=key)
+
+    def count(self, n: int, place: Place, path: tuple[Part, ...]) -> None:
+        self.n_nodes += n
+        if self.n_nodes > MOST_NODES:
+            raise self.stop(
+                place, path[:3], f"the file holds more than {MOST_NODES:,} values", "are aliases nested in aliases?"
+            )
+
+    def place(self, event: Any) -> Place:
+        return Place(self.source, event.start_mark.line, event.start_mark.column)
+
+    def stop(self, place: Place, path: tuple[Part, ...], message: str, hint: str) -> ScenarioError:
+        """Nothing can be read beyond this; what was found before is said too."""
+        return ScenarioError(sorted([*self.problems, problem(place, path, message, hint)]))

@@ -1,0 +1,204 @@
+import pickle
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from opsim import libraries
+from opsim.problems import ScenarioError
+from opsim.scenario import Scenario, read_scenarios
+from opsim.scenario.read import scenarios_in
+from opsim.tasks import Lognormal, Recorded, task_model
+
+HERE = Path(__file__).parent
+GOOD = (HERE / "good.yaml").read_text(encoding="utf-8")
+TASKS = ("deep_squat", "side_lunge", "shoulder_scaption")
+
+
+@pytest.fixture
+def moves(monkeypatch, tmp_path):
+    """The scenario of the design beside a library whose header is made."""
+    (tmp_path / "libraries").mkdir()
+    (tmp_path / "libraries/public_movements.npz").write_bytes(b"made")
+    monkeypatch.setattr(libraries, "_tasks", lambda *_: TASKS)
+    file = tmp_path / "repack_cell.yaml"
+    file.write_text((HERE / "repack_cell.yaml").read_text(encoding="utf-8"), encoding="utf-8")
+    return file
+
+
+def test_the_scenario_of_the_design_is_read(moves):
+    loaded = read_scenarios(moves)
+    assert list(loaded) == ["base", "near", "both"]
+    base, both = loaded["base"].scenario, loaded["both"].scenario
+    assert (base.run.horizon_s, base.run.warm_up_s, base.run.start_s, base.run.seed) == (28800.0, 1800.0, 21600.0, 7)
+    assert base.tasks["lift_in"].library_task == "deep_squat" and base.tasks["lift_in"].load_kg == 6.0
+    assert base.tasks["reach_in"].repeat == 2
+    assert base.stations["repack"].servers == 2 and base.stations["repack"].buffer == 4
+    assert base.products["crate"].route == ["unload", "store"]
+    assert base.release.every_s == 55.0
+    assert base.workers["ben"].mass_kg == 58.0 and base.workers["ben"].height_m == 1.85
+    assert both.layout.places["rack"] == (6.0, 1.0) and both.workers["eva"] == base.workers["ana"]
+    assert task_model(base.tasks["label"], loaded["base"]) == Lognormal(20.0, 0.25, 0.5)
+
+
+def test_a_task_that_the_library_lacks_is_answered_with_the_nearest(moves):
+    moves.write_text(moves.read_text().replace("moves/deep_squat", "moves/deep_sqat"))
+    with pytest.raises(ScenarioError) as caught:
+        read_scenarios(moves)
+    (problem,) = caught.value.problems
+    assert (problem.line, problem.message, problem.hint) == (
+        10,
+        "no task 'deep_sqat' in library 'moves'",
+        "did you mean 'deep_squat'?",
+    )
+
+
+def test_given_holds_what_stands_in_the_file_and_nothing_else(moves):
+    given_paths = read_scenarios(moves)["both"].given
+    assert {"run", "run.horizon", "workers.ben.walk", "workers.eva.skills.repack", "layout.places.rack"} <= given_paths
+    assert not {"workers.ben.home", "workers.ben.like", "release.when_full", "overrides"} & given_paths
+
+
+def test_the_resolved_scenario_reads_back_as_itself(moves):
+    for loaded in read_scenarios(moves).values():
+        again = scenarios_in(yaml.safe_dump(loaded.resolved).encode(), moves)["base"]
+        assert again.scenario == loaded.scenario
+        assert again.given == loaded.given
+
+
+def test_a_loaded_scenario_travels_to_other_processes(moves):
+    loaded = read_scenarios(moves)["near"]
+    assert pickle.loads(pickle.dumps(loaded)) == loaded
+
+
+def test_recorded_times_are_read_from_beside_the_scenario(tmp_path):
+    (tmp_path / "times.csv").write_text("duration_s\n3\n4\n")
+    file = tmp_path / "line.yaml"
+    file.write_text(GOOD.replace("fixed: 3 s", "recorded: times.csv, by: trace"))
+    loaded = read_scenarios(file)["base"]
+    model = task_model(loaded.scenario.tasks["lift"], loaded)
+    assert model == Recorded((3.0, 4.0), by_index=True)
+    assert np.array_equal(model.at(np.array([0, 3])), [3.0, 4.0])
+
+
+def test_defaults_are_those_of_the_design():
+    text = GOOD.replace("servers: 2, ", "").replace(", buffer: 4", "")
+    scenario = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario
+    station, ana = scenario.stations["pack"], scenario.workers["ana"]
+    assert (station.servers, station.buffer, ana.walk_m_per_s, ana.home, ana.mass_kg) == (1, None, 1.2, None, None)
+    assert (scenario.release.when_full, scenario.allocation.idle) == ("wait", "stay")
+    assert (scenario.layout.distance, scenario.libraries) == ("rectilinear", {})
+
+
+def test_unlimited_is_no_limit():
+    text = GOOD.replace("buffer: 4", "buffer: unlimited")
+    assert scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.stations["pack"].buffer is None
+
+
+def test_a_route_may_offer_one_of_several_stations():
+    text = GOOD.replace("stations:\n", "stations:\n  other: {like: pack}\n").replace("[pack]}", "[[pack, other]]}")
+    text = text.replace("{pack: 1.1}", "{pack: 1.1, other: 1.0}")
+    scenario = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario
+    assert scenario.products["carton"].route == [["pack", "other"]]
+
+
+def test_an_automatic_station_needs_no_worker():
+    text = GOOD.replace("load: 6 kg", "automatic: true").replace("skills: {pack: 1.1}", "skills: {}")
+    assert scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.tasks["lift"].automatic
+
+
+def test_all_problems_of_all_variants_come_once_and_in_order():
+    text = GOOD.replace("fixed: 3 s", "fixed: 3").replace("[6 m, 1 m]", "[6, 1 m]").replace("walked_m", "walked")
+    with pytest.raises(ScenarioError) as caught:
+        scenarios_in(text.encode(), Path("line.yaml"))
+    assert [problem.line for problem in caught.value.problems] == [9, 20, 22]
+
+
+def test_a_scenario_cannot_be_changed_after_reading():
+    scenario = scenarios_in(GOOD.encode(), Path("line.yaml"))["base"].scenario
+    with pytest.raises(ValueError, match="frozen"):
+        scenario.run.seed = 8
+
+
+def test_editors_can_have_the_schema():
+    schema = Scenario.model_json_schema()
+    assert schema["$defs"]["Run"]["properties"]["horizon"]["type"] == "string"
+
+
+def test_a_file_of_4000_lines_is_checked_within_a_second():
+    stations = "".join(f"  s{i}:\n    at: bench\n    tasks: [lift]\n    buffer: 3\n" for i in range(1000))
+    skills = ", ".join(f"s{i}: 1.0" for i in range(1000))
+    text = GOOD.replace("stations:\n", f"stations:\n{stations}").replace("{pack: 1.1}", f"{{pack: 1.1, {skills}}}")
+    for wrong in (text, text.replace("at: bench\n", "at: bensh\n")):
+        start = time.perf_counter()
+        try:
+            scenarios_in(wrong.encode(), Path("line.yaml"))
+        except ScenarioError as error:
+            assert error.problems
+        assert time.perf_counter() - start < 1
+
+
+def test_a_folder_is_not_a_scenario(tmp_path):
+    with pytest.raises(ScenarioError, match="cannot be read"):
+        read_scenarios(tmp_path)
+
+
+def read_or_refuse(raw):
+    """Reading ends in scenarios or in a ScenarioError that can be printed; anything else fails the test."""
+    try:
+        assert scenarios_in(raw, Path("line.yaml"))
+    except ScenarioError as error:
+        assert error.problems and str(error).splitlines()[-1].split()[1].startswith("problem")
+        assert all(problem.message for problem in error.problems)
+
+
+@given(st.binary(max_size=200) | st.text(max_size=200).map(lambda text: text.encode("utf-8", "replace")))
+def test_any_bytes_are_read_or_refused(raw):
+    read_or_refuse(raw)
+
+
+PIECES = st.sampled_from(
+    [
+        "null",
+        "[]",
+        "{}",
+        "-1",
+        "1 s",
+        "'",
+        ".nan",
+        "1e999",
+        "[[a], 1]",
+        "*a",
+        "&a",
+        "\n",
+        ": ",
+        "- ",
+        "? ",
+        "! ",
+        "--- ",
+    ]
+)
+
+
+@settings(max_examples=400, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(st.integers(0, len(GOOD)), st.integers(0, 12), PIECES | st.text(max_size=4))
+def test_a_good_file_with_a_slip_of_the_pen_is_read_or_refused(at, length, piece):
+    read_or_refuse((GOOD[:at] + piece + GOOD[at + length :]).encode("utf-8", "replace"))
+
+
+@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(st.data())
+def test_a_good_file_with_any_value_replaced_is_read_or_refused(data):
+    tree = yaml.safe_load(GOOD)
+    block, key = tree, None
+    while isinstance(block, dict | list) and block and (key is None or data.draw(st.booleans())):
+        parent = block
+        key = data.draw(st.sampled_from(sorted(block) if isinstance(block, dict) else list(range(len(block)))))
+        block = parent[key]
+    odd = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5)
+    parent[key] = data.draw(odd | st.lists(odd, max_size=3) | st.dictionaries(st.text(max_size=5), odd, max_size=3))
+    read_or_refuse(yaml.safe_dump(tree, allow_unicode=True).encode())
