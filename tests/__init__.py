@@ -1,1 +1,1 @@
-"""The tests mirror the packages; shared helpers are naive.py (twins), made.py (made sequences), recordings.py (public data)."""
+"""The tests mirror the packages; naive.py has the kernels' twins, made.py sequences, recordings.py the public data."""

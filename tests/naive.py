@@ -1,6 +1,7 @@
 """Naive twins of the kernels: the definitions, written to be read, never to be fast."""
 
 from fractions import Fraction
+from itertools import pairwise
 from math import gcd
 
 import numpy as np
@@ -13,7 +14,7 @@ def naive_edge(q1, q2, start, end):
     cuts = {Fraction(i) for i in range(i0, i1 + 1)} | {i0 + (Fraction(j) - j0) / slope for j in range(j0, j1 + 1)}
     total = 0.0
     ordered = sorted(cuts)
-    for low, high in zip(ordered, ordered[1:]):
+    for low, high in pairwise(ordered):
         middle = (low + high) / 2
         t_cell, gamma_cell = int(middle), int(j0 + (middle - i0) * slope)
         total += float(high - low) * float(np.dot(q1[t_cell], q2[gamma_cell]))
@@ -40,7 +41,7 @@ def naive_elastic(q1, q2, steepest=7):
 
 
 def naive_tsrvf(directions, reference):
-    """S-TSRVF of one sequence (T, B, 3), bone by bone: velocity, carried to the reference, over the root of its norm."""
+    """S-TSRVF of one sequence (T, B, 3), bone by bone: velocity carried to the reference, over the root of its norm."""
     steps = len(directions) - 1
     field = np.zeros((steps, directions.shape[1], 3))
     for t in range(steps):

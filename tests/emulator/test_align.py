@@ -1,0 +1,161 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from emulator import sphere, warp
+from emulator.align import align, align_to, resample
+from emulator.clean import turn
+from emulator.elastic import tsrvf
+from emulator.recordings import read_motions
+from emulator.synthetic import make
+from tests.made import made_sequences
+from tests.recordings import recording
+
+CLOCK = np.linspace(0, 1, 101)
+
+
+@pytest.fixture(scope="module")
+def made():
+    sequences, warps, _ = made_sequences(20, 101, seed=2)
+    return sequences, warps, align(list(sequences))
+
+
+def test_the_warps_put_in_are_found_within_one_cell(made):
+    _, warps, alignment = made
+    truth = warp.centre(warp.invert(warps))
+    error_cells = np.abs(alignment.warps - truth) * 100
+    assert np.abs(truth - CLOCK).mean() * 100 > 4
+    assert error_cells.mean() <= 0.5 and error_cells.max() < 5
+
+
+@pytest.mark.parametrize("task", ["fasten", "inspect", "lift", "carry", "walk"])
+def test_the_warps_of_made_work_are_found_within_one_cell(task):
+    # Not reach, pick and place: there the posture varies in ways that look like pace, and the warps that fit best are
+    # 1 to 4 cells from those put in (the true ones leave a larger distance to the template than the found ones).
+    motions, truth = make(task, 4, 6, seed=1)
+    alignment = align([motion.directions for motion in motions.motions])
+    error_cells = np.abs(warp.evaluate(alignment.warps, np.linspace(0, 1, 201)) - warp.centre(truth.warps)) * 100
+    assert error_cells.mean() <= 1.0
+
+
+def test_pure_warps_of_one_sequence_leave_nothing_but_noise():
+    sequences, _, _ = made_sequences(12, 301, seed=4, variation=0.0)
+    alignment = align(list(sequences), n_times=301)
+    assert alignment.explained > 0.985
+    apart = sphere.angle(alignment.directions, sphere.mean(alignment.directions))
+    assert np.degrees(apart).mean() < 0.5
+
+
+def test_the_warps_take_most_of_the_variance_away(made):
+    *_, alignment = made
+    assert alignment.explained == pytest.approx(1 - min(alignment.history) / alignment.before)
+    assert alignment.explained > 0.75
+
+
+@pytest.mark.parametrize("seed", [2, 5, 6])
+def test_the_objective_never_rises_and_the_last_round_is_the_best(seed):
+    sequences, _, _ = made_sequences(20, 61, seed=seed)
+    alignment = align(list(sequences), n_times=61, tolerance=-1.0, max_iterations=8)
+    assert len(alignment.history) == 8 and alignment.history[0] > alignment.history[3]
+    assert all(later <= earlier * (1 + 1e-12) for earlier, later in pairwise(alignment.history))
+    fields = tsrvf(alignment.directions, alignment.reference)
+    centred = np.mean(np.sum((fields - fields.mean(0)) ** 2, axis=(1, 2))) / 60
+    assert centred < 1.05 * alignment.history[-1]
+
+
+def test_warps_are_warps_and_centred(made):
+    *_, alignment = made
+    warp.check(alignment.warps)
+    assert np.abs(warp.mean(alignment.warps) - CLOCK).max() < 5e-3
+
+
+def test_aligned_postures_are_the_sequence_at_its_warp(made):
+    sequences, _, alignment = made
+    assert np.allclose(alignment.directions[3], resample(sequences[3], alignment.warps[3]), atol=1e-14)
+    assert np.allclose(np.linalg.norm(alignment.directions, axis=-1), 1, atol=1e-12)
+
+
+def test_registration_does_not_depend_on_the_frame_of_the_room(made):
+    sequences, _, alignment = made
+    turned = align(list(turn(sequences, 0.9)))
+    assert np.abs(turned.warps - alignment.warps).max() < 1e-9
+
+
+def test_registration_does_not_depend_on_threads_or_on_order(made):
+    sequences, _, alignment = made
+    assert np.array_equal(align(list(sequences), n_threads=1).warps, alignment.warps)
+    backwards = align(list(sequences[::-1]))
+    assert np.abs(backwards.warps[::-1] - alignment.warps).max() < 1e-9
+
+
+def test_callers_sequences_are_left_alone(made):
+    sequences, _, _ = made
+    before = sequences[:3].copy()
+    align(list(sequences[:3]), max_iterations=1)
+    assert np.array_equal(sequences[:3], before)
+
+
+def test_a_new_repetition_is_aligned_to_the_template_that_stands(made):
+    sequences, _, alignment = made
+    warps, directions = align_to(list(sequences), alignment.template, alignment.reference)
+    assert np.abs(warps - alignment.warps).mean() * 100 < 0.5
+    assert directions.shape == alignment.directions.shape
+
+
+def test_progress_counts_each_sequence_of_each_round():
+    sequences, _, _ = made_sequences(3, 31, seed=1)
+    seen = []
+    alignment = align(
+        list(sequences), n_times=31, progress=lambda done, total, label: seen.append((done, total, label))
+    )
+    assert len(seen) == 3 * (1 + len(alignment.history))
+    assert seen[2] == (3, 3, "aligning, round 1")
+
+
+def test_still_sequences_and_a_single_one_keep_their_clock():
+    still = np.repeat(sphere.normalise(np.random.default_rng(0).normal(size=(1, 4, 3))), 20, axis=0)
+    assert np.array_equal(align([still, still[:12]]).warps, np.stack([CLOCK, CLOCK]))
+    sequences, _, _ = made_sequences(1, 40)
+    assert np.array_equal(align(list(sequences)).warps, CLOCK[None])
+
+
+def test_a_still_sequence_among_moving_ones_is_handled():
+    sequences, _, _ = made_sequences(4, 41, seed=3)
+    still = np.repeat(sequences[:1, 20], 41, axis=0)
+    alignment = align([*sequences, still], n_times=41)
+    warp.check(alignment.warps)
+    assert np.all(np.isfinite(alignment.directions))
+
+
+def test_sequences_of_any_length_are_taken():
+    sequences, _, _ = made_sequences(3, 301, seed=9)
+    long, short = align(list(sequences)), align([s[:: 1 + i] for i, s in enumerate(sequences)])
+    assert np.abs(long.warps - short.warps).mean() * 100 < 1.0
+
+
+def test_resample_goes_along_the_arc():
+    quarter = np.array([[[1.0, 0, 0]], [[0, 1.0, 0]]])
+    assert np.allclose(resample(quarter, np.array([0, 1 / 3, 1.0]))[1, 0], [np.cos(np.pi / 6), 0.5, 0])
+
+
+@pytest.mark.parametrize(
+    ("sequences", "word"),
+    [
+        ([], "no sequence"),
+        ([np.ones((5, 2))], "sequence 0 must be"),
+        ([np.ones((5, 2, 3))], "not made of unit vectors"),
+        ([np.eye(3)[None].repeat(5, 0), np.eye(3)[None, :2].repeat(5, 0)], r"sequence 1 must be \(T, 3, 3\)"),
+    ],
+)
+def test_wrong_input_is_refused(sequences, word):
+    with pytest.raises(ValueError, match=word):
+        align(sequences)
+
+
+def test_the_turn_of_a_squat_comes_at_one_moment_of_the_common_clock():
+    motions = read_motions(recording("uiprmd_deep_squat"), where="cov_correct==1")
+    alignment = align([motion.directions for motion in motions.motions])
+    own = motions.mark_s[:, 0] / motions.duration_s
+    common = np.array([np.interp(s, gamma, CLOCK) for s, gamma in zip(own, alignment.warps)])
+    assert common.std() < 0.015 < 0.04 < own.std()

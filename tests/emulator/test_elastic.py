@@ -1,0 +1,112 @@
+import json
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from emulator import elastic, sphere
+from tests.made import made_sequences
+from tests.naive import naive_edge, naive_elastic, naive_tsrvf
+from tests.recordings import reference
+
+
+def fields(n_cells, dimension=6, seed=0):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(2, n_cells, dimension)).cumsum(axis=1) / np.sqrt(n_cells)
+
+
+def test_the_optimum_is_that_of_fdasrsf():
+    oracle = json.loads(reference("emulator_oracles.json").read_text())["elastic_dp_fdasrsf_DP2_T101_D6_slope7"]
+    sequences, _, base = made_sequences(2, 101, n_bones=2, seed=11)
+    q1, q2 = elastic.tsrvf(sequences, base)
+    inner, _ = elastic.optimum(q1 @ q2.T)
+    norms = (np.sum(q1**2) + np.sum(q2**2)) / 100
+    assert inner == pytest.approx(oracle["inner"], rel=1e-12)
+    assert norms - 2 * inner == pytest.approx(oracle["sq_distance"], rel=1e-10)
+    assert np.allclose(elastic.pair_warp(q1, q2)[[25, 50, 75]], oracle["gamma_quartiles"], atol=1e-12)
+
+
+def test_moves_are_the_35_coprime_slopes_and_the_straight_one_is_first():
+    step = elastic.moves()
+    assert len(step.rises) == 35 and (step.rises[0], step.runs[0]) == (1, 1)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_optimum_is_the_naive_optimum(seed):
+    q1, q2 = fields(16, seed=seed)
+    inner, path = elastic.optimum(q1 @ q2.T)
+    naive, naive_path = naive_elastic(q1, q2)
+    assert inner == pytest.approx(naive, rel=1e-12)
+    assert np.array_equal(path, naive_path)
+
+
+def test_the_optimum_of_unequal_lengths_is_the_naive_optimum():
+    q1, q2 = fields(18)
+    assert elastic.optimum(q1[:9] @ q2.T)[0] == pytest.approx(naive_elastic(q1[:9], q2)[0], rel=1e-12)
+
+
+@pytest.mark.parametrize("n_cells", [40, 101])
+def test_the_compiled_rows_are_the_numpy_rows(n_cells):
+    q1, q2 = fields(n_cells, seed=7)
+    (fast, fast_path), (plain, plain_path) = elastic.optimum(q1 @ q2.T), elastic.optimum_numpy(q1 @ q2.T)
+    assert fast == pytest.approx(plain, rel=1e-13)
+    assert np.array_equal(fast_path, plain_path)
+
+
+def test_the_optimum_is_worth_its_own_path():
+    q1, q2 = fields(60, seed=3)
+    inner, path = elastic.optimum(q1 @ q2.T)
+    along = sum(naive_edge(q1, q2, tuple(map(int, a)), tuple(map(int, b))) for a, b in pairwise(path))
+    assert inner == pytest.approx(along / 60, rel=1e-12)
+
+
+def test_tsrvf_is_the_naive_tsrvf():
+    sequences, _, base = made_sequences(1, 25, n_bones=3, seed=2)
+    assert np.allclose(elastic.tsrvf(sequences[0], base), naive_tsrvf(sequences[0], base), atol=1e-10)
+
+
+def test_standing_still_gives_a_zero_field():
+    sequences, _, base = made_sequences(1, 30, n_bones=3)
+    paused = np.concatenate([sequences[0][:10], np.repeat(sequences[0][10:11], 8, axis=0), sequences[0][10:]])
+    field = elastic.tsrvf(paused, base)
+    assert np.all(np.isfinite(field)) and np.all(field[10:17] == 0)
+    assert np.all(np.any(field[:9] != 0, axis=-1))
+
+
+def test_two_still_sequences_are_joined_by_the_identity():
+    still = np.repeat(sphere.normalise(np.ones((1, 4, 3))), 31, axis=0)
+    field = elastic.tsrvf(still, still[0])
+    assert np.allclose(elastic.pair_warp(field, field), np.linspace(0, 1, 31), atol=1e-15)
+
+
+def test_a_sequence_is_joined_to_itself_by_the_identity():
+    q, _ = fields(80)
+    assert np.allclose(elastic.pair_warp(q, q), np.linspace(0, 1, 81), atol=1e-15)
+
+
+def test_a_long_hold_drives_the_warp_only_to_its_slope_limit():
+    sequences, _, base = made_sequences(1, 101, n_bones=3, seed=5)
+    held = np.concatenate([sequences[0][:50], np.repeat(sequences[0][50:51], 60, axis=0), sequences[0][50:]])
+    q, q_held = (
+        elastic.tsrvf(sequences[0], base),
+        elastic.tsrvf(held[np.linspace(0, 160, 101).round().astype(int)], base),
+    )
+    slope = np.diff(elastic.pair_warp(q, q_held)) * 100
+    assert slope.min() > 1 / 7 - 1e-9 and slope.max() < 7 + 1e-9
+
+
+def test_the_distance_does_not_change_when_both_are_warped_alike():
+    sequences, _, base = made_sequences(2, 2001, n_bones=3, seed=8)
+    clock = np.linspace(0, 1, 2001)
+    gamma = 0.5 * clock + 0.5 * clock**2
+    place = np.clip((gamma * 2000).astype(int), 0, 1999)
+    warped = sphere.between(sequences[:, place], sequences[:, place + 1], (gamma * 2000 - place)[None, :, None])
+    plain, both = (np.sum(np.diff(elastic.tsrvf(s, base), axis=0) ** 2) / 2000 for s in (sequences, warped))
+    assert both == pytest.approx(plain, rel=1e-2)
+
+
+def test_what_cannot_be_joined_is_refused():
+    with pytest.raises(ValueError, match="3 cells against 40"):
+        elastic.optimum(np.ones((3, 40)))
+    with pytest.raises(ValueError, match="not finite"):
+        elastic.optimum(np.full((5, 5), np.nan))

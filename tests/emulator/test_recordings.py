@@ -1,0 +1,148 @@
+import json
+
+import numpy as np
+import pytest
+
+from emulator.recordings import RecordingError, read_motions
+from emulator.recordings.where import WhereError, rows_where
+from emulator.skeleton import CANONICAL, standard_skeleton
+from tests.recordings import recording
+
+COLUMNS = {
+    "cov_correct": [1, 0, 1, 1],
+    "worker": ["s01", "s02", "s10", "s02"],
+    "cov_style": ["old", "new", "old", "old"],
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "rows"),
+    [
+        ("cov_correct==1", [1, 0, 1, 1]),
+        ("correct == 1", [1, 0, 1, 1]),
+        ("cov_correct < 1", [0, 1, 0, 0]),
+        ("worker == s02 and correct == 1", [0, 0, 0, 1]),
+        ("subject in (s01, 's10') or correct != 1", [1, 1, 1, 0]),
+        ("not (worker == s02 or style == new)", [1, 0, 1, 0]),
+        ("worker not in (s02)", [1, 0, 1, 0]),
+        ("worker == s01 or worker == s02 and correct == 1", [1, 0, 0, 1]),
+    ],
+)
+def test_expressions_choose_rows(text, rows):
+    assert rows_where(text, COLUMNS).tolist() == [bool(row) for row in rows]
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("cov_corect == 1", "no covariate 'cov_corect'; did you mean 'cov_correct'"),
+        ("cov_correct = 1", "cannot read '= 1'"),
+        ("cov_correct ==", "expected a value, found 'the end'"),
+        ("(cov_correct == 1", "expected '\\)', found 'the end'"),
+        ("cov_correct == 1 worker", "expected 'and', 'or' or the end, found 'worker'"),
+        ("worker < s02", "words have no order"),
+        ("", "expected a covariate, found 'the end'"),
+        ("__import__('os')", "no covariate '__import__'"),
+    ],
+)
+def test_wrong_expressions_say_what_was_expected(text, word):
+    with pytest.raises(WhereError, match=word):
+        rows_where(text, COLUMNS)
+
+
+def write(path, **changes):
+    """A small recording: repetitions of 12, 10 and 11 frames; the second was executed wrongly, the third jumps."""
+    rng = np.random.default_rng(0)
+    body = standard_skeleton()
+    positions = rng.normal(size=(body.n_joints, 3)) + 0.01 * rng.normal(size=(33, body.n_joints, 3))
+    positions[28, 4] += 1.0
+    arrays = {
+        "positions": positions.astype(np.float32),
+        "offsets": np.array([0, 12, 22, 33]),
+        "fps": 50.0,
+        "names": np.array([name.replace("left_", "l").replace("right_", "r") for name in body.names]),
+        "parents": np.array(body.parents),
+        "subject": np.array(["a", "a", "b"]),
+        "trial": np.array(["1", "2", "1"]),
+        "cov_correct": np.array([1, 0, 1]),
+        "ann_turn_frame": np.array([6, 5, 4]),
+        "meta": json.dumps({"source": "made here", "licence": "MIT"}),
+    } | changes
+    np.savez(path, **{key: value for key, value in arrays.items() if value is not None})
+    return path
+
+
+def test_a_recording_is_read_with_names_marks_notes_and_source(tmp_path):
+    motions = read_motions(write(tmp_path / "uiprmd_wave.npz"))
+    assert (motions.task, motions.source, motions.licence) == ("wave", "made here", "MIT")
+    assert motions.skeleton.names == CANONICAL and motions.mark_names == ("turn",)
+    assert [m.name for m in motions.motions] == ["a/1"] and motions.selection == "cov_correct==1"
+    assert motions.mark_s.tolist() == [[pytest.approx(6 / 50)]]
+    assert motions.motions[0].duration_s == pytest.approx(11 / 50)
+    assert "left out b/1: a joint moves at" in motions.notes[0]
+
+
+def test_glitches_can_be_kept_and_are_still_named(tmp_path):
+    motions = read_motions(write(tmp_path / "wave.npz"), where=None, glitches="keep")
+    assert len(motions) == 3 and motions.selection == "all"
+    assert "kept b/1" in motions.notes[0]
+
+
+def test_a_recording_that_does_not_say_what_is_correct_is_read_whole_and_says_so(tmp_path):
+    path = write(tmp_path / "wave.npz", cov_correct=None)
+    motions = read_motions(path)
+    assert len(motions) == 2 and "does not say which executions are correct" in motions.notes[0]
+    with pytest.raises(WhereError, match="no covariate 'cov_correct'"):
+        read_motions(path, where="cov_correct==1")
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"fps": None}, "no fps"),
+        ({"offsets": np.array([0, 12, 12, 33])}, "offsets must rise"),
+        ({"trial": np.array(["1"])}, "trial has 1 values for 3"),
+        ({"fps": 0.0}, "fps must be positive"),
+        ({"names": np.array(["wing"] + ["x"] * 20)}, "joint 'wing' is not known"),
+        ({"positions": np.zeros((33, 4, 3))}, r"positions must be \(frames, 21, 3\)"),
+        ({"positions": np.full((33, 21, 3), np.nan)}, "no repetition is left.*positions are missing"),
+        ({"positions": np.ones((33, 21, 3))}, "repetition a/1: bone to joint 'spine' has no length at frame 0"),
+        ({"subject": np.array([object()] * 3)}, "not a recording"),
+    ],
+)
+def test_a_broken_recording_is_refused_by_name(tmp_path, changes, word):
+    path = write(tmp_path / "wave.npz", **changes)
+    with pytest.raises(RecordingError, match=word) as error:
+        read_motions(path)
+    assert str(path) in str(error.value)
+
+
+def test_other_files_are_refused_by_name(tmp_path):
+    (tmp_path / "wave.npz").write_bytes(b"\x00\x01 nothing")
+    for path, word in [("wave.npz", "not a recording"), ("none.npz", "no such file"), ("wave.bvh", "end in .npz")]:
+        if path.endswith("bvh"):
+            (tmp_path / path).write_text("HIERARCHY")
+        with pytest.raises(RecordingError, match=word):
+            read_motions(tmp_path / path)
+
+
+def test_deep_squat_has_41_correct_repetitions_of_six_people():
+    motions = read_motions(recording("uiprmd_deep_squat"), where="cov_correct==1")
+    assert len(motions) == 41 and motions.workers == ("s01", "s02", "s03", "s04", "s05", "s06")
+    assert motions.skeleton.n_bones == 20 and motions.mark_names == ("turn",)
+    assert "Public Domain" in motions.licence
+
+
+def test_recorded_positions_come_back_from_a_motion():
+    path = recording("uiprmd_side_lunge")
+    motions = read_motions(path, where=None)
+    with np.load(path) as file:
+        positions, offsets = file["positions"].astype(float), file["offsets"]
+    for i in (0, 40, 81):
+        back = motions.motions[i].positions_m(world=True, rigid=False)
+        assert np.abs(back - positions[offsets[i] : offsets[i + 1]]).max() < 1e-9
+
+
+def test_the_glitches_left_in_hdm05_are_left_out_by_name():
+    notes = " ".join(read_motions(recording("hdm05_squat_once")).notes)
+    assert all(f"left out dg/{trial}" in notes for trial in ("026", "028", "030"))
