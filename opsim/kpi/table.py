@@ -23,13 +23,6 @@ _FUNCTIONS = (
     mean_durations,
 )
 
-KPIS = (
-    *("throughput_per_h", "throughput_per_calendar_h", "lost_per_h", "lost_share", "time_in_system_s"),
-    *("work_in_progress", "worker_states", "station_states", "queue_length", "walked_m", "cycle_time_s", "duration_s"),
-)
-"""Names a scenario may list under ``outputs``."""
-
-
 def figures(log: EventLog, plan: Plan) -> list[Figure]:
     """Every figure this log has, in one fixed order."""
     return [figure._replace(value=float(figure.value)) for function in _FUNCTIONS for figure in function(log, plan)]

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, model_validator
 
+from opsim.kpi.names import KPIS
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import (
     Height,
@@ -22,17 +23,6 @@ from opsim.scenario.fields import (
     plain_error,
 )
 
-OUTPUTS = (
-    "throughput_per_h",
-    "throughput_per_calendar_h",
-    "time_in_system_s",
-    "work_in_progress",
-    "worker_states",
-    "station_states",
-    "cycle_time_s",
-    "duration_s",
-    "walked_m",
-)
 DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
 _DAY_WORDS = {*DAYS, "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"}
 
@@ -299,8 +289,8 @@ class Allocation(Block):
 
 
 def _known_output(value: object) -> object:
-    if value not in OUTPUTS:
-        raise plain_error(f"unknown output {shown(value)}", did_you_mean(value, OUTPUTS))
+    if value not in KPIS:
+        raise plain_error(f"unknown output {shown(value)}", did_you_mean(value, KPIS))
     return value
 
 
@@ -326,7 +316,7 @@ class Scenario(Block):
     release: Release = Field(examples=["{kind: poisson, every: 55 s}"])
     workers: dict[Name, Worker] = {}
     allocation: Allocation = Field(default_factory=Allocation)
-    outputs: list[Annotated[str, BeforeValidator(_known_output)]] = list(OUTPUTS)
+    outputs: list[Annotated[str, BeforeValidator(_known_output)]] = list(KPIS)
 
 
 BLOCKS: dict[str, type[Block]] = {
