@@ -23,6 +23,7 @@ _FUNCTIONS = (
     mean_durations,
 )
 
+
 def figures(log: EventLog, plan: Plan) -> list[Figure]:
     """Every figure this log has, in one fixed order."""
     return [figure._replace(value=float(figure.value)) for function in _FUNCTIONS for figure in function(log, plan)]

@@ -8,13 +8,10 @@ from opsim.engine.simpy_engine.worker import log_worker
 from opsim.log import WALK
 
 
-def send_workers(floor: Floor) -> bool:
-    """Serve the best pair of free worker and calling station, again and again. True where anyone was sent."""
-    sent = False
+def send_workers(floor: Floor) -> None:
+    """Serve the best pair of free worker and calling station, again and again."""
     while floor.free and floor.calling and (pair := _best_pair(floor)) is not None:
         _send(floor, *pair)
-        sent = True
-    return sent
 
 
 def _best_pair(floor: Floor) -> tuple[Worker, Station] | None:
@@ -43,7 +40,7 @@ def _send(floor: Floor, worker: Worker, station: Station) -> None:
     if walk_m == 0:
         perform(floor, job, worker)
         return
-    worker.kind, worker.since_s = WALK, floor.env.now
+    worker.kind, worker.since_s = WALK, floor.now
     floor.at_end_of(on_grid(walk_m / worker.plan.walk_m_per_s), worker.stretch_over)
 
 

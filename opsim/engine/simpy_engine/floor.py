@@ -1,6 +1,7 @@
 """The floor: everything the processes share. Processes report; one settle step an instant does everything else."""
 
 from collections.abc import Callable, Mapping
+from math import nan
 from operator import itemgetter
 from typing import Any
 
@@ -9,7 +10,7 @@ import simpy
 from opsim.engine.rules import ALLOCATION_RULES
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.engine.simpy_engine.state import Gate, Job, Performance, Station, Worker
-from opsim.log import WORK, LogWriter, row
+from opsim.log import WORK, LogWriter
 from opsim.plan import Plan
 
 AFTER_EVERYTHING = 2
@@ -22,7 +23,7 @@ Handler = Callable[["Floor", Any], None]
 
 
 class Floor:
-    """State and log of one replication.
+    """State and log of one replication. ``now`` is the instant that is being settled, where everything changes.
 
     handlers : what to do with each named report, given its subject
     dispatch : run at the end of every settle step, when all reports are applied
@@ -52,6 +53,8 @@ class Floor:
         self.rule = ALLOCATION_RULES[plan.rule]
         self.jobs: dict[int, Job] = {}
         self.n_released = 0
+        self.next_gate: Gate | None = None
+        self.now = 0.0
         self.n_performances = 0
         self.automatic_k: dict[tuple[int, int], int] = {}
         self._reports: list[tuple] = []
@@ -81,6 +84,7 @@ class Floor:
 
     def _settle(self, _event: simpy.Event) -> None:
         self._settle_pending = False
+        self.now = self.env.now
         reports, self._reports = self._reports, []
         if len(reports) > 1:
             reports.sort(key=_order)
@@ -90,36 +94,52 @@ class Floor:
 
     def log_job(self, job: Job) -> None:
         """Write the state the job was in until now, where it lasted."""
-        now = self.env.now
         if job.performance is not None:
-            self._log_performance(job, job.performance, now)
-        elif now > job.since_s:
-            place = -1 if job.station is None else job.station.rank
-            self._log(job.kind, job.since_s, now, -1, place, job, cause=job.cause)
-
-    def _log_performance(self, job: Job, done: Performance, now: float) -> None:
-        worker, task, number, k, start_s, duration_s = done
-        if now > start_s:
-            station: Station = job.station  # type: ignore[assignment]
-            progress = 1.0 if now == start_s + duration_s else (now - start_s) / duration_s
-            self._log(WORK, start_s, now, worker, station.rank, job, task, number, k, 0.0, progress, 0.0)
-
-    def _log(self, kind: int, start_s: float, end_s: float, worker: int, station: int, job: Job, *more, **named):
-        source, number, product, operation = 0, job.number, job.product, job.operation_rank
-        self.log.append(
-            row(kind, start_s, end_s, worker, station, -1, -1, source, number, product, operation, *more, **named)
-        )
+            self._log_performance(job, job.performance)
+        elif self.now > job.since_s:
+            station = -1 if job.station is None else job.station.rank
+            self._log(job.kind, job.since_s, -1, station, job, cause=job.cause)
 
     def job_now(self, job: Job, kind: int, cause: int = 0) -> None:
         """The job changes its state: the old one is written, the new one begins."""
         self.log_job(job)
         job.performance = None
-        job.kind, job.cause, job.since_s = kind, cause, self.env.now
+        job.kind, job.cause, job.since_s = kind, cause, self.now
 
     def log_instant(self, kind: int, job: Job, cause: int = 0) -> None:
         """Write something that happened to a job at once."""
-        now = self.env.now
-        self._log(kind, now, now, -1, -1, job, cause=cause)
+        self._log(kind, self.now, -1, -1, job, cause=cause)
+
+    def _log_performance(self, job: Job, done: Performance) -> None:
+        worker, task, number, k, start_s, duration_s = done
+        spent_s = self.now - start_s
+        if spent_s > 0:
+            station: Station = job.station  # type: ignore[assignment]
+            progress = 1.0 if spent_s == duration_s else spent_s / duration_s
+            self._log(WORK, start_s, worker, station.rank, job, task, number, k, 0.0, progress, 0.0)
+
+    def _log(
+        self,
+        kind: int,
+        start_s: float,
+        worker: int,
+        station: int,
+        job: Job,
+        task: int = -1,
+        performance_id: int = -1,
+        k: int = -1,
+        progress_from: float = nan,
+        progress_to: float = nan,
+        pace_shift: float = nan,
+        cause: int = 0,
+    ) -> None:
+        # NOTE: the tuple of ``opsim.log.row`` written out, because it is made two or three times an operation.
+        self.log.append(
+            (
+                *(kind, start_s, self.now, worker, station, -1, -1, 0, job.number, job.product, job.operation_rank),
+                *(task, performance_id, k, progress_from, progress_to, pace_shift, cause),
+            )
+        )
 
 
 def _gates(plan: Plan, stations: list[Station]) -> dict[tuple[int, ...], Gate]:

@@ -15,8 +15,9 @@ def create(floor: Floor) -> Job:
     number = floor.n_released
     product = floor.draws.product(number)
     operation = floor.plan.products[product].route[0]
-    job = Job(number, product, operation, floor.operation_rank[operation.name], HELD, GATE, floor.env.now)
+    job = Job(number, product, operation, floor.operation_rank[operation.name], HELD, GATE, floor.now)
     floor.n_released += 1
+    floor.next_gate = None
     floor.jobs[number] = job
     floor.log_instant(CREATE, job)
     want_in(floor, job)
@@ -43,28 +44,22 @@ def operation_done(floor: Floor, job: Job) -> None:
     want_in(floor, job)
 
 
-def admit(floor: Floor) -> bool:
-    """Let jobs in as long as a claim meets room; the oldest claim first. True where anything moved."""
-    moved = False
-    while (gate := _first_gate_with_room(floor)) is not None:
+def admit(floor: Floor) -> None:
+    """Let jobs in as long as a claim meets room; the oldest claim first."""
+    while floor.stirred and (gate := _first_gate_with_room(floor)) is not None:
         _since_s, _number, job = gate.claims.pop(0)
         _enter(floor, job, gate)
-        moved = True
-    return moved
 
 
-def release_saturated(floor: Floor) -> bool:
+def release_saturated(floor: Floor) -> None:
     """A saturated source makes jobs as long as the first station of the next one has room."""
-    made = False
     while _next_has_room(floor):
         create(floor)
         admit(floor)
-        made = True
-    return made
 
 
 def turn_away(floor: Floor) -> None:
-    """Jobs still at the gate are lost where the source does not wait."""
+    """Jobs still outside are lost where the source does not wait."""
     for gate in floor.gates.values():
         lost = [claim for claim in gate.claims if claim[2].station is None]
         for claim in lost:
@@ -83,19 +78,18 @@ def _first_gate_with_room(floor: Floor) -> Gate | None:
 
 
 def _next_has_room(floor: Floor) -> bool:
-    operation = floor.plan.products[floor.draws.product(floor.n_released)].route[0]
-    gate = floor.gates[operation.stations]
+    gate = floor.next_gate
+    if gate is None:
+        product = floor.plan.products[floor.draws.product(floor.n_released)]
+        gate = floor.next_gate = floor.gates[product.route[0].stations]
     return not gate.claims and any(station.has_room for station in gate.stations)
 
 
 def _enter(floor: Floor, job: Job, gate: Gate) -> None:
-    open_stations = [station for station in gate.stations if station.has_room]
-    station = min(open_stations, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
-    if job.station is not None:
-        floor.log_job(job)
-        _leave_station(floor, job)
-        job.since_s = floor.env.now
+    station = _chosen(gate)
     floor.job_now(job, QUEUE)
+    if job.station is not None:
+        _leave_station(floor, job)
     job.operation_rank = floor.operation_rank[job.operation.name]
     job.station = station
     station.n_inside += 1
@@ -103,6 +97,13 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
         seat(floor, station, job)
     else:
         station.queue.append(job)
+
+
+def _chosen(gate: Gate) -> Station:
+    if len(gate.stations) == 1:
+        return gate.stations[0]
+    open_stations = [station for station in gate.stations if station.has_room]
+    return min(open_stations, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
 
 
 def _leave_station(floor: Floor, job: Job) -> None:

@@ -13,19 +13,15 @@ class EndlessInstant(RuntimeError):
 
 def dispatch(floor: Floor) -> None:
     """Move jobs, then send workers, until nothing changes."""
+    release = floor.plan.release
     for _ in range(MOST_ROUNDS):
-        if not _round(floor):
+        admit(floor)
+        if release.kind == "saturated":
+            release_saturated(floor)
+        elif release.when_full == "lose":
+            turn_away(floor)
+        send_workers(floor)
+        if not floor.stirred:
             return
-    names = ", ".join(station.plan.name for station in floor.calling.values())
-    raise EndlessInstant(
-        f"t = {floor.env.now} s: more than {MOST_ROUNDS} rounds in one instant; still calling: {names}"
-    )
-
-
-def _round(floor: Floor) -> bool:
-    changed = admit(floor)
-    if floor.plan.release.kind == "saturated":
-        changed |= release_saturated(floor)
-    if floor.plan.release.when_full == "lose":
-        turn_away(floor)
-    return send_workers(floor) or changed
+    names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)
+    raise EndlessInstant(f"t = {floor.now} s: over {MOST_ROUNDS} rounds in one instant; still moving at: {names}")

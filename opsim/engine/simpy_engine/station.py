@@ -25,7 +25,7 @@ def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
         _run_automatic(floor, station, job)
     elif worker is None:
         floor.job_now(job, HELD, NO_WORKER)
-        insort(station.calling, (floor.env.now, job.number, job))
+        insort(station.calling, (floor.now, job.number, job))
         floor.calling[station.rank] = station
     else:
         perform(floor, job, worker)
@@ -49,7 +49,7 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
     worker.next_k[task] = k + 1
     duration_s = on_grid(floor.draws.duration_s(task, worker.rank, k) / worker.plan.rating[station.rank])
     _begin(floor, job, worker.rank, task, k, duration_s)
-    worker.kind, worker.since_s = WORK, floor.env.now
+    worker.kind, worker.since_s = WORK, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)
 
 
@@ -66,5 +66,5 @@ def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
 
 def _begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
     floor.job_now(job, WORK)
-    job.performance = Performance(worker, task, floor.n_performances, k, floor.env.now, duration_s)
+    job.performance = Performance(worker, task, floor.n_performances, k, floor.now, duration_s)
     floor.n_performances += 1

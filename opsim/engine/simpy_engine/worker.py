@@ -35,14 +35,14 @@ def hold(floor: Floor, worker: Worker, job: Job) -> None:
 
 def log_worker(floor: Floor, worker: Worker) -> None:
     """Write the wait or the walk the worker was in until now; work is written with the job."""
-    now = floor.env.now
+    now = floor.now
     if now > worker.since_s and worker.kind in (WAIT, WALK):
         floor.log.append(_row(worker, now))
 
 
 def _wait(floor: Floor, worker: Worker, cause: int) -> None:
     log_worker(floor, worker)
-    worker.kind, worker.cause, worker.since_s = WAIT, cause, floor.env.now
+    worker.kind, worker.cause, worker.since_s = WAIT, cause, floor.now
 
 
 def _row(worker: Worker, now: float) -> tuple:
