@@ -35,8 +35,20 @@ def events_file(folder: Path, replication: int) -> Path:
     return folder / "events" / f"replication_{replication:05d}.parquet"
 
 
+MakePlan = Callable[[], Plan]
+"""Makes the Plan anew in each process: what it is made from is small, a Plan with its emulators is not.
+
+NOTE: a started process that dies before it has read its arguments blocks its parent for ever where they exceed a pipe's 64 kB.
+"""
+
+
 def replicate(
-    plan: Plan, replications: int, folder: Path, *, processes: int | None = None, progress: Progress | None = None
+    make_plan: MakePlan,
+    replications: int,
+    folder: Path,
+    *,
+    processes: int | None = None,
+    progress: Progress | None = None,
 ) -> list[Replicated]:
     """Run replications 0 .. n-1; each one's events file is whole as soon as it is there, and is not run again.
 
@@ -44,7 +56,7 @@ def replicate(
     Raises BrokenLog where a log contradicts itself. Ctrl-C keeps what is finished.
     """
     done: list[Replicated] = []
-    for result in _results(plan, replications, folder, processes):
+    for result in _results(make_plan, replications, folder, processes):
         done.append(result)
         if progress is not None:
             progress(len(done), replications)
@@ -68,7 +80,8 @@ def run_one(plan: Plan, replication: int, folder: Path) -> Replicated:
     return Replicated(replication, figures(log, plan), kept)
 
 
-def _results(plan: Plan, replications: int, folder: Path, processes: int | None) -> Iterator[Replicated]:
+def _results(make_plan: MakePlan, replications: int, folder: Path, processes: int | None) -> Iterator[Replicated]:
+    plan = make_plan()
     left = list(range(replications))
     if processes is None:
         started = time.perf_counter()
@@ -80,7 +93,9 @@ def _results(plan: Plan, replications: int, folder: Path, processes: int | None)
             yield run_one(plan, replication, folder)
         return
     context = get_context("spawn")  # a fork would copy the locks of whatever threads run by then
-    with ProcessPoolExecutor(min(processes, len(left)), context, initializer=_keep, initargs=(plan, folder)) as pool:
+    with ProcessPoolExecutor(
+        min(processes, len(left)), context, initializer=_keep, initargs=(make_plan, folder)
+    ) as pool:
         yield from _pooled(pool, left)
 
 
@@ -97,8 +112,8 @@ def _pooled(pool: Executor, replications: list[int]) -> Iterator[Replicated]:
 _kept: dict[str, tuple[Plan, Path]] = {}
 
 
-def _keep(plan: Plan, folder: Path) -> None:
-    _kept["task"] = plan, folder
+def _keep(make_plan: MakePlan, folder: Path) -> None:
+    _kept["task"] = make_plan(), folder
 
 
 def _run_kept(replication: int) -> Replicated:

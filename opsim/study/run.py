@@ -1,5 +1,6 @@
 """One variant of a scenario, from what was read to a results folder."""
 
+from functools import partial
 from pathlib import Path
 
 from opsim.plan import compile_plan
@@ -25,10 +26,11 @@ def run_scenario(
     from opsim.study.summary import summary_of, write_kpis
     from opsim.whole import write_json
 
-    plan = compile_plan(loaded, seed=seed)
+    make_plan = partial(compile_plan, loaded, seed=seed)
+    plan = make_plan()
     n = loaded.scenario.run.replications if replications is None else replications
     open_folder(folder, loaded, manifest_of(loaded, plan))
-    done = replicate(plan, n, folder, processes=processes, progress=progress)
+    done = replicate(make_plan, n, folder, processes=processes, progress=progress)
     write_kpis(done, folder / "kpis.parquet")
     write_json(folder / "summary.json", summary_of(loaded, plan, done))
     return Result.load(folder)

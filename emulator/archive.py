@@ -1,0 +1,95 @@
+"""The file of a library: arrays and a JSON header in one .npz, no pickles; the same content gives the same bytes."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+FORMAT = "opsim motion library"
+VERSION = 1
+MAX_BYTES = 512 * 2**20
+MAX_HEADER_BYTES = 4 * 2**20
+MAX_ARRAYS = 20_000
+
+
+class LibraryError(ValueError):
+    """A motion library that cannot be read or used; the message names the file and what is wrong with it."""
+
+
+def write_archive(path: Path, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
+    """Write header and arrays, under a temporary name first, so that no half file is ever left."""
+    text = json.dumps({"format": FORMAT, "version": VERSION} | header, indent=1, ensure_ascii=False, allow_nan=False)
+    members = {"header": np.frombuffer(text.encode(), dtype=np.uint8)} | arrays
+    part = path.with_name(path.name + ".part")
+    with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as file:
+        for name, array in members.items():
+            stream = io.BytesIO()
+            np.lib.format.write_array(stream, np.ascontiguousarray(array), allow_pickle=False)
+            # a fixed date: the time of writing would change the hash of an unchanged library
+            entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            file.writestr(entry, stream.getvalue())
+    part.replace(path)
+
+
+def read_header(path: str | Path) -> dict[str, Any]:
+    """The JSON header of a library, without reading any array. Raises LibraryError."""
+    with _opened(Path(path)) as file:
+        return _header(Path(path), file)
+
+
+def read_archive(path: Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Header and all arrays. Raises LibraryError for what is no library, too new, broken, too large or not finite."""
+    with _opened(path) as file:
+        header = _header(path, file)
+        names = [entry.filename for entry in file.infolist() if entry.filename != "header.npy"]
+        arrays = {name.removesuffix(".npy"): _array(path, file, name) for name in names}
+    return header, arrays
+
+
+def _opened(path: Path) -> zipfile.ZipFile:
+    try:
+        file = zipfile.ZipFile(path)
+    except FileNotFoundError:
+        raise LibraryError(f"{path}: no such file") from None
+    except (OSError, zipfile.BadZipFile, ValueError) as why:
+        raise LibraryError(f"{path}: not a motion library ({why})") from None
+    entries = file.infolist()
+    if sum(entry.file_size for entry in entries) > MAX_BYTES or len(entries) > MAX_ARRAYS:
+        file.close()
+        raise LibraryError(f"{path}: larger than a motion library may be ({MAX_BYTES // 2**20} MB)")
+    return file
+
+
+def _header(path: Path, file: zipfile.ZipFile) -> dict[str, Any]:
+    try:
+        if file.getinfo("header.npy").file_size > MAX_HEADER_BYTES:
+            raise LibraryError(f"{path}: its header is too large")
+        header = json.loads(_array(path, file, "header.npy").tobytes().decode())
+    except KeyError:
+        raise LibraryError(f"{path}: not a motion library (no header; recordings need `opsim motion fit`)") from None
+    except (ValueError, RecursionError) as why:
+        raise why if isinstance(why, LibraryError) else LibraryError(f"{path}: its header cannot be read") from None
+    if not isinstance(header, dict) or header.get("format") != FORMAT:
+        raise LibraryError(f"{path}: not a motion library (its header says something else)")
+    if header.get("version") != VERSION:
+        raise LibraryError(f"{path}: library version {header.get('version')!r}; this opsim reads version {VERSION}")
+    return header
+
+
+def _array(path: Path, file: zipfile.ZipFile, name: str) -> np.ndarray:
+    try:
+        content = file.read(name)  # whole and checked against its CRC; its size was bounded above
+        array = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)
+    except KeyError:
+        raise
+    except Exception as why:  # zlib, zipfile, numpy and tokenizer errors of a damaged file are of many kinds
+        raise LibraryError(f"{path}: {name} is damaged ({why})") from None
+    if array.dtype.kind not in "fiu" or (array.dtype.kind == "f" and not np.all(np.isfinite(array))):
+        raise LibraryError(f"{path}: {name} holds something other than finite numbers")
+    return array

@@ -1,0 +1,197 @@
+"""What the made tasks look like: key postures at points of the common clock, moved by four latent numbers.
+
+Latents: 0 how far, high or deep; 1 sideways; 2 how much trunk; 3 how the other arm or the step goes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.kinematics import REST
+
+Fields = dict[str, np.ndarray]
+Keys = list[tuple[float, dict[str, object]]]
+
+
+@dataclass(frozen=True)
+class Choreography:
+    """A made task: its marks on the common clock, mean duration, coefficient of variation, and the postures.
+
+    ``keys(latent (4,), mark_clock (E,))`` gives key postures; what a key leaves out is at rest.
+    ``finish(pose, clock, latent, mark_clock)`` may add what keys cannot say (turning, stepping).
+    """
+
+    mark_names: tuple[str, ...]
+    mark_clock: tuple[float, ...]
+    mean_s: float
+    cv: float
+    keys: Callable[[np.ndarray, np.ndarray], Keys]
+    finish: Callable[..., dict[str, np.ndarray]] | None = None
+
+
+def pose_at(task: Choreography, clock: np.ndarray, latent: np.ndarray, mark_clock: np.ndarray) -> dict[str, np.ndarray]:
+    """The fields of ``REST`` at each clock time (T,): a dictionary of (T, 3) or (T, 1)."""
+    from scipy.interpolate import PchipInterpolator
+
+    keys = task.keys(latent, mark_clock)
+    times = [at for at, _ in keys]
+    pose = {}
+    for name, rest in REST.items():
+        values = [np.broadcast_to(np.asarray(key.get(name, rest), float), rest.shape) for _, key in keys]
+        pose[name] = PchipInterpolator(times, np.stack(values))(clock)
+    return task.finish(pose, clock, latent, mark_clock) if task.finish else pose
+
+
+def _reach(a: np.ndarray, mark: np.ndarray) -> Keys:
+    far: dict[str, object] = {
+        "right_wrist": (0.50 + 0.05 * a[0], -0.14 - 0.05 * a[1], 1.22 + 0.09 * a[0]),
+        "pitch": 0.14 + 0.05 * a[2], "twist": 0.20 + 0.05 * a[1], "left_wrist": (0.05 - 0.02 * a[3], 0.27, 0.86),
+    }  # fmt: skip
+    return [(0.0, {}), (mark[0], far), (1.0, {})]
+
+
+_HOLD: dict[str, object] = {
+    "right_wrist": (0.30, -0.13, 1.10), "left_wrist": (0.28, 0.13, 1.08), "nod": 0.25,
+}  # fmt: skip
+
+
+def _pick(a: np.ndarray, mark: np.ndarray) -> Keys:
+    low: dict[str, object] = {
+        "right_wrist": (0.48 + 0.03 * a[2], -0.30 - 0.06 * a[1], 0.78 - 0.07 * a[0]), "pitch": 0.50 + 0.08 * a[0],
+        "twist": -0.08 - 0.06 * a[1], "nod": 0.25, "left_wrist": (0.22, 0.26, 0.84 + 0.03 * a[3]),
+        "pelvis": (-0.05 - 0.01 * a[0], 0.0, 0.945),
+    }  # fmt: skip
+    return [(0.0, {}), (mark[0], low), (1.0, _HOLD)]
+
+
+def _place(a: np.ndarray, mark: np.ndarray) -> Keys:
+    out: dict[str, object] = {
+        "right_wrist": (0.54 + 0.04 * a[0], -0.04 - 0.07 * a[1], 1.02 + 0.06 * a[0]), "pitch": 0.24 + 0.06 * a[2],
+        "twist": 0.18 + 0.05 * a[1], "nod": 0.22, "left_wrist": (0.20, 0.24, 0.95 + 0.04 * a[3]),
+    }  # fmt: skip
+    return [(0.0, _HOLD), (mark[0], out), (1.0, {})]
+
+
+def _fasten(a: np.ndarray, mark: np.ndarray) -> Keys:
+    at: dict[str, object] = {
+        "right_wrist": (0.40, -0.06 - 0.03 * a[1], 1.12 + 0.06 * a[0]), "left_wrist": (0.38, 0.12, 1.08 + 0.06 * a[0]),
+        "pitch": 0.18 + 0.05 * a[2], "nod": 0.35,
+    }  # fmt: skip
+    return [(0.0, {}), (mark[0], at), (mark[1], at), (1.0, {})]
+
+
+def _turn_tool(
+    pose: dict[str, np.ndarray], clock: np.ndarray, a: np.ndarray, mark: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Three turns of the right wrist between the marks, in the plane of the work, 5 cm wide."""
+    share = np.clip((clock - mark[0]) / (mark[1] - mark[0]), 0.0, 1.0)
+    radius = (0.05 + 0.008 * a[3]) * np.sin(np.pi * share) ** 0.5
+    turned = np.stack([0 * share, radius * np.cos(6 * np.pi * share), radius * np.sin(6 * np.pi * share)], axis=-1)
+    return pose | {"right_wrist": pose["right_wrist"] + turned}
+
+
+def _inspect(a: np.ndarray, mark: np.ndarray) -> Keys:
+    up: dict[str, object] = {
+        "right_wrist": (0.33, -0.12, 1.24 + 0.05 * a[0]), "left_wrist": (0.33, 0.12, 1.24 + 0.05 * a[0]),
+        "nod": 0.35 + 0.05 * a[2], "pitch": 0.06,
+    }  # fmt: skip
+    left = up | {
+        "right_wrist": (0.36, -0.03, 1.33 + 0.05 * a[0]),
+        "left_wrist": (0.28, 0.18, 1.16),
+        "look": 0.15 + 0.05 * a[1],
+    }
+    right = up | {"right_wrist": (0.28, -0.18, 1.16), "left_wrist": (0.36, 0.03, 1.33 + 0.05 * a[3]), "look": -0.15}
+    return [(0.0, {}), (mark[0], up), (0.5 * (mark[0] + mark[1]), left), (mark[1], right), (1.0, {})]
+
+
+def _lift(a: np.ndarray, mark: np.ndarray) -> Keys:
+    low: dict[str, object] = {
+        "pelvis": (-0.20, 0.0, 0.56 - 0.04 * a[0]), "pitch": 0.85 + 0.08 * a[2], "nod": -0.20,
+        "right_wrist": (0.34, -0.16 - 0.02 * a[1], 0.30 - 0.03 * a[0]),
+        "left_wrist": (0.34, 0.16 - 0.02 * a[1], 0.30 - 0.03 * a[0]),
+    }  # fmt: skip
+    up: dict[str, object] = {
+        "right_wrist": (0.42, -0.16, 1.02 + 0.04 * a[3]), "left_wrist": (0.42, 0.16, 1.02 + 0.04 * a[3]),
+        "pitch": 0.12, "nod": 0.22,
+    }  # fmt: skip
+    return [(0.0, {}), (mark[0], low), (mark[1], up), (1.0, {})]
+
+
+def _stand(a: np.ndarray, mark: np.ndarray) -> Keys:
+    return [(0.0, {}), (1.0, {})]
+
+
+def _hold_load(a: np.ndarray, mark: np.ndarray) -> Keys:
+    held: dict[str, object] = {
+        "right_wrist": (0.34, -0.16, 1.06 + 0.04 * a[0]), "left_wrist": (0.34, 0.16, 1.06 + 0.04 * a[0]),
+        "pitch": -0.02 + 0.03 * a[2], "nod": 0.15,
+    }  # fmt: skip
+    return [(0.0, held), (1.0, held)]
+
+
+def stepping(n_steps: int, swings_arms: bool) -> Callable[..., dict[str, np.ndarray]]:
+    """Walking straight ahead in ``n_steps``: a planted foot does not move, a swinging one flies over it."""
+
+    def finish(
+        pose: dict[str, np.ndarray], clock: np.ndarray, a: np.ndarray, mark: np.ndarray
+    ) -> dict[str, np.ndarray]:
+        step_m = 0.58 + 0.03 * a[0] + 0.02 * a[3]
+        # a fixed ramp of the phase, so that walking starts and stops softly
+        phase = n_steps * (clock - 0.12 * np.sin(2 * np.pi * clock) / (2 * np.pi))
+        ahead = _pelvis_ahead(phase, n_steps) * step_m
+        feet = {side: _foot(phase, n_steps, first, step_m) for side, first in (("left", 0), ("right", 1))}
+        walked = {name: value.copy() for name, value in pose.items()}
+        gait = np.sin(np.pi * phase) * np.clip(np.minimum(phase, n_steps - phase), 0, 1)
+        swing = np.clip((feet["left"][0] - feet["right"][0]) / (2 * step_m), -1, 1)
+        walked["pelvis"][:, 0] += ahead
+        walked["pelvis"][:, 1] += 0.02 * np.sin(np.pi * phase) * (1 + 0.3 * a[1])
+        walked["pelvis"][:, 2] -= 0.012 + 0.03 * swing**2 / 0.25 - 0.008 * np.abs(gait)
+        walked["twist"][:, 0] += -0.12 * swing
+        for side, sign in (("left", 1.0), ("right", -1.0)):
+            along, height, pitch = feet[side]
+            walked[f"{side}_ankle"][:, 0] += along
+            walked[f"{side}_ankle"][:, 2] += height
+            walked[f"{side}_toe"][:, 0] += pitch
+            walked[f"{side}_wrist"][:, 0] += ahead - (sign * 0.42 * swing if swings_arms else 0.0)
+            walked[f"{side}_wrist"][:, 2] += 0.12 * swing**2 if swings_arms else 0.0
+        return walked
+
+    return finish
+
+
+def _foot(phase: np.ndarray, n_steps: int, first: int, step_m: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Ankle along the way, height above standing, toe pitch of the foot that swings in steps first, first + 2, ..."""
+    along, height, pitch = np.zeros_like(phase), np.zeros_like(phase), np.zeros_like(phase)
+    here = 0.0
+    for step in range(first, n_steps, 2):
+        there = min(step + 1, n_steps - 1) * step_m
+        u = np.clip((phase - step - 0.06) / 0.88, 0.0, 1.0)
+        along += (there - here) * u**3 * (10 - 15 * u + 6 * u**2)
+        height += 0.09 * np.sin(np.pi * u) ** 2
+        pitch += 0.55 * np.sin(np.pi * u) ** 2 * np.cos(np.pi * np.clip(u * 1.1, 0, 1))
+        here = there
+    return along, height, pitch
+
+
+def _pelvis_ahead(phase: np.ndarray, n_steps: int) -> np.ndarray:
+    """Steps that the pelvis has gone: between the feet at every change of the swinging foot, at rest at both ends."""
+    from scipy.interpolate import PchipInterpolator
+
+    at = np.arange(n_steps + 1.0)
+    gone = np.concatenate([[0.0], at[1:-1] - 0.5, [n_steps - 1.0]])
+    return PchipInterpolator(at, gone)(np.clip(phase, 0, n_steps))
+
+
+TASKS = {
+    "reach": Choreography(("touch",), (0.45,), 1.6, 0.20, _reach),
+    "pick": Choreography(("grasp",), (0.48,), 2.0, 0.22, _pick),
+    "place": Choreography(("release",), (0.55,), 2.1, 0.22, _place),
+    "fasten": Choreography(("start", "stop"), (0.20, 0.82), 6.5, 0.25, _fasten, _turn_tool),
+    "inspect": Choreography(("raised", "turned"), (0.25, 0.75), 4.5, 0.28, _inspect),
+    "lift": Choreography(("grasp", "set_down"), (0.40, 0.84), 3.4, 0.20, _lift),
+    "carry": Choreography(("halfway",), (0.50,), 4.2, 0.15, _hold_load, stepping(6, False)),
+    "walk": Choreography(("halfway",), (0.50,), 3.8, 0.12, _stand, stepping(6, True)),
+}

@@ -1,0 +1,85 @@
+"""The multivariate Gaussian (MVG) of few sequences and many coefficients, held by its factor, never by its inverse."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class LowRankNormal:
+    """x = mean + sqrt(1 - rho) factor' xi + sqrt(rho) spread * eta, with xi (R,) and eta (K,) standard normal.
+
+    mean   : (K,)
+    factor : (R, K); factor' factor is the covariance of the training scores, of rank at most R
+    spread : (K,) standard deviations, those of the factor, so that rho moves correlations and no variance
+    rho    : share given to independent coefficients, in [0, 1]
+    No Cholesky: with fewer sequences than coefficients the covariance is singular and its factor is the data itself.
+    Source: Chen, Park & Srivastava sec. 4.3.1 (MVG; rho = 1 is IG), with rho as named shrinkage of correlations.
+    """
+
+    mean: np.ndarray
+    factor: np.ndarray
+    spread: np.ndarray
+    rho: float
+
+    @classmethod
+    def fit(cls, scores: np.ndarray, rho: float = 0.1) -> LowRankNormal:
+        """Mean and covariance of scores (N, K), N >= 2."""
+        if len(scores) < 2:
+            raise ValueError(f"a Gaussian needs at least 2 sequences, found {len(scores)}")
+        mean = scores.mean(axis=0)
+        return cls.of_rows(mean, (scores - mean) / np.sqrt(len(scores) - 1), rho)
+
+    @classmethod
+    def of_rows(cls, mean: np.ndarray, rows: np.ndarray, rho: float) -> LowRankNormal:
+        """The Gaussian with covariance rows' rows (N, K), its factor compressed to min(N, K) rows."""
+        if not 0 <= rho <= 1:
+            raise ValueError(f"rho: found {rho}, expected a share from 0 to 1")
+        return cls(mean, compressed(rows), np.linalg.norm(rows, axis=0), float(rho))
+
+    @property
+    def n_draws(self) -> int:
+        """Standard normal numbers that one item takes."""
+        return len(self.factor) + len(self.mean)
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(K, K)."""
+        return (1 - self.rho) * self.factor.T @ self.factor + self.rho * np.diag(self.spread**2)
+
+    def covariance_with(self, index: int) -> np.ndarray:
+        """(K,) covariance of every coefficient with coefficient ``index``."""
+        column = (1 - self.rho) * self.factor.T @ self.factor[:, index]
+        column[index] += self.rho * self.spread[index] ** 2
+        return column
+
+    def sample(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        """n draws (n, K); first xi (n, R), then eta (n, K)."""
+        xi = rng.standard_normal((n, len(self.factor)))
+        eta = rng.standard_normal((n, len(self.mean)))
+        return self.mean + np.sqrt(1 - self.rho) * (xi @ self.factor) + np.sqrt(self.rho) * self.spread * eta
+
+    def log_likelihood(self, scores: np.ndarray) -> np.ndarray:
+        """Log density (...,) of scores (..., K) in the subspace where this Gaussian lives.
+
+        That subspace is the span of the covariance: all K where rho > 0, the rows of the factor where rho = 0.
+        Source: Chen, Park & Srivastava eq. 7, with its sign slip mended and the singular directions left out.
+        """
+        values, vectors = np.linalg.eigh(self.covariance)
+        kept = values > values[-1] * 1e-10
+        coordinates = (scores - self.mean) @ vectors[:, kept]
+        quadratic = np.sum(coordinates**2 / values[kept], axis=-1)
+        return -0.5 * (quadratic + np.sum(np.log(2 * np.pi * values[kept])))
+
+
+def compressed(rows: np.ndarray) -> np.ndarray:
+    """A factor (R, K) with the same rows' rows and R the numerical rank, at most min(N, K)."""
+    _, values, vectors = np.linalg.svd(rows, full_matrices=False)
+    kept = values > (values[0] * 1e-10 if len(values) and values[0] > 0 else np.inf)
+    vectors = vectors[kept]
+    if len(vectors):
+        largest = np.take_along_axis(vectors, np.abs(vectors).argmax(axis=1)[:, None], axis=1)
+        vectors = vectors * np.where(largest < 0, -1.0, 1.0)
+    return values[kept][:, None] * vectors

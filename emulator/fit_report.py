@@ -1,0 +1,74 @@
+"""What a fit found, in numbers that a user reads before he trusts it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class FitReport:
+    """Figures of one fitted task; durations of the recordings, ICC of log duration with its 95 % interval.
+
+    explained_variance : share of the posture variance that the posture components carry
+    reconstruction_deg : mean angle of a bone when repetitions not used for the components are projected on them
+                         (five folds; registration and reference are those of all)
+    roughness_ratio    : mean second difference of posture in own time, emulated over recorded
+    novelty_ratio      : median distance of an emulated performance to the nearest recorded one (joint scores), over
+                         that among recorded ones; near 0 is a copy
+    """
+
+    task: str
+    scheme: str
+    n_sequences: int
+    n_workers: int
+    n_components: int
+    n_coordinates: int
+    explained_variance: float
+    duration_mean_s: float
+    duration_cv: float
+    duration_margin: str
+    icc: float
+    icc_low: float
+    icc_high: float
+    reconstruction_deg: float
+    roughness_ratio: float
+    novelty_ratio: float
+    mark_names: tuple[str, ...]
+    source: str
+    licence: str
+    where: str
+    command: str
+    methods: dict[str, str]
+    notes: tuple[str, ...] = ()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Label and text of each figure, in the order to print them."""
+        icc = "not estimable" if math.isnan(self.icc) else f"{self.icc:.2f} ({self.icc_low:.2f} to {self.icc_high:.2f})"
+        return [
+            ("sequences", f"{self.n_sequences} of {self.n_workers} workers, {self.where}"),
+            ("components", f"{self.n_components} of posture, {self.n_coordinates} jointly"),
+            ("explained variance", f"{100 * self.explained_variance:.1f} %"),
+            ("reconstruction, held out", f"{self.reconstruction_deg:.2f} deg a bone"),
+            ("duration", f"{self.duration_mean_s:.3f} s, CV {self.duration_cv:.3f}, {self.duration_margin}"),
+            ("ICC of log duration", icc),
+            ("roughness, emulated / recorded", f"{self.roughness_ratio:.2f}"),
+            ("novelty, emulated / recorded", f"{self.novelty_ratio:.2f}"),
+        ]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain JSON values; a number that could not be estimated is None."""
+        plain = asdict(self)
+        return {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in plain.items()}
+
+    @classmethod
+    def of_dict(cls, plain: dict[str, Any]) -> FitReport:
+        """The way back from ``as_dict``. Raises KeyError, TypeError or ValueError for what is no report."""
+        values: dict[str, Any] = dict(plain)
+        for name, kind in cls.__annotations__.items():
+            if kind == "float":
+                values[name] = math.nan if values[name] is None else float(values[name])
+            elif kind == "tuple[str, ...]":
+                values[name] = tuple(str(item) for item in values[name])
+        return cls(**values)

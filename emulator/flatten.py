@@ -1,0 +1,46 @@
+"""Flattening: posture sequences on a product of spheres <-> sequences in one flat space, forward and back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator import sphere
+
+
+@dataclass(frozen=True)
+class SIEM:
+    """Single inverse exponential map: every posture to the tangent space of one reference posture.
+
+    reference : (B, 3) unit vectors; the element-wise Karcher mean of all training postures, so that no posture
+    comes near the opposite point, where the map has no inverse.
+    Source: Chen, Park & Srivastava, definition 3.
+    """
+
+    reference: np.ndarray
+
+    @classmethod
+    def fit(cls, directions: np.ndarray) -> SIEM:
+        """The map at the mean posture of directions (..., B, 3)."""
+        return cls(sphere.mean(directions.reshape(-1, *directions.shape[-2:]), axis=0))
+
+    @property
+    def n_channels(self) -> int:
+        """Coordinates of a posture: two a bone."""
+        return 2 * len(self.reference)
+
+    def forward(self, directions: np.ndarray) -> np.ndarray:
+        """Directions (..., B, 3) -> tangent coordinates (..., 2B), radians.
+
+        Raises ValueError where a bone points opposite to its reference.
+        """
+        tangent = sphere.log(np.broadcast_to(self.reference, directions.shape), directions)
+        plane = sphere.basis(self.reference)
+        return np.einsum("...bc,bkc->...bk", tangent, plane).reshape(*directions.shape[:-2], self.n_channels)
+
+    def inverse(self, coordinates: np.ndarray) -> np.ndarray:
+        """Tangent coordinates (..., 2B) -> directions (..., B, 3)."""
+        pairs = coordinates.reshape(*coordinates.shape[:-1], len(self.reference), 2)
+        tangent = np.einsum("...bk,bkc->...bc", pairs, sphere.basis(self.reference))
+        return sphere.exp(np.broadcast_to(self.reference, tangent.shape), tangent)

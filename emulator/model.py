@@ -1,0 +1,215 @@
+"""MotionEmulator: one joint model of posture, pace and duration of a task, fitted to recordings, sampled backwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from emulator.fit_report import FitReport
+from emulator.flatten import SIEM
+from emulator.joint import JointScale
+from emulator.margin import Margin, inverse_all
+from emulator.marks import coordinates_to_clock
+from emulator.motion import MotionSet
+from emulator.performances import MotionPerformances
+from emulator.reduce import JointPCA
+from emulator.root import RootChannel
+from emulator.skeleton import Skeleton
+from emulator.warp import evaluate, from_clr
+from emulator.workforce import WorkerEffect, Workforce
+
+SCHEME = "SIEM/JointPCA/MVG"
+CONDITIONS = ("duration_s", "log_duration_shift")
+_CROWN_AND_SOLE_M = 0.20
+"""Ankle above the floor and crown above the head joint, in a body whose height is asked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionEmulator:
+    """A task's model: the steps from recordings to joint coordinates z, each with its way back, and the Gaussians of z.
+
+    posture, root, pace, bones : JointPCA of tangent postures (T * 2B), side channel (T * 4), pace (Q), log bones (B)
+    margin, mark_margins : of log duration, and of each mark's coordinate
+    """
+
+    task: str
+    skeleton: Skeleton
+    mark_names: tuple[str, ...]
+    n_times: int
+    flatten: SIEM
+    posture: JointPCA
+    root: JointPCA
+    pace: JointPCA
+    bones: JointPCA
+    margin: Margin
+    mark_margins: tuple[Margin, ...]
+    scale: JointScale
+    workforce: Workforce
+    report: FitReport
+
+    @classmethod
+    def fit(
+        cls,
+        motions: MotionSet,
+        *,
+        scheme: str = SCHEME,
+        n_components: int | float | None = None,
+        n_times: int = 101,
+        n_knots: int = 20,
+        progress: Callable[[int, int, str], None] | None = None,
+        seed: int = 0,
+        command: str = "",
+    ) -> MotionEmulator:
+        """Align, flatten, reduce and model the repetitions of one task.
+
+        n_components : posture components: a number, a share of variance in (0, 1), or None for 0.98
+        n_times      : points of the common clock; n_knots : cells of the pace, 2 to n_times - 1
+        progress     : called with (done, total, label); seed decides nothing but the figures of the report
+        Raises ValueError for an unknown scheme, fewer than three repetitions, or settings out of range.
+        """
+        from emulator.fitting import fit
+
+        return fit(motions, scheme, n_components, n_times, n_knots, progress, seed, command)
+
+    def sample(
+        self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
+    ) -> MotionPerformances:
+        """n performances in one joint draw: within-worker numbers first, then (worker=None) the between-worker ones.
+
+        worker    : an effect of ``draw_worker`` or ``known_worker``, a known worker's name, or None: each performance
+                    by another worker of the population
+        condition : None, or {"duration_s": x} (number or (n,)): Gaussian conditional of z given the duration;
+                    {"log_duration_shift": d}: the same noise, log duration moved by d, posture after it by regression
+        Raises ValueError for an unknown worker or condition.
+        """
+        effect = self._effect(worker)
+        z = self.workforce.within.sample(n, rng)
+        z = z + (effect.z if effect is not None else self.workforce.between.sample(n, rng))
+        if condition:
+            z = self._conditioned(z, effect, condition)
+        return self.performances(z, 1.0 if effect is None else effect.scale)
+
+    def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
+        """The performances with these joint coordinates (n, K): duration and marks at once, postures on demand."""
+        duration_s = np.exp(self.margin.inverse(self.scale.raw(scores, "duration")[:, 0]))
+        clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
+        mark_s = duration_s[:, None] * evaluate(self.warps(scores), clock)
+        return MotionPerformances(self, scores, duration_s, mark_s, np.broadcast_to(body_scale, duration_s.shape))
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        """Mean duration in seconds of the model: of a worker with this effect, or over the population."""
+        return self.margin.mean_duration_s(*self._duration_normal(self._effect(worker)))
+
+    def duration_cv(self, worker: Any = None) -> float:
+        """Coefficient of variation of the model's duration, of one worker or over the population."""
+        return self.margin.cv(*self._duration_normal(self._effect(worker)))
+
+    @property
+    def between_share(self) -> float:
+        """Share of the variance of the duration coordinate (log duration) that lies between workers."""
+        at = self.scale.block("duration").start
+        between, within = self.workforce.between.spread[at] ** 2, self.workforce.within.spread[at] ** 2
+        return float(between / (between + within)) if between + within > 0 else 0.0
+
+    @property
+    def workers(self) -> tuple[str, ...]:
+        """The workers seen in training."""
+        return self.workforce.names
+
+    def known_worker(self, name: str) -> WorkerEffect:
+        """The effect of a worker seen in training, shrunk by its reliability. Raises ValueError for an unknown name."""
+        if name not in self.workers:
+            near = get_close_matches(str(name), self.workers, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(self.workers)}"
+            raise ValueError(f"{self.task}: no worker {name!r}; {hint}")
+        return WorkerEffect(self.workforce.effects[self.workers.index(name)], name)
+
+    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> WorkerEffect | None:
+        """A worker of the population, or None if the recordings were of one person.
+
+        body : None, or something with ``height_m`` (attribute or key): bones are then scaled to that height, taken as
+               the chain ankle to head plus 0.20 m.
+        """
+        height_m = body.get("height_m") if isinstance(body, Mapping) else getattr(body, "height_m", None)
+        if not self.workforce.has_worker_effect and height_m is None:
+            return None
+        z = self.workforce.between.sample(1, rng)[0]
+        return WorkerEffect(z, "", 1.0 if height_m is None else (height_m - _CROWN_AND_SOLE_M) / self._chain_m(z))
+
+    def warps(self, scores: np.ndarray) -> np.ndarray:
+        """Own unit time on the common clock, (n, T), strictly increasing from 0 to 1."""
+        return from_clr(np.clip(self.pace.inverse(self.scale.raw(scores, "pace")), -8.0, 8.0), self.n_times)
+
+    def aligned_directions(self, scores: np.ndarray) -> np.ndarray:
+        """Postures on the common clock, (n, T, B, 3)."""
+        flat = self.posture.inverse(self.scale.raw(scores, "posture"))
+        return self.flatten.inverse(flat.reshape(len(scores), self.n_times, -1))
+
+    def root_channel(self, scores: np.ndarray) -> np.ndarray:
+        """Side channel of the root on the common clock, (n, T, 4)."""
+        return self.root.inverse(self.scale.raw(scores, "root")).reshape(len(scores), self.n_times, 4)
+
+    def bone_length_m(self, scores: np.ndarray) -> np.ndarray:
+        """(n, B) metres."""
+        return np.exp(self.bones.inverse(self.scale.raw(scores, "bones")))
+
+    @property
+    def channel(self) -> RootChannel:
+        return RootChannel(self.skeleton)
+
+    def save(self, path: str | Path) -> None:
+        """Write a library of this one task."""
+        from emulator.library import MotionLibrary
+
+        MotionLibrary.of(self).save(path)
+
+    @staticmethod
+    def load(path: str | Path) -> MotionEmulator:
+        """Read the one task of a library. Raises LibraryError for a broken file or one with several tasks."""
+        from emulator.library import MotionLibrary
+
+        return MotionLibrary.load(path).only()
+
+    def _effect(self, worker: Any) -> WorkerEffect | None:
+        effect = self.known_worker(worker) if isinstance(worker, str) else worker
+        if effect is not None and np.shape(getattr(effect, "z", 0.0)) != self.scale.centre.shape:
+            raise ValueError(f"{self.task}: this worker's effect was not drawn from this emulator")
+        return effect
+
+    def _duration_normal(self, effect: WorkerEffect | None) -> tuple[float, float]:
+        """Mean and standard deviation of the margin's coordinate."""
+        at = self.scale.block("duration").start
+        between, within = self.workforce.between, self.workforce.within
+        mean = between.mean[at] if effect is None else effect.z[at]
+        variance = within.spread[at] ** 2 + (between.spread[at] ** 2 if effect is None else 0.0)
+        spread = self.scale.spread[at]
+        return float(self.scale.centre[at] + spread * mean), float(spread * np.sqrt(variance))
+
+    def _conditioned(self, z: np.ndarray, effect: WorkerEffect | None, condition: Mapping[str, Any]) -> np.ndarray:
+        """z moved along its regression on the duration coordinate, noise kept (Matheron's rule)."""
+        for name in condition:
+            if name not in CONDITIONS:
+                raise ValueError(f"condition: no {name!r}; known: {', '.join(CONDITIONS)}")
+        at = self.scale.block("duration").start
+        column = self.workforce.within.covariance_with(at)
+        if effect is None:
+            column = column + self.workforce.between.covariance_with(at)
+        log_duration = self.margin.inverse(self.scale.raw(z, "duration")[:, 0])
+        if "duration_s" in condition:
+            log_duration = np.log(np.broadcast_to(condition["duration_s"], len(z)))
+        log_duration = log_duration + np.asarray(condition.get("log_duration_shift", 0.0))
+        target = (self.margin.forward(log_duration) - self.scale.centre[at]) / self.scale.spread[at]
+        slope = column / column[at] if column[at] > 0 else np.zeros_like(column)
+        slope[at] = 1.0
+        return z + (target - z[:, at])[:, None] * slope
+
+    def _chain_m(self, z: np.ndarray) -> float:
+        """Length of the chain ankle, knee, hip, pelvis to head: the height without sole and crown."""
+        length = dict(zip(self.skeleton.bone_names, self.bone_length_m(z[None])[0]))
+        chain = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
+        return float(sum(length.get(name, 0.0) for name in chain))

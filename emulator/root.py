@@ -1,0 +1,81 @@
+"""The way of the root: it rides on the feet, and what the feet do not explain is a side channel of its own.
+
+If planted feet do not slide, the horizontal way of the root follows from posture and bones alone, and its height from
+the lowest foot on the floor. What is left (slip, clearance) and the heading are small smooth curves: those are
+modelled, in leg lengths, so that another body neither skates nor sinks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.clean import turn
+from emulator.skeleton import Skeleton
+
+SOFT_M = 0.01
+"""Feet within about this height of the lowest share the support."""
+_FEET = ("left_ankle", "left_toe", "right_ankle", "right_toe")
+_LEGS = ("left_knee", "left_ankle", "right_knee", "right_ankle")
+
+
+@dataclass(frozen=True)
+class RootChannel:
+    """Side channel (..., T, 4): slip x, slip y and clearance in leg lengths, heading in radians; for one skeleton.
+
+    A skeleton without feet carries its whole path there.
+    """
+
+    skeleton: Skeleton
+
+    def leg_m(self, bone_length_m: np.ndarray) -> np.ndarray:
+        """Mean length of a leg (thigh and shank), (..., B) -> (...); a quarter of all bones where no knees are."""
+        names = self.skeleton.bone_names
+        bones = [names.index(name) for name in _LEGS if name in names]
+        chosen = bone_length_m[..., bones].sum(-1) / 2 if len(bones) == 4 else bone_length_m.sum(-1) / 4
+        return np.asarray(chosen)
+
+    def forward(
+        self, directions: np.ndarray, bone_length_m: np.ndarray, root_m: np.ndarray, yaw_rad: np.ndarray
+    ) -> np.ndarray:
+        """Directions (T, B, 3) without heading, bones (B,), path (T, 3), heading (T,) -> side channel (T, 4)."""
+        way, floor = self._ride(directions, bone_length_m, yaw_rad)
+        left = np.stack([root_m[..., 0] - way[..., 0], root_m[..., 1] - way[..., 1], root_m[..., 2] - floor], axis=-1)
+        return np.concatenate([left / self.leg_m(bone_length_m)[..., None, None], yaw_rad[..., None]], axis=-1)
+
+    def inverse(
+        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Side channel (..., T, 4), directions (..., T, B, 3), bones (..., B) -> root_m (..., T, 3), yaw_rad (..., T).
+
+        The path begins at x = y = 0, and no joint is ever below the floor.
+        """
+        yaw = channel[..., 3]
+        way, floor = self._ride(directions, bone_length_m, yaw)
+        left = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
+        level = way + left[..., :2]
+        height = np.maximum(floor + left[..., 2], -self._hanging(directions, bone_length_m)[..., 2].min(-1))
+        return np.concatenate([level - level[..., :1, :], height[..., None]], axis=-1), yaw
+
+    def _hanging(self, directions: np.ndarray, bone_length_m: np.ndarray) -> np.ndarray:
+        """Joints (..., T, J, 3) with the root at the origin."""
+        zero = np.zeros((*directions.shape[:-2], 3))
+        return self.skeleton.positions(directions, bone_length_m[..., None, :], zero)
+
+    def _ride(
+        self, directions: np.ndarray, bone_length_m: np.ndarray, yaw_rad: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The horizontal way (..., T, 2) on planted feet, and the height (..., T) with the lowest foot at 0."""
+        feet = [self.skeleton.names.index(name) for name in _FEET if name in self.skeleton.names]
+        if not feet:
+            return np.zeros((*yaw_rad.shape, 2)), np.zeros(yaw_rad.shape)
+        hanging = turn(self._hanging(directions, bone_length_m)[..., feet, :], yaw_rad[..., None])
+        above = hanging[..., 2] - hanging[..., 2].min(-1, keepdims=True)
+        weight = np.exp(-above / SOFT_M)
+        floor = -hanging[..., 2].min(-1) + SOFT_M * np.log(weight.mean(-1))
+        share = weight / weight.sum(-1, keepdims=True)
+        both = share[..., 1:, :] + share[..., :-1, :]
+        step = -0.5 * np.einsum("...f,...fc->...c", both, np.diff(hanging[..., :2], axis=-3))
+        start = np.zeros((*step.shape[:-2], 1, 2))
+        return np.concatenate([start, np.cumsum(step, axis=-2)], axis=-2), floor

@@ -1,0 +1,19 @@
+"""The command line: one file a verb, loaded when it is called, so that ``opsim --help`` costs next to nothing."""
+
+import click
+
+from opsim import __version__
+from opsim.cli.verbs import Verbs
+
+
+@click.group(
+    cls=Verbs,
+    verbs={"check": "opsim.cli.check", "run": "opsim.cli.run", "motion": "opsim.cli.motion"},
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
+@click.version_option(__version__, message="opsim %(version)s")
+def main() -> None:
+    """Simulate production whose work is done by people.
+
+    A scenario is a YAML file, or the name of a shipped one: repack_cell, pump_assembly, serial_line, queue.
+    """

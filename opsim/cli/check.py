@@ -1,0 +1,64 @@
+"""``opsim check``: is the scenario right, and can its stations keep up? No run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from opsim.cli.verbs import mistakes
+
+
+@click.command("check")
+@click.argument("file")
+@click.option("--scenario", "names", multiple=True, metavar="NAME", help="Only this variant; may be given again.")
+@click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
+def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
+    """Check a scenario FILE: schema, references, and the load of each station. Exit code 2 where something is wrong."""
+    from opsim.cli.console import print_json
+
+    with mistakes():
+        variants = _loads(file, names)
+    if as_json:
+        from dataclasses import asdict
+
+        print_json(
+            {"file": file, "variants": {name: [asdict(load) for load in loads] for name, loads in variants.items()}}
+        )
+        return
+    for name, loads in variants.items():
+        _print_loads(name, loads)
+    said = ", ".join(variants)
+    click.echo(f"{file}: no problems found in {'variant' if len(variants) == 1 else 'variants'} {said}")
+
+
+def _loads(file: str, names: tuple[str, ...]) -> dict[str, list[Any]]:
+    from opsim.plan import compile_plan, station_loads
+    from opsim.scenario import read_scenarios
+
+    loaded = read_scenarios(file, list(names) or None)
+    return {name: station_loads(compile_plan(variant)) for name, variant in loaded.items()}
+
+
+def _print_loads(variant: str, loads: list[Any]) -> None:
+    from opsim.cli.console import print_table
+
+    columns = ("station", "servers", "work a visit", "visits a job", "most per h", "arrivals per h", "load")
+    print_table(f"{variant}: load of the stations, from mean times", columns, [_cells(load) for load in loads])
+    for load in loads:
+        if load.load is not None and load.load >= 1:
+            click.echo(
+                f"warning: {variant}: {load.station} cannot keep up: {load.load:.0%} of its time is wanted", err=True
+            )
+
+
+def _cells(load: Any) -> tuple[str, ...]:
+    return (
+        load.station,
+        str(load.servers),
+        f"{load.work_s:.1f} s",
+        f"{load.visits:.2f}",
+        f"{load.most_per_h:.1f}",
+        "saturated" if load.arrivals_per_h is None else f"{load.arrivals_per_h:.1f}",
+        "–" if load.load is None else f"{load.load:.0%}",
+    )

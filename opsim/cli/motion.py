@@ -1,0 +1,14 @@
+"""``opsim motion``: train a motion emulator, draw from it, look at it."""
+
+import click
+
+from opsim.cli.verbs import Verbs
+
+
+@click.group(
+    "motion",
+    cls=Verbs,
+    verbs={"fit": "opsim.cli.motion_fit", "sample": "opsim.cli.motion_sample", "show": "opsim.cli.motion_show"},
+)
+def command() -> None:
+    """Train motion emulators on recordings, draw performances, draw them as people."""

@@ -1,0 +1,127 @@
+"""``opsim motion sample``: draw performances from a library."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from opsim.cli.verbs import mistakes
+
+
+@click.command("sample")
+@click.argument("library")
+@click.argument("task", required=False)
+@click.option("-n", "n", type=click.IntRange(min=1), default=10, show_default=True, help="Performances to draw.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path), help="times as .csv, or whole movements as .npz recordings."
+)
+@click.option(
+    "--fps", type=click.FloatRange(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz."
+)
+@click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
+def command(library: str, task: str | None, n: int, seed: int, out: Path | None, fps: float, as_json: bool) -> None:
+    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz file, the movements."""
+    import numpy as np
+
+    from opsim.cli.console import print_json
+
+    with mistakes():
+        model = chosen(library, task)
+        drawn = model.sample(n, np.random.default_rng(seed))
+        if out is not None:
+            _write(
+                out, model, drawn, fps, f"opsim motion sample {Path(library).name} {model.task} -n {n} --seed {seed}"
+            )
+    rows = [_row(model, drawn, k) for k in range(n)]
+    if as_json:
+        print_json({"task": model.task, "seed": seed, "out": None if out is None else str(out), "performances": rows})
+        return
+    _print_times(model, drawn)
+    if out is not None:
+        click.echo(f"{n} performances: {out}")
+
+
+def chosen(library: str, task: str | None) -> Any:
+    """The emulator of a task of a library file, or of a shipped library by its name. Raises ValueError."""
+    from opsim.libraries import load_library
+    from opsim.shipped import shipped_folder
+
+    file, shipped = Path(library), shipped_folder() / "libraries"
+    for candidate in (shipped / library, shipped / f"{library}.npz"):
+        file = candidate if not file.exists() and Path(library).name == library and candidate.is_file() else file
+    if not file.is_file():
+        raise ValueError(
+            f"{library}: no such library; shipped ones: {', '.join(p.stem for p in sorted(shipped.glob('*.npz')))}"
+        )
+    loaded = load_library(file)
+    return loaded.only() if task is None else loaded[task]
+
+
+def _row(model: Any, drawn: Any, k: int) -> dict[str, float]:
+    marks = {f"{name}_s": float(at) for name, at in zip(model.mark_names, drawn.mark_s[k])}
+    return {"k": k, "duration_s": float(drawn.duration_s[k]), **marks}
+
+
+def _print_times(model: Any, drawn: Any) -> None:
+    import numpy as np
+
+    from opsim.cli.console import print_table
+
+    named = {"duration": drawn.duration_s, **dict(zip(model.mark_names, np.asarray(drawn.mark_s).T))}
+    rows = [
+        (name, *(f"{v:.3f} s" for v in (np.mean(times), *np.quantile(times, (0.05, 0.5, 0.95)))))
+        for name, times in named.items()
+    ]
+    print_table(f"{model.task}: {len(drawn.duration_s)} performances", ("time", "mean", "5 %", "median", "95 %"), rows)
+
+
+def _write(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
+    if out.suffix.lower() not in (".csv", ".npz"):
+        raise ValueError(f"{out}: performances are written as .csv (times) or .npz (movements)")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    if out.suffix.lower() == ".npz":
+        _write_npz(out, model, drawn, fps, said)
+        return
+    rows = [_row(model, drawn, k) for k in range(len(drawn.duration_s))]
+    with out.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
+    """The form of recordings, so that ``motion fit`` reads it again; subject and source say that it is emulated."""
+    import numpy as np
+
+    frames = [
+        drawn[k].positions_m(times_s=_frame_times_s(drawn.duration_s[k], fps))[0] for k in range(len(drawn.duration_s))
+    ]
+    report = model.report
+    meta = {"source": f"emulated by {said}; fitted to {report.source}", "licence": report.licence}
+    marks = {
+        f"ann_{name}_frame": np.rint(drawn.mark_s[:, e] * fps).astype(int) for e, name in enumerate(model.mark_names)
+    }
+    np.savez_compressed(
+        out,
+        positions=np.concatenate(frames).astype(np.float32),
+        offsets=np.cumsum([0, *(len(block) for block in frames)]),
+        fps=fps,
+        names=np.array(model.skeleton.names),
+        parents=np.array(model.skeleton.parents),
+        subject=np.full(len(frames), "emulated"),
+        trial=np.array([f"k{k}" for k in range(len(frames))]),
+        duration=np.asarray(drawn.duration_s),
+        meta=json.dumps(meta),
+        **marks,  # type: ignore[arg-type]
+    )
+
+
+def _frame_times_s(duration_s: float, fps: float) -> Any:
+    import numpy as np
+
+    return np.arange(max(2, round(duration_s * fps) + 1)) / fps

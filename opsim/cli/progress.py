@@ -1,0 +1,77 @@
+"""Progress on stderr: a bar with the time left on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import click
+
+Report = Callable[..., None]
+"""``report(done, total, label="")``."""
+LINE_EVERY_S = 5.0
+
+
+@contextmanager
+def progress(what: str) -> Iterator[Report]:
+    """Give a function to call with (done, total) or (done, total, label) while the block runs."""
+    if sys.stderr.isatty():
+        with _bar(what) as report:
+            yield report
+    else:
+        yield _Lines(what)
+
+
+@contextmanager
+def _bar(what: str) -> Iterator[Report]:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+
+        def report(done: int, total: int, label: str = "") -> None:
+            bar.update(task, completed=done, total=total, description=_titled(what, label))
+
+        yield report
+
+
+class _Lines:
+    """A line at the first and the last step of each label, and every few seconds between."""
+
+    def __init__(self, what: str) -> None:
+        self.what, self.started, self.last = what, time.monotonic(), 0.0
+        self.label: str | None = None
+
+    def __call__(self, done: int, total: int, label: str = "") -> None:
+        now = time.monotonic()
+        if label != self.label:
+            self.started = self.started if self.label is None else now
+            self.label, self.last = label, 0.0
+        if done < total and now - self.last < LINE_EVERY_S:
+            return
+        self.last = now
+        left_s = (now - self.started) / done * (total - done) if done else None
+        left = "" if left_s is None or done >= total else f", {left_s:.0f} s left"
+        click.echo(f"{_titled(self.what, label)}: {done} of {total}{left}", err=True)
+
+
+def _titled(what: str, label: str) -> str:
+    return f"{what}: {label}" if label else what

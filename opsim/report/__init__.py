@@ -1,0 +1,19 @@
+"""What people look at: one offline HTML file a run, and strips of stick figures."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_HOMES = {
+    "draw_strips": "opsim.report.strips",
+    "scenario_strips": "opsim.report.emulated",
+    "write_report": "opsim.report.write",
+}
+__all__ = ["draw_strips", "scenario_strips", "write_report"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"opsim.report has no {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

@@ -1,0 +1,32 @@
+"""Strips for the emulated tasks of a scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from opsim.report.strips import draw_strips
+
+SAMPLES = 2
+
+
+def scenario_strips(
+    loaded: Any, tasks: Sequence[Mapping[str, Any]], drawn: dict[tuple[str, str], bytes] | None = None
+) -> dict[str, bytes]:
+    """SVG bytes by task name, of the rows of ``summary["tasks"]`` that are emulated.
+
+    loaded : the variant that was read (its folder is where its libraries are)
+    drawn  : pictures drawn so far, by (library, task of the library); added to, so that variants share them
+    """
+    from opsim.libraries import load_library, resolve_library
+
+    drawn = {} if drawn is None else drawn
+    strips = {}
+    for task in tasks:
+        if task.get("emulated"):
+            key = (task["library"], task["library_task"])
+            if key not in drawn:
+                model = load_library(resolve_library(task["library"], loaded.folder))[task["library_task"]]
+                drawn[key] = draw_strips(model, n_samples=SAMPLES)
+            strips[task["task"]] = drawn[key]
+    return strips

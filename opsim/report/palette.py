@@ -1,0 +1,36 @@
+"""The colours of states: Okabe and Ito's, told apart with any colour vision, with the word beside them everywhere."""
+
+STATES = {
+    "work": ("#0072B2", "#ffffff"),
+    "walk": ("#56B4E9", "#111111"),
+    "setup": ("#009E73", "#ffffff"),
+    "transport": ("#7BC8A4", "#111111"),
+    "held": ("#CC79A7", "#111111"),
+    "blocked": ("#D55E00", "#ffffff"),
+    "waiting": ("#E69F00", "#111111"),
+    "queue": ("#F0E442", "#111111"),
+    "down": ("#7a1f1f", "#ffffff"),
+    "repair": ("#a05a5a", "#ffffff"),
+    "break": ("#b9a7d6", "#111111"),
+    "absent": ("#8d8d8d", "#ffffff"),
+    "off": ("#bcbcbc", "#111111"),
+    "wait": ("#dde1e6", "#111111"),
+    "starved": ("#eceff2", "#111111"),
+}
+OTHER = ("#999999", "#111111")
+
+WORDS = {
+    "wait": "idle",
+    "waiting": "job there, no worker",
+    "starved": "no job",
+    "blocked": "blocked by the next buffer",
+    "held": "held by a blocked job",
+}
+
+ACCENT, INK, MUTED, GRID = "#0072B2", "#22262b", "#5c6570", "#e3e6ea"
+
+
+def in_order(parts) -> list[str]:
+    """States in the order of the palette, unknown ones last."""
+    order = list(STATES)
+    return sorted(set(parts), key=lambda part: (order.index(part) if part in order else len(order), part))

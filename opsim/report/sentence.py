@@ -1,0 +1,73 @@
+"""The run in a few sentences, each figure with its interval."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from opsim.report.words import clock, digits, is_number, listing, quantity, scale_of
+
+Row = Mapping[str, Any]
+
+
+def find(rows: Sequence[Row], kpi: str, subject: str = "", part: str = "") -> Row | None:
+    """The row of one figure, or None where it has no value."""
+    named = (row for row in rows if (row["kpi"], row["subject"], row.get("part", "")) == (kpi, subject, part))
+    row = next(named, None)
+    return row if row is not None and is_number(row.get("mean")) else None
+
+
+def with_interval(row: Row) -> str:
+    """``60.1 per hour (59.1 to 61.1)``."""
+    mean = quantity(row["mean"], row["unit"], row.get("half_width"))
+    if not is_number(row.get("half_width")):
+        return mean
+    factor, _ = scale_of(row["unit"], row["mean"])
+    low, high = (digits(row[edge] * factor, row["half_width"] * factor) for edge in ("low", "high"))
+    return f"{mean} ({low} to {high})"
+
+
+def sentences(summary: Mapping[str, Any]) -> list[str]:
+    """What came out, how long it stayed, who and what was busiest, and how surely this is known."""
+    rows = summary["kpis"]
+    said = [_output(rows), _busiest(rows, "worker_states", "worker"), _busiest(rows, "station_states", "station")]
+    return [text for text in [*said, _certainty(summary)] if text]
+
+
+def _output(rows: Sequence[Row]) -> str:
+    parts = [
+        words.format(with_interval(row).replace(" per hour", ""))
+        for kpi, words in (
+            ("throughput_per_h", "{} jobs an hour are finished"),
+            ("time_in_system_s", "a job stays {}"),
+            ("work_in_progress", "{} are inside on average"),
+        )
+        if (row := find(rows, kpi)) is not None
+    ]
+    text = listing(parts)
+    return text[:1].upper() + text[1:] + "." if text else ""
+
+
+def _busiest(rows: Sequence[Row], kpi: str, noun: str) -> str:
+    working = [row for row in rows if row["kpi"] == kpi and row["part"] == "work" and is_number(row["mean"])]
+    if not working:
+        return ""
+    top = max(working, key=lambda row: row["mean"])
+    verb = "of the time at work" if noun == "worker" else "of its servers' time at work"
+    text = f"The busiest {noun} is {top['subject']}: {with_interval(top)} {verb}"
+    blocked = [row for row in rows if row["kpi"] == kpi and row["part"] == "blocked" and is_number(row["mean"])]
+    most = max(blocked, key=lambda row: row["mean"], default=None)
+    if most is not None and most["mean"] >= 0.01:
+        text += f"; the one most often blocked is {most['subject']}: {with_interval(most)}"
+    return text + "."
+
+
+def _certainty(summary: Mapping[str, Any]) -> str:
+    low, high = summary["window_s"]
+    window = f"{clock(summary['start'], low)} to {clock(summary['start'], high)}"
+    if summary["replications"] == 1:
+        return f"One replication, counted from {window}: there is no interval, and nothing to tell luck from cause."
+    return (
+        f"{summary['replications']} replications, counted from {window}; in brackets the "
+        f"{100 * summary['confidence']:.0f} % intervals of the means."
+    )

@@ -1,0 +1,146 @@
+"""Stick-figure strips: performances of a task drawn as people along real time, the mean above the samples."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from opsim.report.person import LEFT, RIGHT, TRUNK, draw_person
+from opsim.report.view import Stage, Strip, stage_of
+
+if TYPE_CHECKING:
+    from opsim.task import TaskModel
+
+PALE = "#6b737d"
+
+
+def draw_strips(
+    model: TaskModel | Sequence[Strip],
+    path: str | Path | None = None,
+    *,
+    n_samples: int = 3,
+    seed: int = 0,
+    skeleton: Any = None,
+    mark_names: Sequence[str] = (),
+    title: str = "",
+    n_figures: int = 11,
+) -> bytes:
+    """Strips of a task model (mean above ``n_samples`` drawn performances), or of given rows, as PNG or SVG.
+
+    model      : anything that satisfies the TaskModel seam and has postures, or the rows (then with ``skeleton``)
+    path       : where to write; its ending says png or svg. None: nothing is written, the bytes are SVG
+    n_figures  : figures in the longest row; the others stand as close in time, so a short row is a quick performance
+    returns    : the bytes of the picture; the same for the same arguments
+    Raises ValueError where the model has no postures, or where the ending is neither png nor svg.
+    """
+    ending = "svg" if path is None else Path(path).suffix.lower().lstrip(".")
+    if ending not in ("png", "svg"):
+        raise ValueError(f"strips are drawn as .png or .svg, found {str(path)!r}")
+    if not isinstance(model, Sequence):
+        skeleton = getattr(model, "skeleton", skeleton)
+        mark_names = mark_names or tuple(getattr(model, "mark_names", ()))
+        model = strips_of(model, n_samples=n_samples, seed=seed)
+    picture = _render(_figure(model, skeleton, mark_names, title, n_figures), ending)
+    if path is not None:
+        Path(path).write_bytes(picture)
+    return picture
+
+
+def strips_of(model: TaskModel, *, n_samples: int = 3, seed: int = 0, n_times: int = 61) -> list[Strip]:
+    """The mean performance and ``n_samples`` drawn ones; the mean posture is that of 64 other draws."""
+    many: Any = model.sample(64, np.random.default_rng([seed, 1]))
+    if getattr(many, "skeleton", None) is None:
+        raise ValueError("this task model has durations only: there is no posture to draw")
+    few: Any = model.sample(max(n_samples, 1), np.random.default_rng(seed))
+    drawn = few.positions_m(n_times=n_times)
+    samples = [
+        Strip(f"sample {i + 1}", drawn[i], float(few.duration_s[i]), np.asarray(few.mark_s[i]))
+        for i in range(n_samples)
+    ]
+    return [_mean_strip(many, float(model.mean_duration_s()), n_times), *samples]
+
+
+def _mean_strip(performances: Any, duration_s: float, n_times: int) -> Strip:
+    """Mean directions (made unit again), mean bones, mean path: averaging points would shorten swinging limbs."""
+    skeleton, positions = performances.skeleton, performances.positions_m(n_times=n_times)
+    mean = skeleton.directions(positions).mean(axis=0)
+    mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
+    bones = skeleton.bone_lengths(positions).mean(axis=(0, 1))
+    root = positions[:, :, skeleton.parents.index(-1)].mean(axis=0)
+    share = np.mean(np.asarray(performances.mark_s) / np.asarray(performances.duration_s)[:, None], axis=0)
+    return Strip("mean performance", skeleton.positions(mean, bones, root), duration_s, share * duration_s)
+
+
+def _figure(strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], title: str, n_figures: int) -> Any:
+    from matplotlib.figure import Figure
+
+    if skeleton is None:
+        raise ValueError("strips need the skeleton of their postures")
+    stage = stage_of(strips, skeleton, n_figures)
+    height_m = max(strip.positions_m[..., 2].max() for strip in strips) + 0.32
+    longest_m = stage.m_per_s * max(strip.duration_s for strip in strips)
+    left_m, right_m = 0.75 * stage.m_per_s * stage.step_s, 0.6 * stage.m_per_s * stage.step_s
+    wide_m, tall_m = longest_m + left_m + right_m, height_m + 0.62
+    inches = 11.0 / wide_m
+    title_in = 0.42 if title else 0.08
+    figure = Figure(figsize=(11.0, inches * tall_m * len(strips) + title_in), facecolor="white")
+    share = 1.0 - title_in / figure.get_figheight()
+    for row, strip in enumerate(strips):
+        axes = figure.add_axes((0.0, share * (1 - (row + 1) / len(strips)), 1.0, share / len(strips)))
+        axes.set(xlim=(-left_m, longest_m + right_m), ylim=(-0.55, height_m + 0.07), aspect="equal")
+        axes.axis("off")
+        _draw_row(axes, strip, stage, mark_names, is_mean=row == 0)
+    if title:
+        figure.text(0.012, 1 - 0.1 / figure.get_figheight(), title, va="top", size=12, weight="bold", parse_math=False)
+        _legend(figure)
+    return figure
+
+
+def _legend(figure: Any) -> None:
+    top = 1 - 0.12 / figure.get_figheight()
+    figure.text(0.988, top, "right limbs", va="top", ha="right", size=9, color=RIGHT)
+    figure.text(0.918, top, "left limbs", va="top", ha="right", size=9, color=LEFT)
+
+
+def _draw_row(axes: Any, strip: Strip, stage: Stage, mark_names: Sequence[str], *, is_mean: bool) -> None:
+    floor = float(np.quantile(strip.positions_m[..., 2].min(axis=1), 0.1))
+    end_m, step_m = strip.duration_s * stage.m_per_s, stage.step_s * stage.m_per_s
+    axes.plot([-step_m / 2, end_m], [floor - 0.02] * 2, color="#aab0b8", lw=1.2, zorder=1)
+    axes.plot([end_m] * 2, [floor - 0.1, floor + 0.06], color="#aab0b8", lw=1.2, zorder=1)
+    times = np.arange(0.0, strip.duration_s + 1e-9, stage.step_s)
+    if strip.duration_s - times[-1] > 0.7 * stage.step_s:
+        times = np.append(times, strip.duration_s)
+    for at_s in times:
+        at_m = at_s * stage.m_per_s
+        axes.text(at_m, floor - 0.15, _seconds(at_s), ha="center", va="top", size=8, color=PALE)
+        draw_person(axes, *stage.flat(strip, at_s), at_m, stage.skeleton)
+    words = {"ha": "left", "va": "top", "size": 10, "weight": "bold" if is_mean else "normal", "color": TRUNK}
+    top = axes.get_ylim()[1] - 0.02
+    axes.text(-step_m / 2, top, f"{strip.label}: {strip.duration_s:.2f} s", parse_math=False, **words)
+    for name, mark_s in zip([*mark_names, *[""] * strip.mark_s.size], strip.mark_s):
+        _draw_mark(axes, name, float(mark_s), float(mark_s) * stage.m_per_s, floor)
+
+
+def _draw_mark(axes: Any, name: str, mark_s: float, at_m: float, floor: float) -> None:
+    axes.plot([at_m], [floor - 0.075], marker="^", ms=5, color="#111111", zorder=40)
+    words = {"ha": "center", "va": "top", "size": 8, "color": "#111111", "parse_math": False}
+    axes.text(at_m, floor - 0.32, f"{name} {mark_s:.2f} s".strip(), **words)
+
+
+def _seconds(at_s: float) -> str:
+    return f"{at_s:.2f}".rstrip("0").rstrip(".") + " s"
+
+
+def _render(figure: Any, ending: str) -> bytes:
+    import matplotlib
+
+    stream = io.BytesIO()
+    fixed: Any = {"svg.hashsalt": "opsim", "svg.fonttype": "path"}
+    metadata = {"Date": None, "Creator": "opsim"} if ending == "svg" else {"Software": "opsim"}
+    with matplotlib.rc_context(fixed):
+        figure.savefig(stream, format=ending, dpi=150, metadata=metadata)
+    return stream.getvalue()

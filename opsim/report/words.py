@@ -1,0 +1,142 @@
+"""Numbers and KPI names as people read them: a mean shows as many digits as its interval supports."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+NAMES = {
+    "throughput_per_h": "Throughput",
+    "throughput_per_calendar_h": "Throughput per calendar hour",
+    "lost_per_h": "Jobs turned away",
+    "lost_share": "Share of jobs turned away",
+    "time_in_system_s": "Time in system",
+    "cycle_time_s": "Work a job gets at the station",
+    "work_in_progress": "Jobs inside",
+    "worker_states": "State of worker",
+    "station_states": "State of station",
+    "queue_length": "Jobs waiting at the station",
+    "walked_m": "Walked",
+    "duration_s": "Duration of the task",
+}
+ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_s", "_m", "_kg", "_j", "_share")
+ABSENT = "\N{EN DASH}"
+
+
+def kpi_name(kpi: str) -> str:
+    """``time_in_system_s`` -> ``Time in system``; an unknown KPI loses its unit's ending and its underscores."""
+    if kpi in NAMES:
+        return NAMES[kpi]
+    stem = next((kpi.removesuffix(ending) for ending in ENDINGS if kpi.endswith(ending)), kpi)
+    return stem.replace("_", " ").strip().capitalize() or kpi
+
+
+def is_number(value: Any) -> bool:
+    """Whether a figure of the summary is there at all: JSON carries what was not measured as null."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def digits(value: Any, half_width: Any = None) -> str:
+    """``value`` as exact as its half-width says (two digits of it below 355, else one), or with four digits."""
+    if not is_number(value):
+        return ABSENT
+    scale = _last_digit(abs(half_width)) if is_number(half_width) and half_width else abs(value) / 1000
+    places = 0 if scale <= 0 else min(6, max(0, -math.floor(math.log10(scale))))
+    text = f"{value:,.{places}f}"
+    return text.lstrip("-") if float(text.replace(",", "")) == 0 else text.replace("-", "\N{MINUS SIGN}")
+
+
+def _last_digit(half_width: float) -> float:
+    """The size of the last digit worth showing, after the rule of the Particle Data Group (two digits below 355)."""
+    lead = half_width / 10 ** math.floor(math.log10(half_width))
+    return half_width / 10 if lead < 3.55 else half_width
+
+
+def scale_of(unit: str, value: float | None) -> tuple[float, str]:
+    """(factor, unit for people): shares as per cent, long times in minutes or hours, long ways in km."""
+    if unit == "share":
+        return 100.0, "%"
+    size = abs(value) if is_number(value) else 0.0  # type: ignore[arg-type]
+    if unit == "s" and size >= 2 * 3600:
+        return 1 / 3600, "h"
+    if unit == "s" and size >= 120:
+        return 1 / 60, "min"
+    if unit == "m" and size >= 2000:
+        return 1 / 1000, "km"
+    return 1.0, {"1/h": "per hour", "1": ""}.get(unit, unit)
+
+
+def quantity(value: float | None, unit: str, half_width: float | None = None) -> str:
+    """A value with its unit: ``quantity(1384, 's', 60)`` is ``23.1 min``."""
+    if not is_number(value):
+        return ABSENT
+    factor, word = scale_of(unit, value)
+    half = None if not is_number(half_width) else half_width * factor  # type: ignore[operator]
+    text = digits(value * factor, half)  # type: ignore[operator]
+    return f"{text} %" if word == "%" else f"{text} {word}".strip()
+
+
+def interval_cells(row: Mapping[str, Any], largest: float | None = None) -> dict[str, str]:
+    """The cells of one KPI row: mean, interval, half-width in per cent of the mean, unit, n.
+
+    largest : the value that chooses the unit, so that all rows of one figure have the same; by default the row's mean
+    """
+    mean, low, high, half = (row.get(key) for key in ("mean", "low", "high", "half_width"))
+    factor, unit = scale_of(row.get("unit", ""), mean if largest is None else largest)
+    has_interval = all(is_number(v) for v in (low, high, half))
+    step = half * factor if has_interval else None  # type: ignore[operator]
+    text = "one replication" if row.get("n") == 1 else "no interval"
+    if not is_number(mean):
+        text = "no value in any replication" if not row.get("n") else text
+    elif has_interval:
+        text = f"{digits(low * factor, step)} to {digits(high * factor, step)}"  # type: ignore[operator]
+    relative = 100 * half / abs(mean) if has_interval and mean else None  # type: ignore[operator,arg-type]
+    return {
+        "mean": digits(mean * factor, step) if is_number(mean) else ABSENT,  # type: ignore[operator]
+        "interval": text,
+        "relative": ABSENT if relative is None else f"{relative:.2g} %" if relative < 100 else f"{relative:.0f} %",
+        "unit": unit,
+        "n": f"{row['n']:,}" if is_number(row.get("n")) else ABSENT,
+    }
+
+
+def plus_minus(row: Mapping[str, Any], largest: float | None = None) -> str:
+    """``60.1 ± 1.0 per hour``: how the console prints a KPI; ``largest`` chooses the unit for a row of several."""
+    factor, unit = scale_of(row.get("unit", ""), row.get("mean") if largest is None else largest)
+    if not is_number(row.get("mean")):
+        return ABSENT
+    half = row.get("half_width")
+    if not is_number(half):
+        return f"{digits(row['mean'] * factor)} {unit}".strip()
+    step = half * factor  # type: ignore[operator]
+    return f"{digits(row['mean'] * factor, step)} ± {digits(step, step)} {unit}".strip()
+
+
+def largest_mean(rows: Iterable[Mapping[str, Any]]) -> float | None:
+    """The largest mean of some rows, which chooses their common unit."""
+    return max((abs(row["mean"]) for row in rows if is_number(row.get("mean"))), default=None)
+
+
+def behind(source: str, n_sequences: int, n_workers: int) -> str:
+    """What stands behind an emulator: recordings of people or, where its source says so, nobody at all."""
+    if source.lower().startswith(("synthetic", "emulated")):
+        return f"{n_sequences} made repetitions of {n_workers} made-up people: nobody was recorded"
+    return f"{n_sequences} recordings of {n_workers} people"
+
+
+def clock(start: str, at_s: float) -> str:
+    """``clock('Mon 06:00', 1800)`` is ``Mon 06:30``; a start of another form stands beside the hours since it."""
+    days = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+    parts = str(start).split()
+    try:
+        hours, minutes = (int(part) for part in parts[1].split(":")[:2])
+        minute = days.index(parts[0][:3].capitalize()) * 1440 + hours * 60 + minutes + round(at_s / 60)
+    except (ValueError, IndexError):
+        return f"{at_s / 3600:g} h after {start}"
+    return f"{days[minute // 1440 % 7]} {minute // 60 % 24:02d}:{minute % 60:02d}"
+
+
+def listing(words: list[str]) -> str:
+    """``a, b and c``."""
+    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " and " + words[-1] if words else ""

@@ -1,0 +1,21 @@
+import json
+from dataclasses import replace
+
+from emulator.fit_report import FitReport
+from tests.emulator.fitted import made
+
+
+def test_a_report_survives_json():
+    report = made("reach")[2].report
+    assert FitReport.of_dict(json.loads(json.dumps(report.as_dict()))) == report
+
+
+def test_what_could_not_be_estimated_is_null_in_json():
+    plain = replace(made("reach")[2].report, icc=float("nan")).as_dict()
+    assert json.loads(json.dumps(plain, allow_nan=False))["icc"] is None
+    assert FitReport.of_dict(plain).icc != FitReport.of_dict(plain).icc
+
+
+def test_the_rows_say_what_a_user_must_know():
+    labels = [label for label, _ in made("reach")[2].report.rows()]
+    assert labels[:5] == ["sequences", "components", "explained variance", "reconstruction, held out", "duration"]

@@ -1,0 +1,204 @@
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from emulator.archive import FORMAT
+from emulator.library import LibraryError, MotionLibrary, file_sha256, read_header
+from emulator.model import MotionEmulator
+from tests.emulator.fitted import made, recorded
+
+
+@pytest.fixture(scope="module")
+def library():
+    return MotionLibrary.of(made("reach")[2], made("walk")[2], command="made by a test", notes=("two tasks",))
+
+
+@pytest.fixture
+def saved(library, tmp_path):
+    path = tmp_path / "moves.npz"
+    library.save(path)
+    return path
+
+
+def changed(path, change):
+    """The file with members changed by ``change(name, content) -> content or None to leave the member out``."""
+    with zipfile.ZipFile(path) as file:
+        members = {name: file.read(name) for name in file.namelist()}
+    with zipfile.ZipFile(path, "w") as file:
+        for name, content in members.items():
+            content = change(name, content)
+            if content is not None:
+                file.writestr(name, content)
+    return path
+
+
+def npy(array, **settings):
+    stream = io.BytesIO()
+    np.save(stream, array, **settings)
+    return stream.getvalue()
+
+
+def with_header(path, change):
+    def edit(name, content):
+        if name != "header.npy":
+            return content
+        header = json.loads(np.load(io.BytesIO(content)).tobytes().decode())
+        return npy(np.frombuffer(json.dumps(change(header)).encode(), np.uint8))
+
+    return changed(path, edit)
+
+
+def test_a_loaded_model_draws_what_the_saved_one_draws(library, saved):
+    for task, emulator in MotionLibrary.load(saved).items():
+        one, two = (m.sample(20, np.random.default_rng(3)) for m in (emulator, library[task]))
+        assert one.duration_s.tobytes() == two.duration_s.tobytes()
+        assert one.mark_s.tobytes() == two.mark_s.tobytes()
+        assert one.positions_m(n_times=9).tobytes() == two.positions_m(n_times=9).tobytes()
+        assert emulator.report == library[task].report
+        assert emulator.workers == library[task].workers
+
+
+def test_saving_what_was_loaded_gives_the_same_bytes(saved, tmp_path):
+    MotionLibrary.load(saved).save(tmp_path / "again.npz")
+    assert file_sha256(saved) == file_sha256(tmp_path / "again.npz")
+
+
+def test_an_emulator_saves_and_loads_itself(tmp_path):
+    made("reach")[2].save(tmp_path / "reach.npz")
+    assert MotionEmulator.load(tmp_path / "reach.npz").task == "reach"
+
+
+def test_one_task_cannot_be_loaded_from_a_library_of_two(saved):
+    with pytest.raises(LibraryError, match="2 tasks"):
+        MotionEmulator.load(saved)
+
+
+def test_a_recorded_class_of_another_shape_survives(tmp_path):
+    emulator = MotionEmulator.fit(recorded("shoulder_scaption"))
+    emulator.save(tmp_path / "x.npz")
+    again = MotionEmulator.load(tmp_path / "x.npz")
+    assert again.report.source.startswith("UI-PRMD")
+    assert (tmp_path / "x.npz").stat().st_size < 150_000
+    one, two = (m.sample(8, np.random.default_rng(0), worker="s02").mark_s for m in (emulator, again))
+    assert one.tobytes() == two.tobytes()
+
+
+def test_the_header_is_read_without_the_arrays(saved):
+    header = read_header(changed(saved, lambda name, content: content if name == "header.npy" else b"rubbish"))
+    assert header["command"] == "made by a test"
+    assert list(header["tasks"]) == ["reach", "walk"]
+    assert header["tasks"]["walk"]["report"]["n_workers"] == 5
+
+
+def test_nothing_is_left_beside_the_library(saved):
+    assert [p.name for p in saved.parent.iterdir()] == ["moves.npz"]
+
+
+def test_an_unknown_task_is_answered_with_the_nearest(library):
+    with pytest.raises(LibraryError, match="did you mean 'reach'"):
+        library["reech"]
+
+
+def test_two_libraries_become_one(library):
+    merged = library.merge(MotionLibrary.of(made("lift")[2], command="another"))
+    assert merged.tasks == ("reach", "walk", "lift")
+    assert merged.command == "made by a test; another"
+
+
+def test_a_task_is_not_overwritten_in_silence(library):
+    with pytest.raises(LibraryError, match="already"):
+        library.add(made("walk")[2])
+
+
+@pytest.mark.parametrize("content", [b"", b"not a zip at all", b"PK\x03\x04 and then nothing"])
+def test_what_is_no_archive_is_refused(tmp_path, content):
+    (tmp_path / "x.npz").write_bytes(content)
+    with pytest.raises(LibraryError, match="not a motion library"):
+        MotionLibrary.load(tmp_path / "x.npz")
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(LibraryError, match=r"gone\.npz: no such file"):
+        MotionLibrary.load(tmp_path / "gone.npz")
+
+
+def test_recordings_are_no_library(tmp_path):
+    np.savez(tmp_path / "x.npz", positions=np.zeros((3, 2, 3)))
+    with pytest.raises(LibraryError, match="not a motion library"):
+        MotionLibrary.load(tmp_path / "x.npz")
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9, 0.999])
+def test_a_truncated_library_is_refused(saved, share):
+    content = saved.read_bytes()
+    saved.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(LibraryError):
+        MotionLibrary.load(saved)
+
+
+def test_a_flipped_byte_is_found(saved):
+    content = bytearray(saved.read_bytes())
+    content[len(content) // 2] ^= 0xFF
+    saved.write_bytes(content)
+    with pytest.raises(LibraryError):
+        MotionLibrary.load(saved)
+
+
+def test_a_pickle_is_never_opened(saved):
+    class Trap:
+        def __reduce__(self):
+            return (pytest.fail, ("the pickle was opened",))
+
+    trap = npy(np.array([Trap()], dtype=object), allow_pickle=True)
+    with pytest.raises(LibraryError, match="damaged"):
+        MotionLibrary.load(changed(saved, lambda name, content: trap if name == "walk/centre.npy" else content))
+
+
+def test_a_number_that_is_none_is_refused(saved):
+    poison = npy(np.array([np.nan]))
+    with pytest.raises(LibraryError, match="finite"):
+        MotionLibrary.load(changed(saved, lambda name, content: poison if name == "walk/spread.npy" else content))
+
+
+def test_a_missing_array_is_named(saved):
+    with pytest.raises(LibraryError, match="walk/centre"):
+        MotionLibrary.load(changed(saved, lambda name, content: None if name == "walk/centre.npy" else content))
+
+
+def test_an_array_of_wrong_shape_is_named(saved):
+    wrong = npy(np.zeros((3, 3)))
+    with pytest.raises(LibraryError, match=r"walk/centre has shape \(3, 3\)"):
+        MotionLibrary.load(changed(saved, lambda name, content: wrong if name == "walk/centre.npy" else content))
+
+
+def test_a_library_of_another_version_is_refused(saved):
+    with pytest.raises(LibraryError, match="version 99"):
+        MotionLibrary.load(with_header(saved, lambda header: header | {"version": 99}))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda header: [],
+        lambda header: header | {"format": "something else"},
+        lambda header: {"format": FORMAT, "version": 1},
+        lambda header: header | {"tasks": {"walk": {}}},
+        lambda header: header | {"tasks": 7},
+        lambda header: header | {"tasks": {"walk": header["tasks"]["walk"] | {"sizes": [1, 2]}}},
+        lambda header: header | {"tasks": {"walk": header["tasks"]["walk"] | {"n_times": "many"}}},
+        lambda header: header | {"tasks": {"walk": header["tasks"]["walk"] | {"margin_slopes": [-1, 0]}}},
+        lambda header: header | {"tasks": {"walk": header["tasks"]["walk"] | {"report": {"task": "walk"}}}},
+    ],
+)
+def test_a_hostile_header_is_refused(saved, change):
+    with pytest.raises(LibraryError):
+        MotionLibrary.load(with_header(saved, change))
+
+
+def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path, monkeypatch, saved):
+    monkeypatch.setattr("emulator.archive.MAX_BYTES", 10_000)
+    with pytest.raises(LibraryError, match="larger"):
+        MotionLibrary.load(saved)

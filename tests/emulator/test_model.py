@@ -1,0 +1,180 @@
+import time
+
+import numpy as np
+import pytest
+
+from emulator.model import MotionEmulator
+from emulator.motion import MotionSet
+from emulator.synthetic import make
+from emulator.workforce import WorkerEffect
+from tests.emulator.fitted import made
+
+
+@pytest.fixture(scope="module")
+def emulator():
+    return made("lift")[2]
+
+
+def rng(seed=0):
+    return np.random.default_rng(seed)
+
+
+def test_the_same_generator_gives_the_same_bytes(emulator):
+    one, two = (emulator.sample(64, rng(9)) for _ in range(2))
+    for name in ("duration_s", "mark_s", "scores"):
+        assert getattr(one, name).tobytes() == getattr(two, name).tobytes()
+    assert one.positions_m(n_times=5).tobytes() == two.positions_m(n_times=5).tobytes()
+
+
+def test_the_within_worker_numbers_come_first_whoever_performs(emulator):
+    known = [emulator.sample(8, rng(1), worker=name).scores - emulator.known_worker(name).z for name in ("w1", "w2")]
+    assert np.allclose(known[0], known[1], atol=1e-12)
+
+
+def test_drawing_takes_the_same_numbers_whatever_the_worker(emulator):
+    states = []
+    for name in ("w1", "w4"):
+        generator = rng(2)
+        emulator.sample(64, generator, worker=name)
+        states.append(generator.bit_generator.state["state"]["state"])
+    assert states[0] == states[1]
+
+
+def test_the_mean_duration_is_that_of_many_draws(emulator):
+    for worker in (None, "w2", emulator.draw_worker(rng(5))):
+        duration_s = emulator.sample(60_000, rng(3), worker=worker).duration_s
+        error = duration_s.std() / np.sqrt(60_000)
+        assert abs(duration_s.mean() - emulator.mean_duration_s(worker)) < 4 * error
+        assert np.isclose(duration_s.std() / duration_s.mean(), emulator.duration_cv(worker), rtol=0.03)
+
+
+def test_known_workers_differ_as_their_recordings_do(emulator):
+    motions = made("lift")[0]
+    recorded = [motions.duration_s[motions.worker_index == w].mean() for w in range(5)]
+    emulated = [emulator.mean_duration_s(name) for name in motions.workers]
+    assert np.corrcoef(recorded, emulated)[0, 1] > 0.98
+    assert np.std(emulated) < np.std(recorded)
+
+
+def test_one_worker_varies_less_than_the_population(emulator):
+    assert emulator.duration_cv("w1") < emulator.duration_cv()
+
+
+def test_a_given_duration_is_met_and_the_rest_follows(emulator):
+    drawn = emulator.sample(2000, rng(), condition={"duration_s": 5.0})
+    assert np.allclose(drawn.duration_s, 5.0)
+    free = emulator.sample(40_000, rng(1))
+    near = np.abs(np.log(free.duration_s / 5.0)) < 0.03
+    assert near.sum() > 100
+    assert np.abs(drawn.scores.mean(0) - free.scores[near].mean(0)).max() < 0.35
+
+
+def test_a_shift_moves_log_duration_by_just_that_and_nothing_at_zero(emulator):
+    plain = emulator.sample(64, rng(4), worker="w1")
+    shifted = emulator.sample(64, rng(4), worker="w1", condition={"log_duration_shift": 0.1})
+    assert np.allclose(shifted.duration_s / plain.duration_s, np.exp(0.1))
+    assert not np.allclose(shifted.scores[:, 0], plain.scores[:, 0])
+    same = emulator.sample(64, rng(4), worker="w1", condition={"log_duration_shift": 0.0})
+    assert np.allclose(same.scores, plain.scores, atol=1e-12)
+
+
+def test_a_body_height_scales_the_bones(emulator):
+    tall, short = (emulator.draw_worker(rng(1), body={"height_m": h}) for h in (1.9, 1.5))
+    lengths = [emulator.sample(1, rng(), worker=w).bone_length_m.sum() for w in (tall, short)]
+    assert np.isclose(lengths[0] / lengths[1], 1.7 / 1.3)
+    top = emulator.sample(1, rng(), worker=tall).positions_m()[0, 0, :, 2].max()
+    assert 1.6 < top < 1.85
+
+
+def test_recordings_of_one_person_have_no_worker_effect():
+    motions = made("lift")[0]
+    emulator = MotionEmulator.fit(motions.where("worker == w1"))
+    assert emulator.draw_worker(rng()) is None
+    assert np.isnan(emulator.report.icc)
+    assert ("ICC of log duration", "not estimable") in emulator.report.rows()
+    assert emulator.sample(3, rng()).positions_m(n_times=3).shape == (3, 3, 21, 3)
+
+
+def test_a_task_without_marks_can_be_fitted():
+    motions = made("reach")[0]
+    from dataclasses import replace
+
+    bare = MotionSet("bare", tuple(replace(m, mark_s=np.empty(0)) for m in motions.motions[:12]))
+    assert MotionEmulator.fit(bare).sample(4, rng()).mark_s.shape == (4, 0)
+
+
+def test_the_report_is_that_of_the_recordings(emulator):
+    motions, _, _ = made("lift")
+    report = emulator.report
+    assert (report.n_sequences, report.n_workers) == (40, 5)
+    assert np.isclose(report.duration_mean_s, motions.duration_s.mean())
+    assert np.isclose(report.duration_cv, motions.duration_s.std(ddof=1) / motions.duration_s.mean())
+    assert report.icc_low < report.icc < report.icc_high
+    assert 0.98 <= report.explained_variance < 1
+    assert 0.5 < report.roughness_ratio < 1.5
+    assert 0.7 < report.novelty_ratio < 2.0
+    assert 0 < report.reconstruction_deg < 1.5
+
+
+def test_more_components_reconstruct_better():
+    motions = made("lift")[0]
+    few, many = (MotionEmulator.fit(motions, n_components=n).report for n in (2, 10))
+    assert (few.n_components, many.n_components) == (2, 10)
+    assert many.reconstruction_deg < few.reconstruction_deg
+    assert many.explained_variance > few.explained_variance
+
+
+def test_fitting_reports_its_progress():
+    seen = []
+    MotionEmulator.fit(make("reach", 2, 3)[0], progress=lambda done, total, label: seen.append((done, total)))
+    assert seen
+    assert all(0 <= done <= total for done, total in seen)
+
+
+def test_the_same_recordings_give_the_same_model_to_the_bit():
+    motions = made("reach")[0]
+    one, two = (MotionEmulator.fit(motions, seed=s) for s in (0, 0))
+    assert one.sample(9, rng()).scores.tobytes() == two.sample(9, rng()).scores.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("settings", "word"),
+    [
+        ({"scheme": "SIEM/JointPCA/VAR"}, "scheme"),
+        ({"n_knots": 1}, "n_knots"),
+        ({"n_times": 3}, "n_times"),
+        ({"n_components": 1000}, "n_components"),
+    ],
+)
+def test_settings_that_make_no_sense_are_refused(settings, word):
+    with pytest.raises(ValueError, match=word):
+        MotionEmulator.fit(made("reach")[0], **settings)
+
+
+def test_two_repetitions_are_too_few():
+    with pytest.raises(ValueError, match="at least 3"):
+        MotionEmulator.fit(made("reach")[0].subset([0, 1]))
+
+
+def test_an_unknown_worker_is_answered_with_the_nearest(emulator):
+    with pytest.raises(ValueError, match="no worker 'w11'; did you mean 'w1'"):
+        emulator.sample(1, rng(), worker="w11")
+
+
+def test_an_unknown_condition_is_refused(emulator):
+    with pytest.raises(ValueError, match="pace"):
+        emulator.sample(1, rng(), condition={"pace": 1.1})
+
+
+def test_an_effect_of_another_emulator_is_refused(emulator):
+    with pytest.raises(ValueError, match="not drawn from this emulator"):
+        emulator.sample(1, rng(), worker=WorkerEffect(np.zeros(2)))
+
+
+def test_a_block_of_times_is_drawn_within_a_millisecond(emulator):
+    worker, generator, best = emulator.known_worker("w1"), rng(), np.inf
+    for _ in range(200):
+        start = time.perf_counter()
+        emulator.sample(64, generator, worker=worker)
+        best = min(best, time.perf_counter() - start)
+    assert best < 1e-3

@@ -1,0 +1,77 @@
+import numpy as np
+import pytest
+
+from emulator.model import MotionEmulator
+from tests.emulator.fitted import made
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return made("lift")[2].sample(12, np.random.default_rng(1))
+
+
+def test_shapes_are_those_of_the_seam(drawn):
+    n_bones = drawn.skeleton.n_bones
+    assert drawn.duration_s.shape == (12,)
+    assert drawn.mark_s.shape == (12, 2)
+    assert drawn.scores.shape[0] == 12
+    assert drawn.directions(n_times=31).shape == (12, 31, n_bones, 3)
+    assert drawn.positions_m(np.linspace(0, 1, 7)).shape == (12, 7, n_bones + 1, 3)
+    assert drawn.root_m().shape == (12, 101, 3)
+
+
+def test_marks_are_in_order_and_inside_the_duration(drawn):
+    many = made("lift")[2].sample(5000, np.random.default_rng(0))
+    edges = np.column_stack([np.zeros(5000), many.mark_s, many.duration_s])
+    assert np.all(np.diff(edges, axis=1) > 0)
+
+
+def test_a_posture_decoded_alone_is_the_blocks_to_1e_10(drawn):
+    block = drawn.positions_m(n_times=33)
+    for i in (0, 5, 11):
+        assert np.abs(drawn[i].positions_m(n_times=33)[0] - block[i]).max() < 1e-10
+        assert np.abs(drawn[i].positions_m(drawn.duration_s[i] * np.array([0.5]))[0, 0] - block[i, 16]).max() < 1e-10
+    assert np.abs(drawn[3:6].directions() - drawn.directions()[3:6]).max() < 1e-10
+
+
+def test_the_last_performance_can_be_had_from_the_end(drawn):
+    assert np.array_equal(drawn[-1].duration_s, drawn.duration_s[-1:])
+
+
+def test_directions_have_unit_length_and_positions_their_bones(drawn):
+    assert np.abs(np.linalg.norm(drawn.directions(), axis=-1) - 1).max() < 1e-12
+    lengths = drawn.skeleton.bone_lengths(drawn.positions_m())
+    assert np.abs(lengths - drawn.bone_length_m[:, None]).max() < 1e-12
+
+
+def test_the_path_starts_at_the_origin_and_nothing_is_below_the_floor(drawn):
+    position = drawn.positions_m()
+    assert np.abs(position[:, 0, drawn.skeleton.root, :2]).max() < 1e-12
+    assert np.array_equal(position[:, :, drawn.skeleton.root], drawn.root_m())
+    assert position[..., 2].min() > -0.005
+
+
+def test_after_its_end_a_performance_holds_its_last_posture(drawn):
+    late = drawn.positions_m(np.array([drawn.duration_s.max(), 1000.0]))
+    assert np.array_equal(late[:, 1], drawn.positions_m(n_times=2)[:, 1])
+
+
+def test_times_of_each_performance_can_be_its_own(drawn):
+    own = drawn.duration_s[:, None] * np.linspace(0, 1, 9)
+    assert np.allclose(drawn.directions(own), drawn.directions(n_times=9), atol=1e-12)
+
+
+def test_durations_and_marks_are_drawn_without_decoding_a_posture(monkeypatch):
+    def refuse(*_):
+        raise AssertionError("a posture was decoded")
+
+    for name in ("aligned_directions", "root_channel", "bone_length_m"):
+        monkeypatch.setattr(MotionEmulator, name, refuse)
+    assert len(made("lift")[2].sample(64, np.random.default_rng(0))) == 64
+
+
+def test_the_grasp_mark_is_where_the_hand_is_lowest():
+    drawn = made("lift")[2].sample(40, np.random.default_rng(2))
+    hand = drawn.positions_m(n_times=201)[:, :, drawn.skeleton.index("right_wrist"), 2]
+    share = hand.argmin(axis=1) / 200 - drawn.mark_s[:, 0] / drawn.duration_s
+    assert np.median(np.abs(share)) < 0.03

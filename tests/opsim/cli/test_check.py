@@ -1,0 +1,52 @@
+import json
+
+import pytest
+
+from tests.opsim.cli.calls import LINE, line, opsim
+
+
+def test_check_shows_the_load_of_each_station(tmp_path):
+    code, shown, _ = opsim("check", line(tmp_path))
+    assert code == 0
+    assert "press" in shown and "25.0 s" in shown and "144.0" in shown and "no problems found" in shown
+
+
+def test_check_as_json_is_json(tmp_path):
+    code, shown, _ = opsim("check", line(tmp_path), "--json")
+    loads = json.loads(shown)["variants"]["base"]
+    assert code == 0 and [load["station"] for load in loads] == ["press", "saw"]
+
+
+def test_an_overloaded_station_is_warned_of(tmp_path):
+    text = LINE.replace("kind: saturated", "kind: poisson, every: 10 s")
+    code, _, complaint = opsim("check", line(tmp_path, text))
+    assert code == 0 and "press cannot keep up: 250% of its time is wanted" in complaint
+
+
+def test_all_problems_are_said_at_once_with_their_place(tmp_path):
+    text = LINE.replace("fixed: 25 s", "fixed: 25").replace("route: [saw, press]", "route: [saw, pres]")
+    code, shown, complaint = opsim("check", line(tmp_path, text))
+    assert (code, shown) == (2, "")
+    assert "line.yaml:8:18:" in complaint and "did you mean 'press'?" in complaint and "2 problems in" in complaint
+
+
+def test_check_and_run_complain_alike(tmp_path):
+    path = line(tmp_path, "opsim: 1\n")
+    assert opsim("check", path) == opsim("run", path, "-o", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("what", ["missing.yaml", "."])
+def test_a_file_that_is_none_is_a_mistake(tmp_path, monkeypatch, what):
+    monkeypatch.chdir(tmp_path)
+    code, _, complaint = opsim("check", what)
+    assert code == 2 and complaint.startswith(what)
+
+
+def test_an_unknown_variant_gets_the_nearest_word(tmp_path):
+    code, _, complaint = opsim("check", line(tmp_path), "--scenario", "bace")
+    assert code == 2 and "base" in complaint
+
+
+def test_a_shipped_scenario_is_known_by_name():
+    assert opsim("check", "serial_line")[0] == 0
