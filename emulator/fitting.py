@@ -27,6 +27,7 @@ ROOT_SHARE, PACE_SHARE, BONE_SHARE = 0.98, 0.98, 0.98
 LARGEST_POSTURE = 24
 DURATION_KNOTS, MARK_KNOTS = 12, 60
 ROUGH = 1.5
+LARGEST_ICC_FOR_SCORES = 0.3
 ROUGH_NOTE = (
     "draws are much rougher than the recordings: too few repetitions for one Gaussian, or people that differ in kind "
     "(for example in the leading leg); look at them before use, draw known workers, or fit the kinds apart"
@@ -69,7 +70,8 @@ def _fit(
     pace = JointPCA.fit(clr(warps, n_knots), PACE_SHARE, 10)
     modelled = from_clr(pace.inverse(pace.forward(clr(warps, n_knots))), n_times)
     index, log_duration = motions.worker_index, np.log(motions.duration_s)
-    margin = fit_margin(log_duration, within_worker(log_duration, index), DURATION_KNOTS)
+    icc = intraclass_correlation(log_duration, index)
+    margin = _duration_margin(log_duration, index, icc[0])
     marks = clock_to_coordinates(_mark_clock(motions, modelled))
     mark_margins = tuple(fit_margin(column, column, MARK_KNOTS, 0.05) for column in marks.T)
     scale, z = JointScale.fit(
@@ -103,12 +105,22 @@ def _fit(
             scale,
             margin,
             mark_margins,
-            intraclass_correlation(log_duration, index),
+            icc,
             workforce,
             command,
         ),
     )
     return replace(model, report=_judged(model, directions, warps, z, seed))
+
+
+def _duration_margin(log_duration: np.ndarray, worker_index: np.ndarray, icc: float) -> Margin:
+    """Lognormal; normal scores where the residuals refuse it and workers hardly differ.
+
+    Where a few people differ, pooled scores are steps at each of them, and a new worker between two has two modes;
+    on held-out repetitions of such people the lognormal was as good or better (DESIGN.md).
+    """
+    residual = within_worker(log_duration, worker_index)
+    return fit_margin(log_duration, residual[:0] if icc > LARGEST_ICC_FOR_SCORES else residual, DURATION_KNOTS)
 
 
 def stored(pca: JointPCA) -> JointPCA:
