@@ -20,8 +20,8 @@ def command(library: str, task: str | None, out: Path | None, n: int, seed: int,
     """Draw a TASK of a LIBRARY along real time: the mean performance above drawn ones."""
     from opsim.cli.console import print_json
     from opsim.cli.motion_sample import chosen
+    from opsim.provenance import behind
     from opsim.report import draw_strips
-    from opsim.report.words import behind
 
     with mistakes():
         model = chosen(library, task)

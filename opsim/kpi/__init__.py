@@ -1,4 +1,4 @@
-"""Figures as pure functions of an EventLog over the window from warm-up to horizon. Names load what they need (PEP 562)."""
+"""Figures as pure functions of an EventLog over the window from warm-up to horizon."""
 
 from importlib import import_module
 from typing import Any
@@ -9,7 +9,7 @@ _HOMES = {
     "figures": "opsim.kpi.table",
     "samples": "opsim.kpi.table",
 }
-__all__ = ["KPIS", "Figure", "figures", "samples"]  # noqa: F822
+__all__ = ["KPIS", "Figure", "figures", "samples"]
 
 
 def __getattr__(name: str) -> Any:

@@ -118,13 +118,6 @@ def largest_mean(rows: Iterable[Mapping[str, Any]]) -> float | None:
     return max((abs(row["mean"]) for row in rows if is_number(row.get("mean"))), default=None)
 
 
-def behind(source: str, n_sequences: int, n_workers: int) -> str:
-    """What stands behind an emulator: recordings of people or, where its source says so, nobody at all."""
-    if source.lower().startswith(("synthetic", "emulated")):
-        return f"{n_sequences} made repetitions of {n_workers} made-up people: nobody was recorded"
-    return f"{n_sequences} recordings of {n_workers} people"
-
-
 def clock(start: str, at_s: float) -> str:
     """``clock('Mon 06:00', 1800)`` is ``Mon 06:30``; a start of another form stands beside the hours since it."""
     days = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")

@@ -10,9 +10,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from opsim.provenance import behind
 from opsim.report import figures
 from opsim.report.sentence import sentences
-from opsim.report.words import behind, clock, interval_cells, kpi_name, largest_mean, quantity
+from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
 from opsim.whole import write_text
 
 HERE = Path(__file__).parent

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from opsim.plan import Plan
 from opsim.plan.worker import start_place
+from opsim.provenance import behind, fit_report
 from opsim.streams import stream
-from opsim.study.sources import fit_report
 
 Assumption = tuple[str, str]
 """(topic, what is assumed)"""
@@ -28,8 +28,8 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
             report = fit_report(task.model)
             yield (
                 "task times",
-                f"{task.name}: people at this station move and take their time like the {report.n_workers} people of "
-                f"{tasks[task.name].emulator} ({report.n_sequences} recordings)",
+                f"{task.name}: people here move and take their time as in {tasks[task.name].emulator} "
+                f"({behind(report.source, report.n_sequences, report.n_workers)})",
             )
     repeated = [f"{task.name} ({task.repeat} times)" for task in plan.tasks if task.repeat > 1]
     if repeated:

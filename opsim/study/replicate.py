@@ -38,7 +38,7 @@ def events_file(folder: Path, replication: int) -> Path:
 MakePlan = Callable[[], Plan]
 """Makes the Plan anew in each process: what it is made from is small, a Plan with its emulators is not.
 
-NOTE: a started process that dies before it has read its arguments blocks its parent for ever where they exceed a pipe's 64 kB.
+NOTE: a process that dies before it has read its arguments blocks its parent for ever where they exceed a pipe's 64 kB.
 """
 
 

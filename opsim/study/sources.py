@@ -1,18 +1,12 @@
 """Where the times of each task come from."""
 
-from typing import Any
-
 from opsim.plan import Plan
+from opsim.provenance import fit_report
 
 
 def task_sources(loaded, plan: Plan) -> list[dict]:
     """A row a task, in natural order: its model in words, and for an emulated one the recordings behind it."""
     return [_source(loaded, plan, task.name, task.model) for task in plan.tasks]
-
-
-def fit_report(model: Any) -> Any:
-    """What an emulator tells of its training, beyond the seam: source, licence, n_sequences, n_workers."""
-    return model.report
 
 
 def _source(loaded, plan: Plan, name: str, model) -> dict:

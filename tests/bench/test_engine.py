@@ -1,4 +1,4 @@
-"""The engine with its full event log against the same line in hand-written SimPy that logs nothing. Ratios in one run."""
+"""The engine with its full event log against the same line in hand-written SimPy, which logs nothing."""
 
 import random
 import time

@@ -13,15 +13,16 @@ from opsim.kpi import figures
 from opsim.log import COLUMNS
 
 
+RELEASES = ("{kind: saturated}", "{kind: poisson, every: 3 s}", "{kind: poisson, every: 3 s, when_full: lose}")
+
+
 @st.composite
 def floors(draw):
     """A scenario as blocks of lines, with whole-second times so that ties are real."""
     n_stations, n_workers = draw(st.integers(1, 4)), draw(st.integers(1, 4))
     seconds = st.integers(1, 4)
-    tasks = [
-        f"t{i}: {{fixed: {draw(seconds)} s, repeat: {draw(st.integers(1, 2))}, automatic: {draw(st.booleans())}}}".lower()
-        for i in range(n_stations)
-    ]
+    more = [(draw(seconds), draw(st.integers(1, 2)), str(draw(st.booleans())).lower()) for _ in range(n_stations)]
+    tasks = [f"t{i}: {{fixed: {s} s, repeat: {n}, automatic: {a}}}" for i, (s, n, a) in enumerate(more)]
     manual = "m: {fixed: 2 s}"
     stations = []
     for i in range(n_stations):
@@ -48,9 +49,7 @@ def floors(draw):
         "stations": stations,
         "products": products,
         "workers": workers,
-        "release": draw(
-            st.sampled_from(["{kind: saturated}", "{kind: poisson, every: 3 s}", "{kind: poisson, every: 3 s, when_full: lose}"])
-        ),
+        "release": draw(st.sampled_from(RELEASES)),
         "rule": draw(st.sampled_from(["longest_queue", "nearest", "oldest_job"])),
         "blocked": draw(st.sampled_from(["free", "held"])),
     }

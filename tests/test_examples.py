@@ -1,0 +1,28 @@
+"""Every example prints what stands beside it in its .out file. ``python tests/test_examples.py`` renews them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = sorted((Path(__file__).parent.parent / "examples").glob("*.py"))
+
+
+def printed(example: Path) -> str:
+    return subprocess.run([sys.executable, str(example)], capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+def test_an_example_prints_what_it_promises(example):
+    assert printed(example) == example.with_suffix(".out").read_text()
+
+
+def test_there_are_examples():
+    assert len(EXAMPLES) >= 3
+
+
+if __name__ == "__main__":
+    for path in EXAMPLES:
+        path.with_suffix(".out").write_text(printed(path))
+        print(path.name, path.with_suffix(".out").read_text(), sep="\n")
