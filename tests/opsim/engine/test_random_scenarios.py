@@ -12,7 +12,6 @@ from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
 from opsim.log import COLUMNS
 
-
 RELEASES = ("{kind: saturated}", "{kind: poisson, every: 3 s}", "{kind: poisson, every: 3 s, when_full: lose}")
 
 
