@@ -16,7 +16,8 @@ print(f"turn at {np.median(drawn.mark_s[:, 0] / drawn.duration_s):.0%} of the ti
 worker = squat.draw_worker(np.random.default_rng(2))
 his = squat.sample(200, np.random.default_rng(1), worker=worker)
 print(
-    f"one worker: mean {his.duration_s.mean():.2f} s, spread {his.duration_s.std() / drawn.duration_s.std():.0%} of everybody's"
+    f"one worker: mean {his.duration_s.mean():.2f} s, "
+    f"spread {his.duration_s.std() / drawn.duration_s.std():.0%} of everybody's"
 )
 
 pelvis = drawn.skeleton.index("pelvis")
