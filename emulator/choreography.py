@@ -21,6 +21,7 @@ class Choreography:
     """A made task: its marks on the common clock, mean duration, coefficient of variation, and the postures.
 
     ``keys(latent (4,), mark_clock (E,))`` gives key postures; what a key leaves out is at rest.
+    Key postures stand at fixed points of the common clock; a recorded mark scatters about its own, as a label does.
     ``finish(pose, clock, latent, mark_clock)`` may add what keys cannot say (turning, stepping).
     """
 
@@ -32,22 +33,27 @@ class Choreography:
     finish: Callable[..., dict[str, np.ndarray]] | None = None
 
 
-def pose_at(task: Choreography, clock: np.ndarray, latent: np.ndarray, mark_clock: np.ndarray) -> dict[str, np.ndarray]:
-    """The fields of ``REST`` at each clock time (T,): a dictionary of (T, 3) or (T, 1)."""
-    from scipy.interpolate import PchipInterpolator
+def pose_at(task: Choreography, clock: np.ndarray, latent: np.ndarray) -> dict[str, np.ndarray]:
+    """The fields of ``REST`` at each clock time (T,): a dictionary of (T, 3) or (T, 1).
 
+    All fields ease from key to key together, at rest at each: how much one moves then never looks like another pace.
+    """
+    mark_clock = np.array(task.mark_clock)
     keys = task.keys(latent, mark_clock)
-    times = [at for at, _ in keys]
+    times = np.array([at for at, _ in keys])
+    move = np.clip(np.searchsorted(times, clock, side="right") - 1, 0, len(times) - 2)
+    share = (clock - times[move]) / np.diff(times)[move]
+    eased = (share**2 * (3.0 - 2.0 * share))[:, None]
     pose = {}
     for name, rest in REST.items():
-        values = [np.broadcast_to(np.asarray(key.get(name, rest), float), rest.shape) for _, key in keys]
-        pose[name] = PchipInterpolator(times, np.stack(values))(clock)
+        at = np.stack([np.broadcast_to(np.asarray(key.get(name, rest), float), rest.shape) for _, key in keys])
+        pose[name] = at[move] + eased * (at[move + 1] - at[move])
     return task.finish(pose, clock, latent, mark_clock) if task.finish else pose
 
 
 def _reach(a: np.ndarray, mark: np.ndarray) -> Keys:
     far: dict[str, object] = {
-        "right_wrist": (0.50 + 0.05 * a[0], -0.14 - 0.05 * a[1], 1.22 + 0.09 * a[0]),
+        "right_wrist": (0.50 + 0.04 * a[0], -0.14 - 0.05 * a[1], 1.22 + 0.07 * a[0]),
         "pitch": 0.14 + 0.05 * a[2], "twist": 0.20 + 0.05 * a[1], "left_wrist": (0.05 - 0.02 * a[3], 0.27, 0.86),
     }  # fmt: skip
     return [(0.0, {}), (mark[0], far), (1.0, {})]

@@ -20,8 +20,8 @@ REST = {
     "twist": np.array([0.0]),
     "nod": np.array([0.10]),
     "look": np.array([0.0]),
-    "left_wrist": np.array([0.08, 0.25, 0.855]),
-    "right_wrist": np.array([0.08, -0.25, 0.855]),
+    "left_wrist": np.array([0.08, 0.25, 0.885]),
+    "right_wrist": np.array([0.08, -0.25, 0.885]),
     "left_ankle": np.array([0.0, 0.11, 0.08]),
     "right_ankle": np.array([0.0, -0.11, 0.08]),
     "left_toe": np.array([0.0]),
@@ -32,6 +32,7 @@ nod and look the head beyond it; left_toe and right_toe pitch the foot, positive
 _ELBOW_POLE = np.array([-0.45, 0.55, -0.75])
 _KNEE_POLE = np.array([1.0, 0.18, 0.0])
 _STRAIGHT = 0.999
+_SOFT = 0.90
 Fields = dict[str, np.ndarray]
 
 
@@ -77,12 +78,22 @@ def _arm(
 ) -> None:
     mirror = np.array([1.0, sign, 1.0])
     shoulder = place["chest"] + trunk @ (mirror * [0.0, 0.19, 0.17])
+    wrist = soft_target(shoulder, wrist, 0.55 * ratio)
     elbow, wrist = two_bones(shoulder, wrist, 0.29 * ratio, 0.26 * ratio, trunk @ (mirror * _ELBOW_POLE))
     hand = wrist + 0.085 * ratio * _unit(wrist - elbow)
     place |= {
         f"{side}_{joint}": at
         for joint, at in zip(("shoulder", "elbow", "wrist", "hand"), (shoulder, elbow, wrist, hand))
     }
+
+
+def soft_target(start: np.ndarray, target: np.ndarray, length: float) -> np.ndarray:
+    """Targets (T, 3), those beyond ``_SOFT`` of a limb's length drawn in smoothly: a limb never locks straight."""
+    apart = target - start
+    distance = np.linalg.norm(apart, axis=-1, keepdims=True) / length
+    room = _STRAIGHT - _SOFT
+    soft = _SOFT + room * -np.expm1(-np.maximum(distance - _SOFT, 0.0) / room)
+    return start + apart * np.where(distance > _SOFT, soft / np.maximum(distance, 1e-12), 1.0)
 
 
 def _leg(

@@ -35,7 +35,8 @@ _CLOCK = np.linspace(0.0, 1.0, 201)
 class Truth:
     """What was put into the made repetitions, and the population they were drawn from.
 
-    warps (N, 201): common clock -> own unit time, on 201 even clock times; mark_clock (N, E) marks on the common clock;
+    warps (N, 201): common clock -> own unit time, on 201 even clock times; mark_clock (N, E) marks on the common clock,
+    scattered about the key posture by ``MARK_SPREAD`` as a hand-set label is;
     latents (N, 4) posture latents, standard normal in the population; log_duration (N,) log seconds; worker_index (N,)
     duration_mean_s, duration_cv, between_share (of the variance of log duration), posture_duration_correlation
     (of latent 0 with log duration): of the population
@@ -163,7 +164,7 @@ def _motion(dance: Choreography, truth: Truth, i: int, body: Body, worker: str, 
     duration_s = float(np.exp(truth.log_duration[i]))
     n_times = max(round(duration_s * RATE_HZ) + 1, 20)
     clock = np.interp(np.linspace(0, 1, n_times), truth.warps[i], _CLOCK)
-    pose = pose_at(dance, clock, truth.latents[i], truth.mark_clock[i])
+    pose = pose_at(dance, clock, truth.latents[i])
     mark_s = duration_s * np.interp(truth.mark_clock[i], _CLOCK, truth.warps[i])
     return motion_from_positions(
         standard_skeleton(),

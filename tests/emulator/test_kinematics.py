@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.kinematics import REST, Body, joints_m, two_bones
+from emulator.kinematics import REST, Body, joints_m, soft_target, two_bones
 from emulator.skeleton import standard_skeleton
 
 SKELETON = standard_skeleton()
@@ -25,6 +25,14 @@ def test_a_limb_reaches_a_target_within_reach_with_its_own_lengths():
 def test_a_target_out_of_reach_is_approached_on_the_straight_line():
     _, end = two_bones(np.zeros((1, 3)), np.array([[2.0, 0, 0]]), 0.3, 0.25, np.array([[0.0, 0, -1]]))
     assert np.allclose(end, [[0.999 * 0.55, 0, 0]])
+
+
+def test_a_near_target_is_kept_and_a_far_one_drawn_in_without_a_kink():
+    distance = np.linspace(0.1, 3.0, 2901)
+    drawn = soft_target(np.zeros((1, 3)), np.stack([distance, 0 * distance, 0 * distance], axis=-1), 1.0)[:, 0]
+    assert np.allclose(drawn[distance <= 0.9], distance[distance <= 0.9], atol=1e-15)
+    assert np.all(np.diff(drawn) >= 0) and drawn.max() <= 0.999
+    assert np.abs(np.diff(drawn, 2)).max() < 2e-5
 
 
 def test_bones_keep_their_lengths_in_any_posture():
