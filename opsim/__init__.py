@@ -16,7 +16,7 @@ _HOMES = {
     "Scenario": "opsim.scenario",
     "ScenarioError": "opsim.scenario",
     "TaskModel": "opsim.task",
-    "audit": "opsim.audit",
+    "audit": "opsim.laws",
     "compile_plan": "opsim.plan",
     "figures": "opsim.kpi",
     "read_events": "opsim.log_store",

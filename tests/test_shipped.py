@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from opsim.audit import CHECKS, audit
+from opsim.laws import CHECKS, audit
 from opsim.engine.simpy_engine import run_plan
 from opsim.libraries import load_library
 from opsim.log import FINISH

@@ -65,7 +65,7 @@ def replicate(
 
 def run_one(plan: Plan, replication: int, folder: Path) -> Replicated:
     """One replication: run, audited, written; or read, where its file is there already."""
-    from opsim.audit import audit
+    from opsim.laws import audit
     from opsim.engine.simpy_engine import run_plan
     from opsim.log_store import read_events, write_events
 

@@ -6,14 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from opsim import __version__
-from opsim.audit import CHECKS
-from opsim.log_store import connect, quoted
+from opsim.laws import CHECKS
+from opsim.log_store import parquet_file
 from opsim.plan import Plan
 from opsim.study.assumptions import assumptions_of
 from opsim.study.interval import CONFIDENCE, t_interval
 from opsim.study.replicate import Replicated
 from opsim.study.sources import task_sources
-from opsim.whole import whole_file
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40
@@ -44,12 +43,12 @@ def write_kpis(done: Sequence[Replicated], path: Path) -> None:
     rows = [(result.replication, *figure) for result in done for figure in result.figures]
     columns = [np.array(column) for column in zip(*rows)]
     table = dict(zip(("replication", "kpi", "subject", "part", "unit", "value"), columns))
-    with connect() as connection, whole_file(path) as temporary:
+    with parquet_file(path) as (connection, temporary):
         connection.register("kpi_rows", {name: _as_object(column) for name, column in table.items()})
         connection.execute(
             "COPY (SELECT replication, kpi, subject, part, unit, "
             "CASE WHEN isnan(value) THEN NULL ELSE value END AS value "
-            f"FROM kpi_rows) TO {quoted(str(temporary))} (FORMAT parquet, COMPRESSION zstd)"
+            f"FROM kpi_rows) TO {temporary} (FORMAT parquet, COMPRESSION zstd)"
         )
 
 
@@ -88,7 +87,8 @@ def _distributions(done: Sequence[Replicated]) -> list[dict]:
 def _distribution(kpi: str, subject: str, values: np.ndarray) -> dict:
     bins = int(np.clip(np.sqrt(values.size), 5, MOST_BINS))
     low, high = float(values.min()), float(np.quantile(values, 0.995))
-    counts, edges = np.histogram(values, bins=bins, range=(low, high if high > low else low + 1e-6))
+    high = max(high, low + max(1e-6, abs(low) * 1e-9))  # bins must be wider than the spacing of floats there
+    counts, edges = np.histogram(values, bins=bins, range=(low, high))
     return {
         "kpi": kpi,
         "subject": subject,

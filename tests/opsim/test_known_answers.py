@@ -7,7 +7,7 @@ Expected: M/M/1 at load 0.8, W = 5 and L = 4; saturated exponential lines with b
 import pytest
 from plans import line, plan, queue
 
-from opsim.audit import audit
+from opsim.laws import audit
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
 from opsim.study.interval import t_interval

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plans import plan
 
-from opsim.audit import CHECKS, audit
+from opsim.laws import CHECKS, audit
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
 from opsim.log import COLUMNS
