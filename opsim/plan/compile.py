@@ -30,6 +30,8 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         workers=plan_workers(scenario, places, tuple(stations)),
         rule=scenario.allocation.rule,
         when_blocked=scenario.allocation.when_blocked,
+        idle=scenario.allocation.idle,
+        staffing=getattr(scenario.run, "staffing", "fixed"),
     )
 
 

@@ -39,7 +39,7 @@ def _load(plan: Plan, rank: int, visits: float) -> StationLoad:
 def _visits(plan: Plan) -> list[float]:
     visits = [0.0] * len(plan.stations)
     for product in plan.products:
-        for operation in product.route:
+        for operation, passed in zip(product.route, product.visits()):
             for station in operation.stations:
-                visits[station] += product.share / len(operation.stations)
+                visits[station] += product.share * passed / len(operation.stations)
     return visits

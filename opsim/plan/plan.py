@@ -15,7 +15,8 @@ class Plan:
     """A scenario as numbers. Every tuple is in natural order of names; an index is a natural rank.
 
     distance_m : (P, P) metres between places
-    rule, when_blocked : named rules of allocation
+    rule, when_blocked, idle : named rules of allocation
+    staffing : ``fixed`` (the same people in every replication) or ``redrawn``
     """
 
     name: str
@@ -31,6 +32,8 @@ class Plan:
     workers: tuple[WorkerPlan, ...]
     rule: str
     when_blocked: str
+    idle: str
+    staffing: str
 
     @property
     def window_s(self) -> tuple[float, float]:

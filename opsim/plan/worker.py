@@ -15,13 +15,18 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class WorkerPlan:
-    """rating : (S,) performance rating at each station, 0 where the worker lacks the skill; place : where he starts."""
+    """rating : (S,) performance rating at each station, 0 where the worker lacks the skill
+
+    place  : where he starts and is at home
+    patrol : ranks of the stations of his round, empty where he makes none
+    """
 
     name: str
     place: int
     walk_m_per_s: float
     rating: tuple[float, ...]
     body: Body
+    patrol: tuple[int, ...] = ()
 
 
 def plan_workers(scenario, places: dict[str, int], station_names: tuple[str, ...]) -> tuple[WorkerPlan, ...]:
@@ -33,6 +38,7 @@ def plan_workers(scenario, places: dict[str, int], station_names: tuple[str, ...
             worker.walk_m_per_s,
             tuple(worker.skills.get(station, 0.0) for station in station_names),
             Body(worker.height_m, worker.mass_kg),
+            tuple(station_names.index(name) for name in getattr(worker, "patrol", None) or ()),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )

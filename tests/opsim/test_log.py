@@ -1,10 +1,14 @@
+import re
+import sys
+
 import numpy as np
 import pytest
 from plans import CELL, plan
 
 from opsim.engine.simpy_engine import run_plan
-from opsim.log import COLUMNS, ORDER, EventLog, LogWriter, event_log
+from opsim.log import COLUMNS, ORDER, EventLog, event_log, row
 from opsim.log_store import read_events, write_events
+from opsim.whole import write_text
 
 
 @pytest.fixture(scope="module")
@@ -23,13 +27,13 @@ def test_rows_are_sorted_whatever_order_they_come_in(log):
     assert all(np.array_equal(again[column], log[column]) for column in ORDER)
 
 
-def test_chunks_change_nothing(log, monkeypatch):
-    rows = list(zip(*(log[column].tolist() for column in COLUMNS)))
-    monkeypatch.setattr("opsim.log.CHUNK_ROWS", 7)
-    writer = LogWriter()
-    for row in rows:
-        writer.append(row)
-    assert equal(writer.close(0, log.horizon_s, log.names), log)
+def test_rows_that_tie_are_in_the_order_of_all_keys():
+    generator = np.random.default_rng(1)
+    rows = [row(*map(int, generator.integers(0, 3, len(COLUMNS) - 1)), 0) for _ in range(3000)]
+    log = event_log(rows, 10.0, {})
+    keys = [tuple(log[column][i] for column in ORDER) for i in range(len(log))]
+    assert keys == sorted(keys)
+    assert len(set(keys)) < len(keys)
 
 
 def test_parquet_gives_back_what_was_written(log, tmp_path):
@@ -66,4 +70,38 @@ def test_a_failed_write_leaves_nothing(log, tmp_path, monkeypatch):
     monkeypatch.setattr(log_store, "ROW_GROUP", "many")
     with pytest.raises(Exception, match=r"(?i)row_group|many|parse|cast|convert"):
         write_events(log, tmp_path / "events.parquet")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("damage", [lambda whole: b"", lambda whole: whole[:200], lambda whole: whole[100:] * 2])
+def test_a_damaged_file_is_an_oserror_that_names_it(log, tmp_path, damage):
+    path = tmp_path / "events.parquet"
+    write_events(log, path)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(OSError, match=re.escape(str(path))):
+        read_events(path)
+
+
+def test_rows_of_another_run_are_refused_where_one_is_asked_for(log, tmp_path):
+    write_events(log, tmp_path / "events.parquet", "run a")
+    assert equal(read_events(tmp_path / "events.parquet", "run a"), log)
+    with pytest.raises(OSError, match="another run"):
+        read_events(tmp_path / "events.parquet", "run b")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a limit on the size of files")
+def test_a_full_disk_is_said_with_the_final_name_and_leaves_nothing(log, tmp_path):
+    import resource
+
+    path, limits = tmp_path / "events.parquet", resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, limits[1]))
+    try:
+        with pytest.raises(OSError, match="the disk is full") as caught:
+            write_events(log, path)
+        with pytest.raises(OSError) as written:
+            write_text(tmp_path / "report.html", "x" * 10_000)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert str(path) in str(caught.value) and ".part" not in str(caught.value)
+    assert written.value.filename == str(tmp_path / "report.html")
     assert list(tmp_path.iterdir()) == []

@@ -1,28 +1,35 @@
-"""Free workers are sent to stations that call."""
+"""Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round."""
 
-from opsim.clock import on_grid
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Station, Worker
 from opsim.engine.simpy_engine.station import perform
-from opsim.engine.simpy_engine.worker import log_worker
-from opsim.log import WALK
+from opsim.engine.simpy_engine.worker import log_worker, walk
 
 
 def send_workers(floor: Floor) -> None:
-    """Serve the best pair of free worker and calling station, again and again."""
-    while floor.free and floor.calling and (pair := _best_pair(floor)) is not None:
-        _send(floor, *pair)
+    """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
+    idle = floor.plan.idle
+    while True:
+        while floor.free and floor.calling and (pair := _best_pair(floor, idle == "patrol")) is not None:
+            _send(floor, *pair)
+        if idle == "stay" or not floor.free:
+            return
+        if idle == "home":
+            _go_home(floor)
+            return
+        if not _walk_on(floor):
+            return
 
 
-def _best_pair(floor: Floor) -> tuple[Worker, Station] | None:
+def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
     best = best_key = None
-    for station in floor.calling.values():
-        n_waiting, since_s, rank = len(station.calling) + len(station.queue), station.calling[0][0], station.rank
-        for worker in floor.free.values():
+    rule, free = floor.rule, floor.free.values()
+    for rank, station in floor.calling.items():
+        n_waiting, since_s = len(station.calling) + len(station.queue), station.calling[0][0]
+        for worker in free:
             rating = worker.plan.rating[rank]
-            if rating > 0:
-                walk_s = _walk_m(floor, worker, station) / worker.plan.walk_m_per_s
-                key = floor.rule(n_waiting, since_s, walk_s, rating, rank, worker.rank)
+            if rating > 0 and (not patrols or _on_round(worker) == rank):
+                key = rule(n_waiting, since_s, worker.walk_s[worker.place][rank], rating, rank, worker.rank)
                 if best_key is None or key < best_key:
                     best, best_key = (worker, station), key
     return best
@@ -35,14 +42,48 @@ def _send(floor: Floor, worker: Worker, station: Station) -> None:
     if not station.calling:
         del floor.calling[station.rank]
     worker.job, worker.station = job, station
-    walk_m = _walk_m(floor, worker, station)
-    worker.walk_from, worker.place = worker.place, station.plan.place
-    if walk_m == 0:
+    walk_s = worker.walk_s[worker.place][station.rank]
+    if walk_s > 0:
+        walk(floor, worker, station.place, walk_s)
+    else:
+        worker.place = station.place
         perform(floor, job, worker)
-        return
-    worker.kind, worker.since_s = WALK, floor.now
-    floor.at_end_of(on_grid(walk_m / worker.plan.walk_m_per_s), worker.stretch_over)
 
 
-def _walk_m(floor: Floor, worker: Worker, station: Station) -> float:
-    return floor.plan.distance_m[worker.place][station.plan.place]
+def _on_round(worker: Worker) -> int:
+    """The station of his round where the worker stands: the only one a patrolling worker serves."""
+    return worker.plan.patrol[worker.round] if worker.round >= 0 else -1
+
+
+def _go_home(floor: Floor) -> None:
+    for worker in [w for w in floor.free.values() if w.place != w.plan.place]:
+        metres = floor.plan.distance_m[worker.place][worker.plan.place]
+        if metres > 0:
+            _leave(floor, worker, worker.plan.place, metres / worker.plan.walk_m_per_s)
+        else:
+            worker.place = worker.plan.place
+
+
+def _walk_on(floor: Floor) -> bool:
+    """Patrolling workers go to the next station of their round; True where one came to a call without walking."""
+    came = False
+    for worker in sorted(floor.free.values(), key=lambda w: w.rank):
+        patrol = worker.plan.patrol
+        for _ in patrol:
+            worker.round = (worker.round + 1) % len(patrol)
+            station = floor.stations[patrol[worker.round]]
+            walk_s = worker.walk_s[worker.place][station.rank]
+            if walk_s > 0:
+                _leave(floor, worker, station.place, walk_s)
+                break
+            worker.place = station.place
+            if station.calling:
+                came = True
+                break
+    return came
+
+
+def _leave(floor: Floor, worker: Worker, place: int, walk_s: float) -> None:
+    log_worker(floor, worker)
+    del floor.free[worker.rank]
+    walk(floor, worker, place, walk_s)

@@ -10,8 +10,10 @@ from opsim.log import WALK
 
 
 def _stretch_done(floor: Floor, worker: Worker) -> None:
-    job: Job = worker.job  # type: ignore[assignment]
-    if worker.kind == WALK:
+    job = worker.job
+    if job is None:
+        set_free(floor, worker)
+    elif worker.kind == WALK:
         log_worker(floor, worker)
         perform(floor, job, worker)
     elif task_done(floor, job):

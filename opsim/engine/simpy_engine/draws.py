@@ -1,15 +1,17 @@
 """All luck of a replication, by name: durations, gaps between arrivals, product mix."""
 
+from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate
 
 import numpy as np
 
 from opsim.plan import Plan
-from opsim.streams import BLOCK, Items, stream
+from opsim.streams import BLOCK, Items, Scattered, stream
 
 FIXED_WORKFORCE = 0
-"""Workers' own effects belong to the workforce, not to the replication: the same people work in every one."""
+"""Where staffing is fixed, workers' own effects belong to workforce 0: the same people work in every replication.
+Where it is redrawn, each replication has a workforce of its own."""
 
 
 class Draws:
@@ -17,12 +19,14 @@ class Draws:
 
     def __init__(self, plan: Plan, replication: int):
         self._plan, self._replication = plan, replication
+        self._workforce = replication if plan.staffing == "redrawn" else FIXED_WORKFORCE
         release = plan.release
         self._gaps = self._items(("interarrival", release.name), _exponential(release.every_s))
         self._mix = self._items(("mix", release.name), _uniform)
         self._cumulative = list(accumulate(product.share for product in plan.products))[:-1]
         self._durations: dict[tuple[int, int], Items] = {}
         self._automatic: dict[tuple[int, int], Items] = {}
+        self._ways: dict[tuple[str, int], Scattered] = {}
 
     def duration_s(self, task: int, worker: int, k: int) -> float:
         """The k-th performance of a task by a worker, at skill rating 1."""
@@ -30,6 +34,10 @@ class Draws:
         if items is None:
             items = self._durations[task, worker] = self._of_worker(task, worker)
         return items[k]
+
+    def durations(self, task: int, worker: int) -> Iterator[float]:
+        """All performances of a task by a worker, one after the other: ``duration_s`` at k = 0, 1, 2, ..."""
+        return iter(self._of_worker(task, worker))
 
     def automatic_s(self, task: int, station: int, k: int) -> float:
         """The k-th automatic run of a task at a station."""
@@ -48,10 +56,18 @@ class Draws:
         point = self._mix[n]
         return sum(point >= share for share in self._cumulative)
 
+    def way(self, operation: str, visit: int, job: int) -> float:
+        """A number in [0, 1) that decides where a job goes after an operation it leaves for the ``visit``-th time."""
+        ways = self._ways.get((operation, visit))
+        if ways is None:
+            name = ("routing", operation, self._plan.release.name, visit)
+            ways = self._ways[operation, visit] = Scattered(self._plan.seed, self._replication, name, _uniform)
+        return ways[job]
+
     def _of_worker(self, task: int, worker: int) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
         effect = plan.model.draw_worker(
-            stream(self._plan.seed, FIXED_WORKFORCE, "effect", name, plan.name, 0), self._plan.workers[worker].body
+            stream(self._plan.seed, self._workforce, "effect", name, plan.name, 0), self._plan.workers[worker].body
         )
         return self._items(("duration", plan.name, name), _performed(plan.model, effect))
 

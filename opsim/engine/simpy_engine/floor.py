@@ -9,15 +9,14 @@ import simpy
 
 from opsim.engine.rules import ALLOCATION_RULES
 from opsim.engine.simpy_engine.draws import Draws
-from opsim.engine.simpy_engine.state import Gate, Job, Performance, Station, Worker
-from opsim.log import WORK, LogWriter
+from opsim.engine.simpy_engine.state import Gate, Job, Station, Worker
+from opsim.log import WORK, LogWriter, pack_row
 from opsim.plan import Plan
 
 AFTER_EVERYTHING = 2
 """SimPy's priorities are 0 (urgent) and 1 (normal): settle comes after both."""
 
 _order = itemgetter(0, 1, 2)
-
 
 Handler = Callable[["Floor", Any], None]
 
@@ -40,11 +39,12 @@ class Floor:
         self.env, self.plan, self.draws = env, plan, draws
         self._handlers, self._dispatch = handlers, dispatch
         self.log = LogWriter()
-        self.stations = [Station(station, rank, station.servers) for rank, station in enumerate(plan.stations)]
-        self.workers = [
-            Worker(worker, rank, worker.place, [0] * len(plan.tasks), simpy.Event(env))
-            for rank, worker in enumerate(plan.workers)
+        self.write = self.log.rows.extend
+        self.stations = [
+            Station(station, rank, station.place, station.capacity, station.servers)
+            for rank, station in enumerate(plan.stations)
         ]
+        self.workers = [_worker(env, plan, rank) for rank in range(len(plan.workers))]
         self.free = {worker.rank: worker for worker in self.workers}
         self.calling: dict[int, Station] = {}
         self.gates = _gates(plan, self.stations)
@@ -56,14 +56,19 @@ class Floor:
         self.next_gate: Gate | None = None
         self.now = 0.0
         self.n_performances = 0
-        self.automatic_k: dict[tuple[int, int], int] = {}
         self._reports: list[tuple] = []
         self._settle_pending = False
 
     def report(self, kind: int, rank: int, number: int, what: str, subject: Any) -> None:
         """Something happened now. It is applied in settle, in the order of (kind, natural rank, job number)."""
         self._reports.append((kind, rank, number, what, subject))
-        self.wake()
+        if self._settle_pending:
+            return
+        if self.env.peek() > self.env.now:
+            # NOTE: the instant has no other event, so this is its end already: saves an event in two.
+            self._settle()
+        else:
+            self.wake()
 
     def wake(self) -> None:
         """Have this instant settled, once, after all its other events."""
@@ -79,75 +84,69 @@ class Floor:
         instead of two (an order and a timeout).
         """
         event._ok, event._value = True, None
-        self.env.schedule(event, priority=priority, delay=delay_s)  # type: ignore[arg-type]
+        self.env.schedule(event, priority, delay_s)  # type: ignore[arg-type]
         return event
 
-    def _settle(self, _event: simpy.Event) -> None:
+    def _settle(self, _event: simpy.Event | None = None) -> None:
         self._settle_pending = False
         self.now = self.env.now
         reports, self._reports = self._reports, []
         if len(reports) > 1:
             reports.sort(key=_order)
-        for _kind, _rank, _number, what, subject in reports:
-            self._handlers[what](self, subject)
+        for report in reports:
+            self._handlers[report[3]](self, report[4])
         self._dispatch(self)
 
     def log_job(self, job: Job) -> None:
         """Write the state the job was in until now, where it lasted."""
-        if job.performance is not None:
-            self._log_performance(job, job.performance)
-        elif self.now > job.since_s:
-            station = -1 if job.station is None else job.station.rank
-            self._log(job.kind, job.since_s, -1, station, job, cause=job.cause)
+        # NOTE: the rows of ``opsim.log.row`` written out and packed here: two or three an operation.
+        start_s, now = job.since_s, self.now
+        if now <= start_s:
+            return
+        station = -1 if job.station is None else job.station.rank
+        number, product, operation = job.number, job.product, job.operation_rank
+        if job.kind == WORK:
+            progress = 1.0 if now - start_s == job.duration_s else (now - start_s) / job.duration_s
+            self.write(
+                pack_row(
+                    *(WORK, start_s, now, job.worker, station, -1, -1, 0, number, product, operation),
+                    *(job.task, job.performance_id, job.k, 0.0, progress, 0.0, 0),
+                )
+            )
+        else:
+            self.write(
+                pack_row(
+                    *(job.kind, start_s, now, -1, station, -1, -1, 0, number, product, operation),
+                    *(-1, -1, -1, nan, nan, nan, job.cause),
+                )
+            )
 
     def job_now(self, job: Job, kind: int, cause: int = 0) -> None:
         """The job changes its state: the old one is written, the new one begins."""
-        self.log_job(job)
-        job.performance = None
+        if self.now > job.since_s:
+            self.log_job(job)
         job.kind, job.cause, job.since_s = kind, cause, self.now
 
     def log_instant(self, kind: int, job: Job, cause: int = 0) -> None:
         """Write something that happened to a job at once."""
-        self._log(kind, self.now, -1, -1, job, cause=cause)
-
-    def _log_performance(self, job: Job, done: Performance) -> None:
-        worker, task, number, k, start_s, duration_s = done
-        spent_s = self.now - start_s
-        if spent_s > 0:
-            station: Station = job.station  # type: ignore[assignment]
-            progress = 1.0 if spent_s == duration_s else spent_s / duration_s
-            self._log(WORK, start_s, worker, station.rank, job, task, number, k, 0.0, progress, 0.0)
-
-    def _log(
-        self,
-        kind: int,
-        start_s: float,
-        worker: int,
-        station: int,
-        job: Job,
-        task: int = -1,
-        performance_id: int = -1,
-        k: int = -1,
-        progress_from: float = nan,
-        progress_to: float = nan,
-        pace_shift: float = nan,
-        cause: int = 0,
-    ) -> None:
-        # NOTE: the tuple of ``opsim.log.row`` written out, because it is made two or three times an operation.
-        self.log.append(
-            (
-                *(kind, start_s, self.now, worker, station, -1, -1, 0, job.number, job.product, job.operation_rank),
-                *(task, performance_id, k, progress_from, progress_to, pace_shift, cause),
+        self.write(
+            pack_row(
+                *(kind, self.now, self.now, -1, -1, -1, -1, 0, job.number, job.product, job.operation_rank),
+                *(-1, -1, -1, nan, nan, nan, cause),
             )
         )
 
 
+def _worker(env: simpy.Environment, plan: Plan, rank: int) -> Worker:
+    worker = plan.workers[rank]
+    speed = worker.walk_m_per_s
+    walk_s = tuple(tuple(row[station.place] / speed for station in plan.stations) for row in plan.distance_m)
+    return Worker(worker, rank, worker.place, simpy.Event(env), walk_s, {}, [0] * len(plan.tasks))
+
+
 def _gates(plan: Plan, stations: list[Station]) -> dict[tuple[int, ...], Gate]:
-    gates: dict[tuple[int, ...], Gate] = {}
-    for product in plan.products:
-        for operation in product.route:
-            if operation.stations not in gates:
-                gate = gates[operation.stations] = Gate(tuple(stations[rank] for rank in operation.stations))
-                for station in gate.stations:
-                    station.wanted_by.append(gate)
+    wanted = {operation.stations: None for product in plan.products for operation in product.route}
+    gates = {ranks: Gate(tuple(stations[rank] for rank in ranks)) for ranks in wanted}
+    for station in stations:
+        station.wanted_by = tuple(gate for gate in gates.values() if station in gate.stations)
     return gates

@@ -4,7 +4,7 @@ from bisect import insort
 
 from opsim.engine.rules import shortest_queue
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Gate, Job, Station
+from opsim.engine.simpy_engine.state import Claim, Gate, Job, Station
 from opsim.engine.simpy_engine.station import seat
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
@@ -13,42 +13,40 @@ from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
 def create(floor: Floor) -> Job:
     """The next job of the source, standing at the gate of its first station."""
     number = floor.n_released
-    product = floor.draws.product(number)
-    operation = floor.plan.products[product].route[0]
-    job = Job(number, product, operation, floor.operation_rank[operation.name], HELD, GATE, floor.now)
+    rank = floor.draws.product(number)
+    product = floor.plan.products[rank]
+    first = product.route[product.start]
+    operation = floor.operation_rank[first.name]
+    job = Job(number, rank, product, product.start, first, operation, HELD, GATE, floor.now)
     floor.n_released += 1
     floor.next_gate = None
     floor.jobs[number] = job
     floor.log_instant(CREATE, job)
-    want_in(floor, job)
+    _want_in(floor, job)
     return job
-
-
-def want_in(floor: Floor, job: Job) -> None:
-    """The job claims a place at its next operation."""
-    gate = floor.gates[job.operation.stations]
-    insort(gate.claims, (job.since_s, job.number, job))
-    floor.stirred.add(gate)
 
 
 def operation_done(floor: Floor, job: Job) -> None:
     """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
-    route = floor.plan.products[job.product].route
-    job.step += 1
-    if job.step == len(route):
+    step = _next_step(floor, job)
+    if step < 0:
         _leave_station(floor, job)
         _leave_floor(floor, job, FINISH)
         return
     floor.job_now(job, BLOCKED)
-    job.operation = route[job.step]
-    want_in(floor, job)
+    job.step, job.operation = step, job.plan.route[step]
+    job.operation_rank = floor.operation_rank[job.operation.name]
+    _want_in(floor, job)
 
 
 def admit(floor: Floor) -> None:
     """Let jobs in as long as a claim meets room; the oldest claim first."""
-    while floor.stirred and (gate := _first_gate_with_room(floor)) is not None:
-        _since_s, _number, job = gate.claims.pop(0)
-        _enter(floor, job, gate)
+    while floor.stirred and (found := _first_claim(floor)) is not None:
+        claim, gate = found
+        gate.claims.remove(claim)
+        if not gate.claims:
+            floor.stirred.discard(gate)
+        _enter(floor, claim[2], gate)
 
 
 def release_saturated(floor: Floor) -> None:
@@ -67,13 +65,35 @@ def turn_away(floor: Floor) -> None:
             _leave_floor(floor, claim[2], LOST, FULL)
 
 
-def _first_gate_with_room(floor: Floor) -> Gate | None:
-    best = None
-    for gate in tuple(floor.stirred):
-        if not gate.claims or not any(station.has_room for station in gate.stations):
-            floor.stirred.discard(gate)
-        elif best is None or gate.claims[0][:2] < best.claims[0][:2]:
-            best = gate
+def _want_in(floor: Floor, job: Job) -> None:
+    """The job claims a place at its next operation."""
+    gate = floor.gates[job.operation.stations]
+    insort(gate.claims, (job.since_s, job.number, job))
+    floor.stirred.add(gate)
+
+
+def _next_step(floor: Floor, job: Job) -> int:
+    """The step of the route that follows, -1 for the way out; drawn by job number and visit where there is a choice."""
+    onward = job.plan.onward[job.step]
+    if len(onward) == 1:
+        return onward[0][1]
+    visits = job.visits = {} if job.visits is None else job.visits
+    visit = visits[job.step] = visits.get(job.step, -1) + 1
+    point = floor.draws.way(job.operation.name, visit, job.number)
+    return next(step for cumulative, step in onward if point < cumulative)
+
+
+def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
+    """The oldest claim that can be met among the gates where something changed; gates without one come to rest."""
+    best: tuple[Claim, Gate] | None = None
+    at_rest = []
+    for gate in floor.stirred:
+        claim = gate.next_claim()
+        if claim is None:
+            at_rest.append(gate)
+        elif best is None or claim < best[0]:
+            best = claim, gate
+    floor.stirred.difference_update(at_rest)
     return best
 
 
@@ -81,16 +101,17 @@ def _next_has_room(floor: Floor) -> bool:
     gate = floor.next_gate
     if gate is None:
         product = floor.plan.products[floor.draws.product(floor.n_released)]
-        gate = floor.next_gate = floor.gates[product.route[0].stations]
-    return not gate.claims and any(station.has_room for station in gate.stations)
+        gate = floor.next_gate = floor.gates[product.route[product.start].stations]
+    return not gate.claims and gate.has_room
 
 
 def _enter(floor: Floor, job: Job, gate: Gate) -> None:
-    station = _chosen(gate)
-    floor.job_now(job, QUEUE)
+    if floor.now > job.since_s:
+        floor.log_job(job)
+    job.kind, job.cause, job.since_s = QUEUE, 0, floor.now
+    station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
     if job.station is not None:
         _leave_station(floor, job)
-    job.operation_rank = floor.operation_rank[job.operation.name]
     job.station = station
     station.n_inside += 1
     if station.free_servers:
@@ -99,11 +120,9 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
         station.queue.append(job)
 
 
-def _chosen(gate: Gate) -> Station:
-    if len(gate.stations) == 1:
-        return gate.stations[0]
-    open_stations = [station for station in gate.stations if station.has_room]
-    return min(open_stations, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
+def _chosen(gate: Gate, job: Job) -> Station:
+    with_room = [s for s in gate.stations if s.n_inside < s.capacity or s is job.station]
+    return min(with_room, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
 
 
 def _leave_station(floor: Floor, job: Job) -> None:
@@ -116,11 +135,12 @@ def _leave_station(floor: Floor, job: Job) -> None:
         set_free(floor, worker)
     if station.queue:
         seat(floor, station, station.queue.popleft())
-    floor.stirred.update(station.wanted_by)
+    for gate in station.wanted_by:
+        if gate.claims:
+            floor.stirred.add(gate)
 
 
 def _leave_floor(floor: Floor, job: Job, kind: int, cause: int = 0) -> None:
     floor.log_job(job)
-    job.performance = None
     floor.log_instant(kind, job, cause)
     del floor.jobs[job.number]

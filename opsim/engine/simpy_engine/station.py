@@ -2,10 +2,12 @@
 
 from bisect import insort
 
+import simpy
+
 from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Job, Performance, Station, Worker
+from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.log import HELD, NO_WORKER, WORK
 
 AUTOMATIC_DONE = "automatic task done"
@@ -45,9 +47,12 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
     """The worker's next performance of the job's task begins now."""
     station: Station = job.station  # type: ignore[assignment]
     task = station.plan.tasks[job.task_position]
+    luck = worker.luck.get(task)
+    if luck is None:
+        luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
     k = worker.next_k[task]
     worker.next_k[task] = k + 1
-    duration_s = on_grid(floor.draws.duration_s(task, worker.rank, k) / worker.plan.rating[station.rank])
+    duration_s = on_grid(next(luck) / worker.plan.rating[station.rank])
     _begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = WORK, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)
@@ -55,16 +60,17 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
 
 def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
     task = station.plan.tasks[job.task_position]
-    k = floor.automatic_k.get((task, station.rank), 0)
-    floor.automatic_k[task, station.rank] = k + 1
+    k = station.k.get(task, 0)
+    station.k[task] = k + 1
     duration_s = on_grid(floor.draws.automatic_s(task, station.rank, k))
     _begin(floor, job, -1, task, k, duration_s)
     rank = len(floor.workers) + station.rank
-    over = floor.env.timeout(duration_s)
+    over = floor.at_end_of(duration_s, simpy.Event(floor.env))
     over.callbacks.append(lambda _: floor.report(COMPLETION, rank, job.number, AUTOMATIC_DONE, job))
 
 
 def _begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
     floor.job_now(job, WORK)
-    job.performance = Performance(worker, task, floor.n_performances, k, floor.now, duration_s)
+    job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
+    job.performance_id = floor.n_performances
     floor.n_performances += 1

@@ -1,22 +1,25 @@
 """Workers: the process that spends their time, and the states between."""
 
 from collections.abc import Generator
+from math import nan
 
 import simpy
 
+from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Worker
-from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, row
+from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, pack_row
 
 STRETCH_DONE = "stretch done"
 
 
 def working_life(floor: Floor, worker: Worker) -> Generator[simpy.Event, None, None]:
     """The SimPy process of a worker: spend the stretch of time he was given, report it, wait for the next."""
+    stretch_over = worker.stretch_over
     while True:
-        worker.stretch_over = simpy.Event(floor.env)
-        yield worker.stretch_over
+        yield stretch_over
+        stretch_over = worker.stretch_over = simpy.Event(floor.env)
         floor.report(COMPLETION, worker.rank, 0, STRETCH_DONE, worker)
 
 
@@ -33,26 +36,30 @@ def hold(floor: Floor, worker: Worker, job: Job) -> None:
     job.held_by = worker
 
 
+def walk(floor: Floor, worker: Worker, place: int, walk_s: float) -> None:
+    """The worker walks to a place and cannot be sent elsewhere before he is there."""
+    worker.walk_from, worker.place = worker.place, place
+    worker.kind, worker.since_s = WALK, floor.now
+    floor.at_end_of(on_grid(walk_s), worker.stretch_over)
+
+
 def log_worker(floor: Floor, worker: Worker) -> None:
     """Write the wait or the walk the worker was in until now; work is written with the job."""
-    now = floor.now
-    if now > worker.since_s and worker.kind in (WAIT, WALK):
-        floor.log.append(_row(worker, now))
+    now, kind = floor.now, worker.kind
+    if now <= worker.since_s or (kind != WAIT and kind != WALK):
+        return
+    walking = kind == WALK
+    job, station = worker.job, worker.station
+    which = (-1, -1, -1) if job is None else (job.number, job.product, job.operation_rank)
+    floor.write(
+        pack_row(
+            *(kind, worker.since_s, now, worker.rank, -1 if station is None else station.rank),
+            *(worker.walk_from if walking else worker.place, worker.place, -1 if job is None else 0, *which),
+            *(-1, -1, -1, nan, nan, nan, 0 if walking else worker.cause),
+        )
+    )
 
 
 def _wait(floor: Floor, worker: Worker, cause: int) -> None:
     log_worker(floor, worker)
     worker.kind, worker.cause, worker.since_s = WAIT, cause, floor.now
-
-
-def _row(worker: Worker, now: float) -> tuple:
-    walking = worker.kind == WALK
-    place_from = worker.walk_from if walking else worker.place
-    if worker.station is None or worker.job is None:
-        return row(worker.kind, worker.since_s, now, worker.rank, -1, place_from, worker.place, cause=worker.cause)
-    station, job = worker.station, worker.job
-    return row(
-        *(worker.kind, worker.since_s, now, worker.rank, station.rank, place_from, station.plan.place),
-        *(0, job.number, job.product, job.operation_rank),
-        cause=0 if walking else worker.cause,
-    )
