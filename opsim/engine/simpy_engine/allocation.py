@@ -30,7 +30,7 @@ def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
             rating = worker.plan.rating[rank]
             if rating > 0 and (not patrols or _on_round(worker) == rank):
                 key = rule(n_waiting, since_s, worker.walk_s[worker.place][rank], rating, rank, worker.rank)
-                if best_key is None or key < best_key:
+                if best is None or key < best_key:
                     best, best_key = (worker, station), key
     return best
 

@@ -16,9 +16,9 @@ def _stretch_done(floor: Floor, worker: Worker) -> None:
     elif worker.kind == WALK:
         log_worker(floor, worker)
         perform(floor, job, worker)
-    elif task_done(floor, job):
+    elif task_done(job):
         _station_done(floor, worker, job)
-    elif _is_automatic(floor, job):
+    elif job.station.automatic[job.task_position]:  # type: ignore[union-attr]
         set_free(floor, worker)
         next_task(floor, job, None)
     else:
@@ -33,13 +33,8 @@ def _station_done(floor: Floor, worker: Worker, job: Job) -> None:
         set_free(floor, worker)
 
 
-def _is_automatic(floor: Floor, job: Job) -> bool:
-    tasks = job.station.plan.tasks  # type: ignore[union-attr]
-    return floor.plan.tasks[tasks[job.task_position]].automatic
-
-
 def _automatic_done(floor: Floor, job: Job) -> None:
-    if task_done(floor, job):
+    if task_done(job):
         operation_done(floor, job)
     else:
         next_task(floor, job, None)

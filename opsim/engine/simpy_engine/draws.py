@@ -25,7 +25,6 @@ class Draws:
         self._mix = self._items(("mix", release.name), _uniform)
         self._cumulative = list(accumulate(product.share for product in plan.products))[:-1]
         self._durations: dict[tuple[int, int], Items] = {}
-        self._automatic: dict[tuple[int, int], Items] = {}
         self._ways: dict[tuple[str, int], Scattered] = {}
 
     def duration_s(self, task: int, worker: int, k: int) -> float:
@@ -39,13 +38,11 @@ class Draws:
         """All performances of a task by a worker, one after the other: ``duration_s`` at k = 0, 1, 2, ..."""
         return iter(self._of_worker(task, worker))
 
-    def automatic_s(self, task: int, station: int, k: int) -> float:
-        """The k-th automatic run of a task at a station."""
-        items = self._automatic.get((task, station))
-        if items is None:
-            name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
-            items = self._automatic[task, station] = self._items(name, _performed(self._plan.tasks[task].model, None))
-        return items[k]
+    def automatic_runs(self, task: int, station: int) -> Iterator[float]:
+        """All automatic runs of a task at a station, one after the other."""
+        model = self._plan.tasks[task].model
+        name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
+        return iter(self._items(name, _performed(model, None)))
 
     def gap_s(self, n: int) -> float:
         """Time between arrival n - 1 and arrival n."""
@@ -53,6 +50,8 @@ class Draws:
 
     def product(self, n: int) -> int:
         """Rank of the product that the n-th job is."""
+        if not self._cumulative:
+            return 0
         point = self._mix[n]
         return sum(point >= share for share in self._cumulative)
 

@@ -40,10 +40,7 @@ class Floor:
         self._handlers, self._dispatch = handlers, dispatch
         self.log = LogWriter()
         self.write = self.log.rows.extend
-        self.stations = [
-            Station(station, rank, station.place, station.capacity, station.servers)
-            for rank, station in enumerate(plan.stations)
-        ]
+        self.stations = [_station(plan, rank) for rank in range(len(plan.stations))]
         self.workers = [_worker(env, plan, rank) for rank in range(len(plan.workers))]
         self.free = {worker.rank: worker for worker in self.workers}
         self.calling: dict[int, Station] = {}
@@ -107,19 +104,15 @@ class Floor:
         number, product, operation = job.number, job.product, job.operation_rank
         if job.kind == WORK:
             progress = 1.0 if now - start_s == job.duration_s else (now - start_s) / job.duration_s
-            self.write(
-                pack_row(
-                    *(WORK, start_s, now, job.worker, station, -1, -1, 0, number, product, operation),
-                    *(job.task, job.performance_id, job.k, 0.0, progress, 0.0, 0),
-                )
-            )
+            self.write(pack_row(
+                WORK, start_s, now, job.worker, station, -1, -1, 0, number, product, operation,
+                job.task, job.performance_id, job.k, 0.0, progress, 0.0, 0,
+            ))  # fmt: skip
         else:
-            self.write(
-                pack_row(
-                    *(job.kind, start_s, now, -1, station, -1, -1, 0, number, product, operation),
-                    *(-1, -1, -1, nan, nan, nan, job.cause),
-                )
-            )
+            self.write(pack_row(
+                job.kind, start_s, now, -1, station, -1, -1, 0, number, product, operation,
+                -1, -1, -1, nan, nan, nan, job.cause,
+            ))  # fmt: skip
 
     def job_now(self, job: Job, kind: int, cause: int = 0) -> None:
         """The job changes its state: the old one is written, the new one begins."""
@@ -135,6 +128,13 @@ class Floor:
                 *(-1, -1, -1, nan, nan, nan, cause),
             )
         )
+
+
+def _station(plan: Plan, rank: int) -> Station:
+    station = plan.stations[rank]
+    tasks = [plan.tasks[task] for task in station.tasks]
+    automatic, repeats = tuple(task.automatic for task in tasks), tuple(task.repeat for task in tasks)
+    return Station(station, rank, station.place, station.capacity, station.tasks, automatic, repeats, station.servers)
 
 
 def _worker(env: simpy.Environment, plan: Plan, rank: int) -> Worker:

@@ -86,7 +86,7 @@ def _next_step(floor: Floor, job: Job) -> int:
 def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
     """The oldest claim that can be met among the gates where something changed; gates without one come to rest."""
     best: tuple[Claim, Gate] | None = None
-    at_rest = []
+    at_rest: list[Gate] = []
     for gate in floor.stirred:
         claim = gate.next_claim()
         if claim is None:

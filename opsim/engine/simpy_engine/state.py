@@ -48,18 +48,26 @@ Claim = tuple[float, int, Job]
 
 @dataclass(slots=True, eq=False)
 class Station:
-    """``calling``: jobs on servers for which nobody was sent yet; ``wanted_by``: gates of jobs that want in."""
+    """tasks, automatic, repeats : of each task a job gets here: its rank, whether it needs no worker, how often
+
+    calling : jobs on servers for which nobody was sent yet; wanted_by : gates of jobs that want in
+    luck    : by task, durations of automatic runs to come; next_k : how many there were
+    """
 
     plan: StationPlan
     rank: int
     place: int
     capacity: float
+    tasks: tuple[int, ...]
+    automatic: tuple[bool, ...]
+    repeats: tuple[int, ...]
     free_servers: int
     queue: deque[Job] = field(default_factory=deque)
     calling: list[Claim] = field(default_factory=list)
     wanted_by: tuple["Gate", ...] = ()
     n_inside: int = 0
-    k: dict[int, int] = field(default_factory=dict)
+    luck: dict[int, Iterator[float]] = field(default_factory=dict)
+    next_k: dict[int, int] = field(default_factory=dict)
 
 
 @dataclass(slots=True, eq=False)

@@ -23,7 +23,7 @@ def seat(floor: Floor, station: Station, job: Job) -> None:
 def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
     """Begin the task the job has come to: automatically, by the worker at hand, or by calling for one."""
     station: Station = job.station  # type: ignore[assignment]
-    if floor.plan.tasks[station.plan.tasks[job.task_position]].automatic:
+    if station.automatic[job.task_position]:
         _run_automatic(floor, station, job)
     elif worker is None:
         floor.job_now(job, HELD, NO_WORKER)
@@ -33,20 +33,20 @@ def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
         perform(floor, job, worker)
 
 
-def task_done(floor: Floor, job: Job) -> bool:
+def task_done(job: Job) -> bool:
     """Count one performance; True where all tasks of the station are done."""
-    tasks = job.station.plan.tasks  # type: ignore[union-attr]
+    repeats = job.station.repeats  # type: ignore[union-attr]
     job.repeats_done += 1
-    if job.repeats_done == floor.plan.tasks[tasks[job.task_position]].repeat:
+    if job.repeats_done == repeats[job.task_position]:
         job.repeats_done = 0
         job.task_position += 1
-    return job.task_position == len(tasks)
+    return job.task_position == len(repeats)
 
 
 def perform(floor: Floor, job: Job, worker: Worker) -> None:
     """The worker's next performance of the job's task begins now."""
     station: Station = job.station  # type: ignore[assignment]
-    task = station.plan.tasks[job.task_position]
+    task = station.tasks[job.task_position]
     luck = worker.luck.get(task)
     if luck is None:
         luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
@@ -59,10 +59,13 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
 
 
 def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
-    task = station.plan.tasks[job.task_position]
-    k = station.k.get(task, 0)
-    station.k[task] = k + 1
-    duration_s = on_grid(floor.draws.automatic_s(task, station.rank, k))
+    task = station.tasks[job.task_position]
+    luck = station.luck.get(task)
+    if luck is None:
+        luck = station.luck[task] = floor.draws.automatic_runs(task, station.rank)
+    k = station.next_k.get(task, 0)
+    station.next_k[task] = k + 1
+    duration_s = on_grid(next(luck))
     _begin(floor, job, -1, task, k, duration_s)
     rank = len(floor.workers) + station.rank
     over = floor.at_end_of(duration_s, simpy.Event(floor.env))
