@@ -23,16 +23,27 @@ def send_workers(floor: Floor) -> None:
 
 def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
     best = best_key = None
-    rule, free = floor.rule, floor.free.values()
-    for rank, station in floor.calling.items():
-        n_waiting, since_s = len(station.calling) + len(station.queue), station.calling[0][0]
-        for worker in free:
-            rating = worker.plan.rating[rank]
-            if rating > 0 and (not patrols or _on_round(worker) == rank):
-                key = rule(n_waiting, since_s, worker.walk_s[worker.place][rank], rating, rank, worker.rank)
-                if best is None or key < best_key:
+    calling = floor.calling.items()
+    for worker in floor.free.values():
+        ratings = worker.plan.rating
+        for rank, station in calling:
+            if ratings[rank] > 0 and (not patrols or _on_round(worker) == rank):
+                if best is None:
+                    best = worker, station  # NOTE: most often the only pair, and its key is never asked for
+                    continue
+                best_key = best_key or _key(floor, *best)
+                key = _key(floor, worker, station)
+                if key < best_key:
                     best, best_key = (worker, station), key
     return best
+
+
+def _key(floor: Floor, worker: Worker, station: Station) -> tuple[float, ...]:
+    rank, calls = station.rank, station.calling
+    n_waiting, since_s = len(calls) + len(station.queue), calls[0][0]
+    return floor.rule(
+        n_waiting, since_s, worker.walk_s[worker.place][rank], worker.plan.rating[rank], rank, worker.rank
+    )
 
 
 def _send(floor: Floor, worker: Worker, station: Station) -> None:

@@ -1,5 +1,6 @@
 """All luck of a replication, by name: durations, gaps between arrivals, product mix."""
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate
@@ -44,6 +45,10 @@ class Draws:
         name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
         return iter(self._items(name, _performed(model, None)))
 
+    def gaps(self) -> Iterator[float]:
+        """All gaps between arrivals, one after the other."""
+        return iter(self._gaps)
+
     def gap_s(self, n: int) -> float:
         """Time between arrival n - 1 and arrival n."""
         return self._gaps[n]
@@ -52,8 +57,7 @@ class Draws:
         """Rank of the product that the n-th job is."""
         if not self._cumulative:
             return 0
-        point = self._mix[n]
-        return sum(point >= share for share in self._cumulative)
+        return bisect_right(self._cumulative, self._mix[n])
 
     def way(self, operation: str, visit: int, job: int) -> float:
         """A number in [0, 1) that decides where a job goes after an operation it leaves for the ``visit``-th time."""

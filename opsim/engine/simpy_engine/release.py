@@ -13,8 +13,6 @@ ARRIVED = "job arrived"
 
 def poisson_release(floor: Floor) -> Generator[simpy.Event, None, None]:
     """The SimPy process of a Poisson source: wait a gap, report an arrival."""
-    number = 0
-    while True:
-        yield floor.env.timeout(on_grid(floor.draws.gap_s(number)))
+    for number, gap_s in enumerate(floor.draws.gaps()):
+        yield floor.env.timeout(on_grid(gap_s))
         floor.report(ARRIVAL, 0, number, ARRIVED, number)
-        number += 1
