@@ -5,10 +5,13 @@ from __future__ import annotations
 import io
 import json
 import zipfile
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from emulator.members import MemberError, open_members, read_member
 
 FORMAT = "opsim motion library"
 VERSION = 1
@@ -22,10 +25,23 @@ class LibraryError(ValueError):
 
 
 def write_archive(path: Path, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
-    """Write header and arrays, under a temporary name first, so that no half file is ever left."""
+    """Write header and arrays, under a temporary name first, so that no half file is ever left.
+
+    Raises OSError that names ``path``, and leaves nothing behind, where it cannot be written.
+    """
     text = json.dumps({"format": FORMAT, "version": VERSION} | header, indent=1, ensure_ascii=False, allow_nan=False)
     members = {"header": np.frombuffer(text.encode(), dtype=np.uint8)} | arrays
     part = path.with_name(path.name + ".part")
+    try:
+        _write(part, members)
+        part.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            part.unlink()
+        raise OSError(error.errno, error.strerror, str(path)) from None
+
+
+def _write(part: Path, members: dict[str, np.ndarray]) -> None:
     with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as file:
         for name, array in members.items():
             stream = io.BytesIO()
@@ -34,7 +50,6 @@ def write_archive(path: Path, header: dict[str, Any], arrays: dict[str, np.ndarr
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             file.writestr(entry, stream.getvalue())
-    part.replace(path)
 
 
 def read_header(path: str | Path) -> dict[str, Any]:
@@ -54,16 +69,11 @@ def read_archive(path: Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 
 def _opened(path: Path) -> zipfile.ZipFile:
     try:
-        file = zipfile.ZipFile(path)
+        return open_members(path, MAX_BYTES, MAX_ARRAYS)
     except FileNotFoundError:
         raise LibraryError(f"{path}: no such file") from None
-    except (OSError, zipfile.BadZipFile, ValueError) as why:
+    except MemberError as why:
         raise LibraryError(f"{path}: not a motion library ({why})") from None
-    entries = file.infolist()
-    if sum(entry.file_size for entry in entries) > MAX_BYTES or len(entries) > MAX_ARRAYS:
-        file.close()
-        raise LibraryError(f"{path}: larger than a motion library may be ({MAX_BYTES // 2**20} MB)")
-    return file
 
 
 def _header(path: Path, file: zipfile.ZipFile) -> dict[str, Any]:
@@ -84,12 +94,9 @@ def _header(path: Path, file: zipfile.ZipFile) -> dict[str, Any]:
 
 def _array(path: Path, file: zipfile.ZipFile, name: str) -> np.ndarray:
     try:
-        content = file.read(name)  # whole and checked against its CRC; its size was bounded above
-        array = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)
-    except KeyError:
-        raise
-    except Exception as why:  # zlib, zipfile, numpy and tokenizer errors of a damaged file are of many kinds
-        raise LibraryError(f"{path}: {name} is damaged ({why})") from None
+        array = read_member(file, name)
+    except MemberError as why:
+        raise LibraryError(f"{path}: {why}") from None
     if array.dtype.kind not in "fiu" or (array.dtype.kind == "f" and not np.all(np.isfinite(array))):
         raise LibraryError(f"{path}: {name} holds something other than finite numbers")
     return array

@@ -42,11 +42,14 @@ def roughness_ratio(flatten: SIEM, emulated: np.ndarray, aligned: np.ndarray, wa
 
 
 def novelty_ratio(drawn: np.ndarray, recorded: np.ndarray) -> float:
-    """Median distance of drawn scores (n, K) to the nearest recorded ones (N, K), over that among the recorded."""
+    """Median distance of drawn scores (n, K) to the nearest recorded ones (N, K), over that among the recorded.
+
+    NaN where half of the recorded ones or more have a twin (scores have unit spread; below 1e-6 is rounding).
+    """
     among = _distances(recorded, recorded)
     np.fill_diagonal(among, np.inf)
     usual = np.median(among.min(axis=1))
-    return float(np.median(_distances(drawn, recorded).min(axis=1)) / usual) if usual > 0 else float("nan")
+    return float(np.median(_distances(drawn, recorded).min(axis=1)) / usual) if usual > 1e-6 else float("nan")
 
 
 def _along_time(flat: np.ndarray, at: np.ndarray) -> np.ndarray:

@@ -50,11 +50,11 @@ class FitReport:
             ("sequences", f"{self.n_sequences} of {self.n_workers} workers, {self.where}"),
             ("components", f"{self.n_components} of posture, {self.n_coordinates} jointly"),
             ("explained variance", f"{100 * self.explained_variance:.1f} %"),
-            ("reconstruction, held out", f"{self.reconstruction_deg:.2f} deg a bone"),
+            ("reconstruction, held out", _figure(self.reconstruction_deg, " deg a bone")),
             ("duration", f"{self.duration_mean_s:.3f} s, CV {self.duration_cv:.3f}, {self.duration_margin}"),
             ("ICC of log duration", icc),
-            ("roughness, emulated / recorded", f"{self.roughness_ratio:.2f}"),
-            ("novelty, emulated / recorded", f"{self.novelty_ratio:.2f}"),
+            ("roughness, emulated / recorded", _figure(self.roughness_ratio)),
+            ("novelty, emulated / recorded", _figure(self.novelty_ratio)),
         ]
 
     def as_dict(self) -> dict[str, Any]:
@@ -72,3 +72,7 @@ class FitReport:
             elif kind == "tuple[str, ...]":
                 values[name] = tuple(str(item) for item in values[name])
         return cls(**values)
+
+
+def _figure(value: float, unit: str = "") -> str:
+    return "not estimable" if math.isnan(value) else f"{value:.2f}{unit}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -31,6 +32,14 @@ LARGEST_ICC_FOR_SCORES = 0.3
 ROUGH_NOTE = (
     "draws are much rougher than the recordings: too few repetitions for one Gaussian, or people that differ in kind "
     "(for example in the leading leg); look at them before use, draw known workers, or fit the kinds apart"
+)
+TWINS_NOTE = (
+    "half of the repetitions or more are copies of another one, so novelty cannot be estimated and the draws vary too "
+    "little; is one recording in the file several times?"
+)
+ALIKE_NOTE = (
+    "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
+    "is one recording in the file several times?"
 )
 Progress = Callable[[int, int, str], None] | None
 
@@ -236,11 +245,12 @@ def _report(
 def _judged(model: MotionEmulator, directions: np.ndarray, warps: np.ndarray, z: np.ndarray, seed: int) -> FitReport:
     drawn = model.sample(50, np.random.default_rng(seed))
     rough = roughness_ratio(model.flatten, drawn.directions(n_times=model.n_times), directions, warps)
-    report = model.report
+    novelty, report = novelty_ratio(drawn.scores, z), model.report
+    twins = (ALIKE_NOTE if model.posture.n_components == 0 else TWINS_NOTE,) if math.isnan(novelty) else ()
     return replace(
         report,
         reconstruction_deg=reconstruction_deg(model.flatten, directions, model.posture.n_components),
         roughness_ratio=rough,
-        novelty_ratio=novelty_ratio(drawn.scores, z),
-        notes=report.notes + ((ROUGH_NOTE,) if rough > ROUGH else ()),
+        novelty_ratio=novelty,
+        notes=report.notes + twins + ((ROUGH_NOTE,) if rough > ROUGH else ()),
     )

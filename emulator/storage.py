@@ -19,5 +19,7 @@ def encode(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def decode(whole: np.ndarray, exponent: np.ndarray) -> np.ndarray:
-    """The way back: float64 (R, P)."""
+    """The way back: float64 (R, P). Raises ValueError for an exponent that no row of finite numbers has."""
+    if exponent.dtype != np.int16 or np.any(np.abs(exponent.astype(int)) > 1000):
+        raise ValueError(f"exponents must be int16 from -1000 to 1000, found {exponent.dtype}")
     return np.ldexp(whole.astype(float), exponent[:, None].astype(int))

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from emulator.clean import glitch
+from emulator.members import MemberError, open_members, read_member
 from emulator.motion import Motion, MotionSet, motion_from_positions
 from emulator.recordings import RecordingError
+from emulator.recordings.form import expected_of, form_mistakes, is_mark, mark_mistakes
 from emulator.recordings.where import rows_where
 from emulator.skeleton import Skeleton, canonical_names
 
-NEEDED = ("positions", "offsets", "fps", "names", "parents", "subject", "trial")
+MAX_BYTES = 4 * 2**30
+MAX_ARRAYS = 1000
 COLLECTIONS = ("uiprmd_", "hdm05_", "bandai2_")
 
 
@@ -29,8 +31,9 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
     arrays = _load(path)
     columns = _columns(arrays)
     keep, selection, notes = _chosen(columns, where)
+    _refuse(path, mark_mistakes(arrays, keep))
     skeleton, joints = _skeleton(path, arrays)
-    marks = {key.removeprefix("ann_").removesuffix("_frame"): arrays[key] for key in arrays if _is_mark(key)}
+    marks = {key.removeprefix("ann_").removesuffix("_frame"): arrays[key] for key in arrays if is_mark(key)}
     rate_hz = float(arrays["fps"])
     motions: list[Motion] = []
     for i in np.flatnonzero(keep):
@@ -58,8 +61,8 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
             raise RecordingError(f"{path}: repetition {name}: {error}") from None
     if not motions:
         raise RecordingError(f"{path}: no repetition is left (where: {where}; {'; '.join(notes) or 'no notes'})")
-    notes += _breathing(motions)
-    meta = _meta(arrays)
+    meta, unread = _meta(arrays)
+    notes += _breathing(motions) + unread
     return MotionSet(
         task=task or _task(path),
         motions=tuple(motions),
@@ -84,29 +87,22 @@ def _breathing(motions: list[Motion]) -> list[str]:
 
 
 def _load(path: Path) -> dict[str, np.ndarray]:
+    """The arrays that are read, each of the form that is expected; whole numbers as such."""
     try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {key: file[key] for key in file.files}
-    except (ValueError, OSError, EOFError, KeyError, AttributeError, zipfile.BadZipFile) as error:
+        with open_members(path, MAX_BYTES, MAX_ARRAYS) as file:
+            keys = [name.removesuffix(".npy") for name in file.namelist()]
+            wanted = [key for key in keys if key == "meta" or expected_of(key)]
+            arrays = {key: read_member(file, f"{key}.npy") for key in wanted}
+    except (MemberError, OSError, KeyError) as error:
         raise RecordingError(f"{path}: not a recording in .npz form ({error})") from None
-    missing = [key for key in NEEDED if key not in arrays]
-    if missing:
-        raise RecordingError(f"{path}: not a recording: no {', '.join(missing)}; found {', '.join(sorted(arrays))}")
-    positions, offsets = arrays["positions"], arrays["offsets"]
-    if positions.ndim != 3 or positions.shape[1:] != (len(arrays["names"]), 3):
-        raise RecordingError(f"{path}: positions must be (frames, {len(arrays['names'])}, 3), found {positions.shape}")
-    if offsets[0] != 0 or offsets[-1] != len(positions) or np.any(np.diff(offsets) < 2):
-        raise RecordingError(f"{path}: offsets must rise from 0 to {len(positions)} by two frames or more")
-    if not float(arrays["fps"]) > 0:
-        raise RecordingError(f"{path}: fps must be positive, found {arrays['fps']}")
-    for key, column in arrays.items():
-        if (key in ("subject", "trial") or key.startswith("cov_") or _is_mark(key)) and len(column) != len(offsets) - 1:
-            raise RecordingError(f"{path}: {key} has {len(column)} values for {len(offsets) - 1} repetitions")
-    return arrays
+    _refuse(path, form_mistakes(arrays))
+    whole = [key for key in ("offsets", "parents", "core", "core_parents") if key in arrays]
+    return arrays | {key: arrays[key].astype(np.int64) for key in whole} | {"fps": arrays["fps"].reshape(())}
 
 
-def _is_mark(key: str) -> bool:
-    return key.startswith("ann_") and key.endswith("_frame")
+def _refuse(path: Path, mistakes: list[str]) -> None:
+    if mistakes:
+        raise RecordingError("\n".join(f"{path}: {mistake}" for mistake in mistakes))
 
 
 def _columns(arrays: dict[str, np.ndarray]) -> dict[str, list[Any]]:
@@ -139,12 +135,13 @@ def _skeleton(path: Path, arrays: dict[str, np.ndarray]) -> tuple[Skeleton, list
         raise RecordingError(f"{path}: {error}") from None
 
 
-def _meta(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
+def _meta(arrays: dict[str, np.ndarray]) -> tuple[dict[str, Any], list[str]]:
+    """What ``meta`` says, and a note where it cannot be read."""
     try:
         meta = json.loads(str(arrays.get("meta", "{}")))
-    except json.JSONDecodeError:
-        return {}
-    return meta if isinstance(meta, dict) else {}
+    except (ValueError, RecursionError):
+        meta = None
+    return (meta, []) if isinstance(meta, dict) else ({}, ["meta is no JSON object: source and licence are not known"])
 
 
 def _task(path: Path) -> str:

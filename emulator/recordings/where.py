@@ -26,6 +26,8 @@ _COMPARE = {
     ">=": operator.ge,
 }
 _WORDS = {"and", "or", "not", "in"}
+DEEPEST = 50
+"""Brackets and ``not`` inside one another; nobody means more."""
 
 
 class WhereError(ValueError):
@@ -45,7 +47,7 @@ class _Reader:
     """Recursive descent over the tokens; each rule returns its rows (N,) bool."""
 
     def __init__(self, text: str, columns: Mapping[str, Sequence[Any]]) -> None:
-        self.text, self.columns, self.at = text, columns, 0
+        self.text, self.columns, self.at, self.depth = text, columns, 0, 0
         self.tokens = self._split()
 
     def _split(self) -> list[str]:
@@ -53,7 +55,7 @@ class _Reader:
         while self.text[place:].strip():
             found = _TOKEN.match(self.text, place)
             if not found:
-                raise WhereError(f"where {self.text!r}: cannot read {self.text[place:].strip()!r}")
+                raise WhereError(f"where {_short(self.text)!r}: cannot read {_short(self.text[place:].strip())!r}")
             tokens.append(found.group(1))
             place = found.end()
         return tokens
@@ -70,7 +72,7 @@ class _Reader:
         return token
 
     def fail(self, expected: str) -> None:
-        raise WhereError(f"where {self.text!r}: expected {expected}, found {self.peek() or 'the end'!r}")
+        raise WhereError(f"where {_short(self.text)!r}: expected {expected}, found {self.peek() or 'the end'!r}")
 
     def expression(self) -> np.ndarray:
         rows = self.term()
@@ -87,6 +89,14 @@ class _Reader:
         return rows
 
     def factor(self) -> np.ndarray:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise WhereError(f"where {_short(self.text)!r}: brackets and 'not' nest deeper than {DEEPEST}")
+        rows = self.nested()
+        self.depth -= 1
+        return rows
+
+    def nested(self) -> np.ndarray:
         if self.peek() == "not":
             self.take()
             return ~self.factor()
@@ -118,7 +128,7 @@ class _Reader:
                 return self.columns[known]
         near = get_close_matches(name, self.columns, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(sorted(self.columns))}"
-        raise WhereError(f"where {self.text!r}: no covariate {name!r}; {hint}")
+        raise WhereError(f"where {_short(self.text)!r}: no covariate {name!r}; {hint}")
 
     def values(self) -> list[str | float]:
         self.take("(")
@@ -143,6 +153,12 @@ class _Reader:
         if isinstance(value, float) and not any(isinstance(entry, str) for entry in column):
             return np.array([bool(test(float(entry), value)) for entry in column])
         if test not in (operator.eq, operator.ne):
-            raise WhereError(f"where {self.text!r}: {value!r} is not a number and words have no order; use == or !=")
+            raise WhereError(
+                f"where {_short(self.text)!r}: {value!r} is not a number and words have no order; use == or !="
+            )
         word = f"{value:g}" if isinstance(value, float) else value
         return np.array([bool(test(str(entry), word)) for entry in column])
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 120 else f"{text[:60]} ... {text[-40:]}"

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
 from opsim.cli.verbs import mistakes
+
+FEWEST = 3
+"""Repetitions that a model needs."""
 
 
 class _Components(click.ParamType):
@@ -19,42 +24,49 @@ class _Components(click.ParamType):
         try:
             number = float(value)
         except ValueError:
-            self.fail(f"expected a whole number or a share of variance such as 0.95, found {value!r}", param, ctx)
+            number = math.nan
         if 0 < number < 1:
             return number
-        if number < 1 or number != int(number):
-            self.fail(
-                f"expected a whole number from 1 or a share of variance such as 0.95, found {value!r}", param, ctx
-            )
+        if not math.isfinite(number) or number < 1 or number != int(number):
+            expected = "a whole number from 1 or a share of variance such as 0.98"
+            self.fail(f"expected {expected}, found {value!r}", param, ctx)
         return int(number)
 
 
 @click.command("fit")
 @click.argument("files", nargs=-1, required=True, metavar="FILE.npz...")
 @click.option("-o", "--out", type=click.Path(path_type=Path), required=True, help="The library to write, a .npz file.")
+@click.option("--task", help="The name of the task, for one FILE.  [default: the file's name]")
 @click.option(
     "--where", help="Which repetitions, such as 'cov_correct==1'; 'all' takes all.  [default: the correct ones]"
 )
 @click.option(
-    "--n-components", type=_Components(), help="Posture components, or their share of variance.  [default: 0.95]"
+    "--n-components", type=_Components(), help="Posture components, or their share of variance.  [default: 0.98]"
 )
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="For the figures of the report only.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
-    files: tuple[str, ...], out: Path, where: str | None, n_components: float | None, seed: int, as_json: bool
+    files: tuple[str, ...],
+    out: Path,
+    task: str | None,
+    where: str | None,
+    n_components: float | None,
+    seed: int,
+    as_json: bool,
 ) -> None:
     """Train an emulator on each recording FILE, a task each, and write them into one library."""
     from opsim.cli.console import print_json
+    from opsim.cli.motion_files import ready
 
     with mistakes():
         if out.suffix.lower() != ".npz":
             raise ValueError(f"{out}: a library ends in .npz")
-        said = _said(files, out, where, n_components)
-        library = _fitted(files, where, n_components, seed, said)
-        out.parent.mkdir(parents=True, exist_ok=True)
+        sets = _read(files, task, where, n_components)
+        ready(out, ".npz")
+        library = _fitted(sets, n_components, seed, _said(files, out, task, where, n_components))
         library.save(out)
     if as_json:
-        print_json({"library": str(out), "tasks": {task: model.report.as_dict() for task, model in library.items()}})
+        print_json({"library": str(out), "tasks": {name: model.report.as_dict() for name, model in library.items()}})
         return
     for model in library.values():
         _print_report(model.report)
@@ -63,12 +75,52 @@ def command(
     )
 
 
-def _fitted(files: tuple[str, ...], where: str | None, n_components: float | None, seed: int, said: str) -> Any:
-    from emulator import MotionEmulator, MotionLibrary, read_motions
+def _read(files: Sequence[str], task: str | None, where: str | None, n_components: float | None) -> list[Any]:
+    """The repetitions of each file. Raises ValueError with all that speaks against a fit, before the first one."""
+    from emulator import read_motions
+
+    wrong = _named_wrongly(files, task)
+    chosen = {} if where is None else {"where": None if where == "all" else where}
+    sets: list[Any] = []
+    names: dict[str, str] = {}
+    for file in files:
+        try:
+            motions = read_motions(file, task=task if len(files) == 1 else None, **chosen)
+        except (ValueError, OSError) as error:
+            wrong.append(str(error))
+            continue
+        if motions.task in names:
+            both = f"both {names[motions.task]} and {file} give the task {motions.task!r}"
+            wrong.append(f"{both}; rename one file, or fit it apart with --task")
+        names[motions.task] = file
+        wrong += _too_few(file, len(motions), n_components)
+        sets.append(motions)
+    if wrong:
+        raise ValueError("\n".join(dict.fromkeys(wrong)))
+    return sets
+
+
+def _named_wrongly(files: Sequence[str], task: str | None) -> list[str]:
+    if task is None:
+        return []
+    wrong = [] if len(files) == 1 else [f"--task {task}: found {len(files)} files, expected one"]
+    if not task.strip() or not task.isprintable() or "/" in task:
+        wrong.append(f"--task: found {task!r}, expected a name without '/'")
+    return wrong
+
+
+def _too_few(file: str, n: int, n_components: float | None) -> list[str]:
+    if n < FEWEST:
+        return [f"{file}: found {n} repetition{'s' if n > 1 else ''}, expected {FEWEST} or more"]
+    if n_components is not None and n_components >= n:
+        return [f"{file}: --n-components: found {n_components}, expected at most {n - 1} for {n} repetitions"]
+    return []
+
+
+def _fitted(sets: Sequence[Any], n_components: float | None, seed: int, said: str) -> Any:
+    from emulator import MotionEmulator, MotionLibrary
     from opsim.cli.progress import progress
 
-    chosen = {} if where is None else {"where": None if where == "all" else where}
-    sets = [read_motions(file, **chosen) for file in files]
     library = MotionLibrary.of(command=said)
     for motions in sets:
         with progress(f"fit {motions.task}") as report:
@@ -77,9 +129,10 @@ def _fitted(files: tuple[str, ...], where: str | None, n_components: float | Non
     return library
 
 
-def _said(files: tuple[str, ...], out: Path, where: str | None, n_components: float | None) -> str:
+def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, n_components: float | None) -> str:
     """The command as provenance: names of files without the folders of this machine."""
     words = ["opsim motion fit", *(Path(file).name for file in files), "-o", out.name]
+    words += [] if task is None else ["--task", f"'{task}'"]
     words += [] if where is None else ["--where", f"'{where}'"]
     return " ".join(words + ([] if n_components is None else ["--n-components", f"{n_components:g}"]))
 

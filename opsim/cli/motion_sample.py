@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from pathlib import Path
 from typing import Any
 
 import click
 
 from opsim.cli.verbs import mistakes
+
+
+class _Rate(click.FloatRange):
+    """A range that nan is not in."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        rate = super().convert(value, param, ctx)
+        if not math.isfinite(rate):
+            self.fail(f"expected a number from {self.min:g} to {self.max:g}, found {value!r}", param, ctx)
+        return rate
 
 
 @click.command("sample")
@@ -20,18 +31,19 @@ from opsim.cli.verbs import mistakes
 @click.option(
     "-o", "--out", type=click.Path(path_type=Path), help="times as .csv, or whole movements as .npz recordings."
 )
-@click.option(
-    "--fps", type=click.FloatRange(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz."
-)
+@click.option("--fps", type=_Rate(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(library: str, task: str | None, n: int, seed: int, out: Path | None, fps: float, as_json: bool) -> None:
     """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz file, the movements."""
     import numpy as np
 
     from opsim.cli.console import print_json
+    from opsim.cli.motion_files import chosen, ready
 
     with mistakes():
         model = chosen(library, task)
+        if out is not None:
+            ready(out, ".csv", ".npz")
         drawn = model.sample(n, np.random.default_rng(seed))
         if out is not None:
             _write(
@@ -44,22 +56,6 @@ def command(library: str, task: str | None, n: int, seed: int, out: Path | None,
     _print_times(model, drawn)
     if out is not None:
         click.echo(f"{n} performances: {out}")
-
-
-def chosen(library: str, task: str | None) -> Any:
-    """The emulator of a task of a library file, or of a shipped library by its name. Raises ValueError."""
-    from opsim.libraries import load_library
-    from opsim.shipped import shipped_folder
-
-    file, shipped = Path(library), shipped_folder() / "libraries"
-    for candidate in (shipped / library, shipped / f"{library}.npz"):
-        file = candidate if not file.exists() and Path(library).name == library and candidate.is_file() else file
-    if not file.is_file():
-        raise ValueError(
-            f"{library}: no such library; shipped ones: {', '.join(p.stem for p in sorted(shipped.glob('*.npz')))}"
-        )
-    loaded = load_library(file)
-    return loaded.only() if task is None else loaded[task]
 
 
 def _row(model: Any, drawn: Any, k: int) -> dict[str, float]:
@@ -81,9 +77,6 @@ def _print_times(model: Any, drawn: Any) -> None:
 
 
 def _write(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
-    if out.suffix.lower() not in (".csv", ".npz"):
-        raise ValueError(f"{out}: performances are written as .csv (times) or .npz (movements)")
-    out.parent.mkdir(parents=True, exist_ok=True)
     if out.suffix.lower() == ".npz":
         _write_npz(out, model, drawn, fps, said)
         return

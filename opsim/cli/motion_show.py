@@ -19,13 +19,14 @@ from opsim.cli.verbs import mistakes
 def command(library: str, task: str | None, out: Path | None, n: int, seed: int, as_json: bool) -> None:
     """Draw a TASK of a LIBRARY along real time: the mean performance above drawn ones."""
     from opsim.cli.console import print_json
-    from opsim.cli.motion_sample import chosen
+    from opsim.cli.motion_files import chosen, ready
     from opsim.provenance import behind
     from opsim.report import draw_strips
 
     with mistakes():
         model = chosen(library, task)
         out = out if out is not None else Path(f"{Path(model.task).name}.png")
+        ready(out, ".png", ".svg")
         report = model.report
         title = f"{model.task}: emulated from {behind(report.source, report.n_sequences, report.n_workers)}"
         draw_strips(model, out, n_samples=n, seed=seed, title=title)

@@ -19,6 +19,12 @@ def test_a_jittered_copier_is_seen():
     assert novelty_ratio(jittered, scores()) < 0.5
 
 
+def test_novelty_is_not_estimated_where_the_recorded_are_twins():
+    twins = np.repeat(scores(10), 2, axis=0)
+    assert np.isnan(novelty_ratio(scores(seed=1), twins))
+    assert np.isfinite(novelty_ratio(scores(seed=1), np.concatenate([twins[:4], scores(20)])))
+
+
 def motions_on_one_clock():
     return made("reach")[2].sample(30, np.random.default_rng(0)).directions(n_times=61)
 

@@ -9,6 +9,7 @@ from emulator.archive import FORMAT
 from emulator.library import LibraryError, MotionLibrary, file_sha256, read_header
 from emulator.model import MotionEmulator
 from tests.emulator.fitted import made, recorded
+from tests.emulator.test_members import huge_npy, npy
 
 
 @pytest.fixture(scope="module")
@@ -33,12 +34,6 @@ def changed(path, change):
             if content is not None:
                 file.writestr(name, content)
     return path
-
-
-def npy(array, **settings):
-    stream = io.BytesIO()
-    np.save(stream, array, **settings)
-    return stream.getvalue()
 
 
 def with_header(path, change):
@@ -153,7 +148,7 @@ def test_a_pickle_is_never_opened(saved):
             return (pytest.fail, ("the pickle was opened",))
 
     trap = npy(np.array([Trap()], dtype=object), allow_pickle=True)
-    with pytest.raises(LibraryError, match="damaged"):
+    with pytest.raises(LibraryError, match=r"walk/centre\.npy holds Python objects"):
         MotionLibrary.load(changed(saved, lambda name, content: trap if name == "walk/centre.npy" else content))
 
 
@@ -170,7 +165,7 @@ def test_a_missing_array_is_named(saved):
 
 def test_an_array_of_wrong_shape_is_named(saved):
     wrong = npy(np.zeros((3, 3)))
-    with pytest.raises(LibraryError, match=r"walk/centre has shape \(3, 3\)"):
+    with pytest.raises(LibraryError, match=r"moves\.npz: array walk/centre: found \(3, 3\), expected \(27,\)"):
         MotionLibrary.load(changed(saved, lambda name, content: wrong if name == "walk/centre.npy" else content))
 
 
@@ -202,3 +197,63 @@ def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path, monkeypatch, s
     monkeypatch.setattr("emulator.archive.MAX_BYTES", 10_000)
     with pytest.raises(LibraryError, match="larger"):
         MotionLibrary.load(saved)
+
+
+def less(rows):
+    """A change of the arrays of these names that leaves out their last row."""
+    return lambda name, content: npy(np.load(io.BytesIO(content))[:-1]) if name in rows else content
+
+
+@pytest.mark.parametrize("part", ["within_factor", "between_factor", "effects", "posture_whole", "pace_mean"])
+def test_a_row_cut_off_any_array_is_named_with_file_task_and_shapes(saved, part):
+    with zipfile.ZipFile(saved) as file:
+        shape = np.load(io.BytesIO(file.read(f"reach/{part}.npy"))).shape
+    with pytest.raises(LibraryError) as error:
+        MotionLibrary.load(changed(saved, less([f"reach/{part}.npy"])))
+    found = (shape[0] - 1, *shape[1:])
+    assert str(error.value) == f"{saved}: array reach/{part}: found {found}, expected {shape}"
+
+
+def test_all_arrays_of_wrong_shape_are_named_at_once(saved):
+    with pytest.raises(LibraryError, match=r"(?s)reach/centre.*walk/spread.*walk/margin0_z"):
+        MotionLibrary.load(changed(saved, less(["reach/centre.npy", "walk/spread.npy", "walk/margin0_z.npy"])))
+
+
+@pytest.mark.parametrize("part", ["within_factor", "between_factor"])
+def test_a_row_cut_off_a_library_of_before_that_says_no_shapes_is_found(saved, part):
+    with_header(saved, lambda header: {key: value for key, value in header.items() if key != "shapes"})
+    assert MotionLibrary.load(saved).tasks == ("reach", "walk")
+    with pytest.raises(LibraryError, match=f"walk/{part}: the squares"):
+        MotionLibrary.load(changed(saved, less([f"walk/{part}.npy"])))
+
+
+def test_an_exponent_beyond_all_numbers_is_refused(saved):
+    def wild(name, content):
+        return (
+            npy(np.full_like(np.load(io.BytesIO(content)), 32767)) if name == "walk/posture_exponent.npy" else content
+        )
+
+    with pytest.raises(LibraryError, match="exponents"):
+        MotionLibrary.load(changed(saved, wild))
+
+
+def test_a_reference_posture_that_is_none_is_refused(saved):
+    def nothing(name, content):
+        return npy(np.zeros_like(np.load(io.BytesIO(content)))) if name == "walk/reference.npy" else content
+
+    with pytest.raises(LibraryError, match="walk/reference: found vectors of another length"):
+        MotionLibrary.load(changed(saved, nothing))
+
+
+def test_an_array_that_declares_more_than_it_holds_is_refused(saved):
+    with pytest.raises(LibraryError, match=r"moves\.npz: walk/centre\.npy is damaged: it declares \(1000000000000,\)"):
+        MotionLibrary.load(changed(saved, lambda name, content: huge_npy() if name == "walk/centre.npy" else content))
+
+
+def test_a_library_that_cannot_be_written_is_named_by_its_own_name_and_leaves_nothing(library, tmp_path):
+    (tmp_path / "folder.npz").mkdir()
+    for path in (tmp_path / "folder.npz", tmp_path / "nowhere" / "x.npz"):
+        with pytest.raises(OSError) as error:
+            library.save(path)
+        assert error.value.filename == str(path) and ".part" not in str(error.value)
+    assert [path.name for path in tmp_path.iterdir()] == ["folder.npz"]

@@ -1,4 +1,5 @@
 import json
+import zipfile
 
 import numpy as np
 import pytest
@@ -6,6 +7,7 @@ import pytest
 from emulator.recordings import RecordingError, read_motions
 from emulator.recordings.where import WhereError, rows_where
 from emulator.skeleton import CANONICAL, standard_skeleton
+from tests.emulator.test_members import huge_npy
 from tests.recordings import recording
 
 COLUMNS = {
@@ -100,14 +102,31 @@ def test_a_recording_that_does_not_say_what_is_correct_is_read_whole_and_says_so
     ("changes", "word"),
     [
         ({"fps": None}, "no fps"),
-        ({"offsets": np.array([0, 12, 12, 33])}, "offsets must rise"),
-        ({"trial": np.array(["1"])}, "trial has 1 values for 3"),
-        ({"fps": 0.0}, "fps must be positive"),
+        ({"offsets": np.array([0, 12, 12, 33])}, "offsets: found 12 after 12, expected to rise by two"),
+        ({"trial": np.array(["1"])}, "trial: found 1 values, expected 3"),
+        ({"fps": 0.0}, "fps: found 0, expected 1 to 10000 frames a second"),
         ({"names": np.array(["wing"] + ["x"] * 20)}, "joint 'wing' is not known"),
-        ({"positions": np.zeros((33, 4, 3))}, r"positions must be \(frames, 21, 3\)"),
+        ({"positions": np.zeros((33, 4, 3))}, r"positions: found \(33, 4, 3\), expected \(frames, 21, 3\)"),
         ({"positions": np.full((33, 21, 3), np.nan)}, "no repetition is left.*positions are missing"),
         ({"positions": np.ones((33, 21, 3))}, "repetition a/1: bone to joint 'spine' has no length at frame 0"),
-        ({"subject": np.array([object()] * 3)}, "not a recording"),
+        ({"subject": np.array([object()] * 3)}, "subject.npy holds Python objects"),
+        ({"offsets": np.array([])}, r"offsets: found \[\], expected whole numbers, two or more"),
+        ({"subject": np.array([1.0, np.nan, 2.0])}, "subject: .*expected one text or whole number a repetition"),
+        ({"offsets": np.array(33)}, "offsets: found one value, '33'"),
+        ({"offsets": np.array([0.0, 12.5, 22, 33])}, "offsets: .*expected whole numbers"),
+        ({"offsets": np.array([0, 12, 22, 40])}, "offsets: found 0 to 40, expected 0 to 33"),
+        ({"fps": np.array([50.0, 60.0])}, r"fps: found shape \(2,\) of float64, expected one number"),
+        ({"fps": np.array("fast")}, "fps: found one value, 'fast'"),
+        ({"fps": 1e-9}, "fps: found 1e-09, expected 1 to 10000"),
+        ({"fps": np.nan}, "fps: found nan"),
+        ({"names": np.array("pelvis")}, "names: found one value, 'pelvis'"),
+        ({"parents": np.arange(21) + 9}, "parents: .*expected joint numbers from -1 to 20"),
+        ({"parents": np.array([-1, 0])}, "parents: found 2 values, expected 21"),
+        ({"ann_turn_frame": np.array(5)}, "ann_turn_frame: found one value, '5'"),
+        ({"cov_correct": np.ones((3, 2))}, r"cov_correct: found shape \(3, 2\)"),
+        ({"core": np.array([0, 77]), "core_parents": np.array([-1, 0])}, "core: .*from 0 to 20"),
+        ({"core": np.array([0, 1]), "core_parents": np.array([-1, 5])}, "core_parents: .*from -1 to 1"),
+        ({"core": np.array([0, 1])}, "core, core_parents: found one of them"),
     ],
 )
 def test_a_broken_recording_is_refused_by_name(tmp_path, changes, word):
@@ -115,6 +134,56 @@ def test_a_broken_recording_is_refused_by_name(tmp_path, changes, word):
     with pytest.raises(RecordingError, match=word) as error:
         read_motions(path)
     assert str(path) in str(error.value)
+
+
+def test_all_mistakes_of_a_file_are_said_at_once(tmp_path):
+    path = write(tmp_path / "wave.npz", fps=0.0, trial=None, names=np.array("x"), ann_turn_frame=np.array(1))
+    with pytest.raises(RecordingError) as error:
+        read_motions(path)
+    lines = str(error.value).splitlines()
+    assert all(line.startswith(f"{path}: ") for line in lines)
+    assert {line.split(": ")[1] for line in lines} == {"not a recording", "fps", "names", "ann_turn_frame"}
+
+
+@pytest.mark.parametrize("frame", [-5, 10**6, 12, np.nan, np.inf])
+def test_a_mark_outside_its_repetition_is_refused_by_name(tmp_path, frame):
+    path = write(tmp_path / "wave.npz", ann_turn_frame=np.array([frame, frame, 4.0]))
+    with pytest.raises(RecordingError, match=r"ann_turn_frame: 2 of 3 marks lie outside: a/1 has .*expected 0 to 11"):
+        read_motions(path, where=None)
+
+
+def test_a_mark_may_be_missing_where_the_repetition_is_not_chosen(tmp_path):
+    path = write(tmp_path / "wave.npz", ann_turn_frame=np.array([11.0, np.nan, 0.0]))
+    assert len(read_motions(path, where="cov_correct==1")) == 1
+
+
+def test_of_many_wrong_marks_the_first_are_named(tmp_path):
+    arrays = {"subject": np.array(list("abcde")), "trial": np.arange(5), "ann_turn_frame": np.full(5, -5)}
+    path = write(tmp_path / "w.npz", offsets=np.array([0, 6, 12, 18, 22, 33]), cov_correct=None, **arrays)
+    with pytest.raises(RecordingError, match=r"5 of 5 marks.*a/0.*b/1.*c/2 has -5 \(expected 0 to 5\), \.\.\.$"):
+        read_motions(path)
+
+
+@pytest.mark.parametrize("text", ["(" * 3000 + "correct == 1" + ")" * 3000, "not " * 3000 + "correct == 1"])
+def test_a_bottomless_expression_is_refused_in_a_short_word(text):
+    with pytest.raises(WhereError, match="nest deeper than 50") as error:
+        rows_where(text, COLUMNS)
+    assert len(str(error.value)) < 300
+    assert rows_where("(" * 40 + "correct == 1" + ")" * 40, COLUMNS).tolist() == [True, False, True, True]
+
+
+def test_a_recording_that_declares_more_than_it_holds_is_refused_before_anything_is_made(tmp_path):
+    path = write(tmp_path / "wave.npz")
+    with zipfile.ZipFile(path, "a") as file:
+        file.writestr("cov_size.npy", huge_npy())
+    with pytest.raises(RecordingError, match=r"cov_size.npy is damaged: it declares \(1000000000000,\)"):
+        read_motions(path)
+
+
+@pytest.mark.parametrize("meta", ["[" * 100_000, "no json", "[1]", np.array([1.0, 2.0])])
+def test_a_meta_that_cannot_be_read_is_noted(tmp_path, meta):
+    motions = read_motions(write(tmp_path / "wave.npz", meta=meta))
+    assert motions.licence == "not stated" and "meta is no JSON object" in motions.notes[-1]
 
 
 def test_other_files_are_refused_by_name(tmp_path):
