@@ -4,6 +4,8 @@ The grid holds up to 2^33 s (272 years) in a float without loss.
 """
 
 TICKS_PER_S = 2**20
+STEP_S = 1 / TICKS_PER_S
+LONGEST_S = 2.0**33
 
 
 def on_grid(delay_s: float) -> float:

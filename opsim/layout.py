@@ -1,15 +1,86 @@
-"""Where things are, and how far it is from one to the other."""
+"""Where things are, how far it is from one to the other, and which places one passes on the way."""
 
-from collections.abc import Sequence
-from math import hypot
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot, inf
+from typing import TYPE_CHECKING
+
+from opsim.names import natural_key
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from opsim.scenario.schema import Layout
 
 Point = tuple[float, float]
+Matrix = tuple[tuple[float, ...], ...]
 
 
-def distances_m(points: Sequence[Point], distance: str) -> tuple[tuple[float, ...], ...]:
-    """(P, P) metres between points in a straight line (``euclidean``) or along the axes (``rectilinear``)."""
-    measure = {"euclidean": _euclidean_m, "rectilinear": _rectilinear_m}[distance]
-    return tuple(tuple(measure(a, b) for b in points) for a in points)
+@dataclass(frozen=True, slots=True)
+class Ways:
+    """The shortest ways between P places in natural order.
+
+    distance_m : (P, P) metres from the first to the second, inf where no path leads
+    before     : (P, P) the place before the second on the way from the first, -1 where there is none
+    """
+
+    places: tuple[str, ...]
+    distance_m: Matrix
+    before: tuple[tuple[int, ...], ...] | None = None
+
+    def way(self, start: str, end: str) -> tuple[str, ...]:
+        """The places passed on the shortest way, both ends included. Raises ValueError where no path leads."""
+        first, last = self.places.index(start), self.places.index(end)
+        if self.distance_m[first][last] == inf:
+            raise ValueError(f"no path leads from {start!r} to {end!r}")
+        if self.before is None or first == last:
+            return (start,) if first == last else (start, end)
+        passed = [last]
+        while passed[-1] != first:
+            passed.append(self.before[first][passed[-1]])
+        return tuple(self.places[rank] for rank in reversed(passed))
+
+
+def ways(layout: Layout) -> Ways:
+    """The shortest ways between all places of a layout, in natural order of their names."""
+    if layout.distance == "paths":
+        return _along_paths(layout)
+    names = tuple(sorted(layout.places, key=natural_key))
+    measure = {"euclidean": _euclidean_m, "rectilinear": _rectilinear_m}[layout.distance]
+    points = [layout.places[name] for name in names]
+    return Ways(names, tuple(tuple(measure(a, b) for b in points) for a in points))
+
+
+def distances_m(layout: Layout) -> Matrix:
+    """(P, P) metres between places in natural order: straight, along the axes, or along paths (inf: none leads)."""
+    return ways(layout).distance_m
+
+
+def _along_paths(layout: Layout) -> Ways:
+    """Dijkstra from every place; of equal ways the one by the places first in natural order."""
+    from scipy.sparse.csgraph import dijkstra
+
+    names = tuple(sorted(layout.places, key=natural_key))
+    distance, before = dijkstra(_lengths(layout, names), return_predecessors=True)
+    return Ways(names, tuple(map(tuple, distance.tolist())), tuple(map(tuple, before.clip(min=-1).tolist())))
+
+
+def _lengths(layout: Layout, names: tuple[str, ...]) -> np.ndarray:
+    """Sparse (P, P): the length of the shortest direct path; 0 is a length too."""
+    from scipy.sparse import csr_array
+
+    rank = {name: number for number, name in enumerate(names)}
+    shortest: dict[tuple[int, int], float] = {}
+    for path in layout.path_steps:
+        a, b = rank[path.start], rank[path.end]
+        straight_m = _euclidean_m(layout.places[path.start], layout.places[path.end])
+        length_m = straight_m if path.length_m is None else path.length_m
+        for step in [(a, b)] if path.one_way else [(a, b), (b, a)]:
+            shortest[step] = min(length_m, shortest.get(step, inf))
+    steps = sorted(shortest)
+    rows, columns = [a for a, _ in steps], [b for _, b in steps]
+    return csr_array(([shortest[step] for step in steps], (rows, columns)), shape=(len(names), len(names)))
 
 
 def _euclidean_m(a: Point, b: Point) -> float:

@@ -6,6 +6,7 @@ import csv
 import math
 from pathlib import Path
 
+from opsim.clock import LONGEST_S
 from opsim.files import NotInside, inside
 from opsim.problems import did_you_mean, shown
 
@@ -84,6 +85,8 @@ def _positive(cells: list[str], index: int, line: int, file: str) -> float:
     number = _number(cell)
     if number is None or not number > 0 or not math.isfinite(number):
         raise RecordedError(f"{shown(file)} line {line}: {shown(cell)} is not a positive number of seconds")
+    if number > LONGEST_S:
+        raise RecordedError(f"{shown(file)} line {line}: {shown(cell)} is more than 2^33 s (272 years)")
     return number
 
 

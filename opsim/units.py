@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from itertools import pairwise
@@ -79,6 +80,8 @@ def parse(value: object, kind: str) -> float:
         raise UnitError(
             f"expected a {kind}, found {shown(value)}", f"write it with its unit, such as '{EXAMPLES[kind]}'"
         )
+    if not isinstance(value, str) and not math.isfinite(value):
+        raise UnitError(f"expected a {kind}, found {value}", f"write a finite number with its unit: '{EXAMPLES[kind]}'")
     if not isinstance(value, str):
         raise _bare(shown(value), kind)
     if kind == "time" and ":" in value:

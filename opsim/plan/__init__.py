@@ -5,7 +5,7 @@ Both engines read a Plan and nothing else.
 
 from opsim.plan.compile import compile_plan
 from opsim.plan.loads import StationLoad, station_loads
-from opsim.plan.material import Operation, ProductPlan
+from opsim.plan.material import Operation, ProductPlan, Ways
 from opsim.plan.plan import Plan
 from opsim.plan.release import ReleasePlan
 from opsim.plan.station import StationPlan
@@ -20,6 +20,7 @@ __all__ = [
     "StationLoad",
     "StationPlan",
     "TaskPlan",
+    "Ways",
     "WorkerPlan",
     "compile_plan",
     "station_loads",

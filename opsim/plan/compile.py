@@ -14,6 +14,9 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
     """The Plan of a scenario that was read; ``seed`` replaces the file's own."""
     from opsim.tasks import task_model
 
+    def model_of(task):
+        return task_model(task, loaded)
+
     scenario = loaded.scenario
     places, stations = _ranks(scenario.layout.places), _ranks(scenario.stations)
     return Plan(
@@ -22,16 +25,16 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         horizon_s=scenario.run.horizon_s,
         warm_up_s=scenario.run.warm_up_s,
         places=tuple(places),
-        distance_m=distances_m([scenario.layout.places[name] for name in places], scenario.layout.distance),
-        tasks=plan_tasks(scenario, lambda task: task_model(task, loaded)),
+        distance_m=distances_m(scenario.layout),
+        tasks=plan_tasks(scenario, model_of),
         stations=plan_stations(scenario, places, _ranks(scenario.tasks)),
         products=plan_products(scenario, stations),
-        release=plan_release(scenario),
+        release=plan_release(scenario, model_of),
         workers=plan_workers(scenario, places, tuple(stations)),
         rule=scenario.allocation.rule,
         when_blocked=scenario.allocation.when_blocked,
         idle=scenario.allocation.idle,
-        staffing=getattr(scenario.run, "staffing", "fixed"),
+        staffing=scenario.run.staffing,
     )
 
 

@@ -29,7 +29,7 @@ def station_loads(plan: Plan) -> list[StationLoad]:
 def _load(plan: Plan, rank: int, visits: float) -> StationLoad:
     station = plan.stations[rank]
     work_s = sum(plan.tasks[task].mean_s() for task in station.tasks)
-    per_h = 3600 / plan.release.every_s * visits if plan.release.kind == "poisson" else None
+    per_h = 3600 / plan.release.every_s * visits if plan.release.every_s else None
     most_per_h = station.servers * 3600 / work_s
     return StationLoad(
         station.name, station.servers, work_s, visits, per_h, None if per_h is None else per_h / most_per_h, most_per_h

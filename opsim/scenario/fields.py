@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from opsim import units
+from opsim.clock import LONGEST_S, STEP_S
 from opsim.problems import shown
 
 _NAME = re.compile(r"[\w][\w \-]*")
@@ -20,9 +21,14 @@ def plain_error(message: str, hint: str = "", *, on: str | int | None = None) ->
 
 
 def _quantity(
-    kind: str, *, above: float | None = None, at_least: float | None = None, at_most: float | None = None
+    kind: str,
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    why: str = "",
 ) -> BeforeValidator:
-    """Reads a quantity of a kind; bounds in SI."""
+    """Reads a quantity of a kind; bounds in SI, and why they are there."""
     unit = units.SI[kind]
 
     def read(value: object) -> float:
@@ -33,9 +39,9 @@ def _quantity(
         if above is not None and not number > above:
             raise plain_error(f"must be more than {above:g} {unit}, found {shown(value)}")
         if at_least is not None and number < at_least:
-            raise plain_error(f"must be at least {at_least:g} {unit}, found {shown(value)}")
+            raise plain_error(f"must be at least {at_least:g} {unit}, found {shown(value)}", why)
         if at_most is not None and number > at_most:
-            raise plain_error(f"must be at most {at_most:g} {unit}, found {shown(value)}")
+            raise plain_error(f"must be at most {at_most:.10g} {unit}, found {shown(value)}", why)
         return number
 
     return BeforeValidator(read)
@@ -80,13 +86,17 @@ def _whole(value: object) -> object:
     return value
 
 
-Seconds = Annotated[float, _quantity("time", above=0), _as_text("time")]
-SecondsOrZero = Annotated[float, _quantity("time", at_least=0), _as_text("time")]
-Length = Annotated[float, _quantity("length"), _as_text("length")]
+_CLOCK = "the clock goes in steps of 2^-20 s up to 2^33 s (272 years)"
+_WIDEST_M = 1e6
+
+Seconds = Annotated[float, _quantity("time", above=0, at_least=STEP_S, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
+SecondsOrZero = Annotated[float, _quantity("time", at_least=0, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
+Length = Annotated[float, _quantity("length", at_least=-_WIDEST_M, at_most=_WIDEST_M), _as_text("length")]
+PathLength = Annotated[float, _quantity("length", at_least=0, at_most=_WIDEST_M), _as_text("length")]
 Height = Annotated[float, _quantity("length", at_least=0.5, at_most=2.6), _as_text("length")]
-Speed = Annotated[float, _quantity("speed", above=0), _as_text("speed")]
+Speed = Annotated[float, _quantity("speed", above=0, at_least=0.01, at_most=100), _as_text("speed")]
 Mass = Annotated[float, _quantity("mass", at_least=20, at_most=400), _as_text("mass")]
-Load = Annotated[float, _quantity("mass", at_least=0), _as_text("mass")]
+Load = Annotated[float, _quantity("mass", at_least=0, at_most=10_000), _as_text("mass")]
 NameText = Annotated[str, BeforeValidator(_name_text)]
 Name = Annotated[str, AfterValidator(_good_name)]
 Whole = Annotated[int, BeforeValidator(_whole)]

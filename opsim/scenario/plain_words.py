@@ -10,9 +10,10 @@ from pydantic import ValidationError
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import like
 from opsim.scenario.positions import Node, Part, child, problem
-from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Scenario
+from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Path, Scenario
 from opsim.scenario.yaml_nodes import scalar
 
+_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>")
 _TYPES = {
     "string_type": "text",
     "int_type": "a whole number",
@@ -50,8 +51,8 @@ def schema_problems(error: ValidationError, tree: Node) -> Iterator[Problem]:
 
 
 def _path(loc: tuple[Part, ...]) -> tuple[Part, ...]:
-    """A location without the marks the schema puts in: which kind of task, that it is a key."""
-    return tuple(part for part in loc if part not in TASK_KINDS and part != "[key]")
+    """A location without the marks the schema puts in: which kind of task or of gap, that it is a key."""
+    return tuple(part for part in loc if part not in TASK_KINDS and part not in _MARKS)
 
 
 def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Problem:
@@ -79,9 +80,15 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         return f"expected {_either(known)}, {found}", _near(value, known)
     if kind == "finite_number":
         return f"expected a finite number, {found}", ""
-    if kind == "too_short":
-        return "expected at least one entry, found none", ""
+    if kind in ("too_short", "too_long"):
+        return _wrong_number(kind, ctx), ""
     return f"cannot be read, {found}", ""
+
+
+def _wrong_number(kind: str, ctx: dict[str, Any]) -> str:
+    bound, words = (ctx["min_length"], "at least") if kind == "too_short" else (ctx["max_length"], "at most")
+    entries = "one entry" if bound == 1 else f"{bound:,} entries"
+    return f"expected {words} {entries}, found {ctx['actual_length'] or 'none'}"
 
 
 def _either(words: list[str]) -> str:
@@ -131,7 +138,8 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     if not loc:
         return Scenario
-    kind = next((TASK_KINDS[part] for part in loc if isinstance(part, str) and part in TASK_KINDS), None)
+    marked = {**TASK_KINDS, "<path>": Path}
+    kind = next((marked[part] for part in loc if isinstance(part, str) and part in marked), None)
     return kind or BLOCKS.get(str(loc[0]), Scenario)
 
 

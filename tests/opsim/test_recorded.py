@@ -32,6 +32,7 @@ def test_a_column_is_read_in_its_order(tmp_path, text, column, expected):
         ("t\n3\n-1\n", None, "'times.csv' line 3: '-1' is not a positive number of seconds"),
         ("t\n3\n\n3 s\n", None, "'times.csv' line 4: '3 s' is not a positive number of seconds"),
         ("t\ninf\n", None, "'times.csv' line 2: 'inf' is not a positive number of seconds"),
+        ("t\n1\n1e10\n", None, "'times.csv' line 3: '1e10' is more than 2^33 s (272 years)"),
         ("a,b\n1,2\n", None, "'times.csv' has 2 columns; add 'column:' with one of: a, b"),
         ("duration,b\n1,2\n", "duratoin", "no column 'duratoin' in 'times.csv'; did you mean 'duration'?"),
         ("a,b\n1\n", "b", "'times.csv' line 2: '' is not a positive number of seconds"),

@@ -57,6 +57,8 @@ def test_a_quantity_is_read_to_the_nearest_float(text, kind, si):
         ("1e99 s", "time", "'1e99 s' is out of any range that can be meant"),
         ("", "time", "expected a time, found empty text; write a number and its unit, such as '45 s'"),
         ("soon", "time", "cannot read 'soon' as a time; write a number and its unit, such as '45 s'"),
+        (float("inf"), "time", "expected a time, found inf; write a finite number with its unit: '45 s'"),
+        (float("nan"), "mass", "expected a mass, found nan; write a finite number with its unit: '6 kg'"),
         (True, "mass", "expected a mass, found true; write it with its unit, such as '6 kg'"),
         (None, "length", "expected a length, found nothing; write it with its unit, such as '1.5 m'"),
         ([1], "speed", "expected a speed, found a list of 1; write it with its unit, such as '1.2 m/s'"),

@@ -22,7 +22,8 @@ class Draws:
         self._plan, self._replication = plan, replication
         self._workforce = replication if plan.staffing == "redrawn" else FIXED_WORKFORCE
         release = plan.release
-        self._gaps = self._items(("interarrival", release.name), _exponential(release.every_s))
+        gap = _exponential(release.every_s) if release.gap is None else _performed(release.gap, None)
+        self._gaps = self._items(("interarrival", release.name), gap)
         self._mix = self._items(("mix", release.name), _uniform)
         self._cumulative = list(accumulate(product.share for product in plan.products))[:-1]
         self._durations: dict[tuple[int, int], Items] = {}

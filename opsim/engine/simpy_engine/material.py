@@ -8,6 +8,7 @@ from opsim.engine.simpy_engine.state import Claim, Gate, Job, Station
 from opsim.engine.simpy_engine.station import seat
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
+from opsim.plan import Ways
 
 
 def create(floor: Floor) -> Job:
@@ -15,9 +16,9 @@ def create(floor: Floor) -> Job:
     number = floor.n_released
     rank = floor.draws.product(number)
     product = floor.plan.products[rank]
-    first = product.route[product.start]
-    operation = floor.operation_rank[first.name]
-    job = Job(number, rank, product, product.start, first, operation, HELD, GATE, floor.now)
+    step = _first_step(floor, number)
+    first = product.route[step]
+    job = Job(number, rank, product, step, first, floor.operation_rank[first.name], HELD, GATE, floor.now)
     floor.n_released += 1
     floor.next_gate = None
     floor.jobs[number] = job
@@ -79,8 +80,17 @@ def _next_step(floor: Floor, job: Job) -> int:
         return onward[0][1]
     visits = job.visits = {} if job.visits is None else job.visits
     visit = visits[job.step] = visits.get(job.step, -1) + 1
-    point = floor.draws.way(job.operation.name, visit, job.number)
-    return next(step for cumulative, step in onward if point < cumulative)
+    return _taken(onward, floor.draws.way(job.operation.name, visit, job.number))
+
+
+def _first_step(floor: Floor, number: int) -> int:
+    """Where the job of this number begins, drawn where there is a choice."""
+    start = floor.plan.products[floor.draws.product(number)].start
+    return start[0][1] if len(start) == 1 else _taken(start, floor.draws.way("start", 0, number))
+
+
+def _taken(ways: Ways, point: float) -> int:
+    return next(step for cumulative, step in ways if point < cumulative)
 
 
 def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
@@ -101,7 +111,7 @@ def _next_has_room(floor: Floor) -> bool:
     gate = floor.next_gate
     if gate is None:
         product = floor.plan.products[floor.draws.product(floor.n_released)]
-        gate = floor.next_gate = floor.gates[product.route[product.start].stations]
+        gate = floor.next_gate = floor.gates[product.route[_first_step(floor, floor.n_released)].stations]
     return not gate.claims and gate.has_room
 
 

@@ -11,8 +11,8 @@ from opsim.engine.simpy_engine.floor import Floor
 ARRIVED = "job arrived"
 
 
-def poisson_release(floor: Floor) -> Generator[simpy.Event, None, None]:
-    """The SimPy process of a Poisson source: wait a gap, report an arrival."""
+def release_by_time(floor: Floor) -> Generator[simpy.Event, None, None]:
+    """The SimPy process of a source of its own time: wait a gap, report an arrival."""
     for number, gap_s in enumerate(floor.draws.gaps()):
         yield floor.env.timeout(on_grid(gap_s))
         floor.report(ARRIVAL, 0, number, ARRIVED, number)

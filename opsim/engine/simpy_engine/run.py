@@ -5,7 +5,7 @@ import simpy
 from opsim.engine.simpy_engine.completion import HANDLERS
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.release import poisson_release
+from opsim.engine.simpy_engine.release import release_by_time
 from opsim.engine.simpy_engine.settle import dispatch
 from opsim.engine.simpy_engine.worker import log_worker, set_free, working_life
 from opsim.log import EventLog, names_of
@@ -31,8 +31,8 @@ def _open(plan: Plan, replication: int) -> Floor:
     for worker in floor.workers:
         set_free(floor, worker)
         env.process(working_life(floor, worker))
-    if plan.release.kind == "poisson":
-        env.process(poisson_release(floor))
+    if plan.release.kind != "saturated":
+        env.process(release_by_time(floor))
     floor.wake()
     return floor
 

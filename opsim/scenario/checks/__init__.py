@@ -11,7 +11,9 @@ from opsim.scenario.checks.additions import addition_problems
 from opsim.scenario.checks.files import file_problems
 from opsim.scenario.checks.material import material_problems
 from opsim.scenario.checks.references import reference_problems
-from opsim.scenario.checks.staffing import staffing_problems
+from opsim.scenario.checks.routing import routing_problems
+from opsim.scenario.checks.staffing import patrol_problems, staffing_problems
+from opsim.scenario.checks.walking import walking_problems
 from opsim.scenario.positions import Node
 
 
@@ -23,6 +25,9 @@ def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
     return chain(
         reference_problems(tree),
         staffing_problems(tree),
+        patrol_problems(tree),
+        routing_problems(tree),
+        walking_problems(tree),
         material_problems(tree),
         addition_problems(tree, base),
         file_problems(tree, folder),

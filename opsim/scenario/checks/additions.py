@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from opsim.problems import Problem, nearest, shown
-from opsim.scenario.checks.material import visited
+from opsim.scenario.checks.ways import visited
 from opsim.scenario.positions import Node, entries, items, problem, text
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.recorded import RecordedError, read_times, resolve_times
-from opsim.scenario.positions import Node, entries, problem, text
+from opsim.scenario.positions import Node, child, entries, problem, text
 
 
 def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -29,14 +29,18 @@ def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
             yield problem(
                 place, ("tasks", name, "emulator"), f"no task {shown(inside)} in library {shown(library)}", hint
             )
-        yield from _recorded(name, task, folder)
+        yield from _recorded(task, ("tasks", name), folder)
+    gap = child(tree, "release", "every")
+    if gap is not None:
+        yield from _recorded(gap, ("release", "every"), folder)
 
 
-def _recorded(name: str, task: Node, folder: Path) -> Iterator[Problem]:
-    file = text(task, "recorded")
+def _recorded(model: Node, path: tuple[str, ...], folder: Path) -> Iterator[Problem]:
+    """What is wrong with a file of recorded times."""
+    file = text(model, "recorded")
     if file is None:
         return
     try:
-        read_times(resolve_times(file, folder), text(task, "column"))
+        read_times(resolve_times(file, folder), text(model, "column"))
     except RecordedError as error:
-        yield problem(task.value["recorded"].place, ("tasks", name, "recorded"), error.message, error.hint)
+        yield problem(model.value["recorded"].place, (*path, "recorded"), error.message, error.hint)

@@ -6,26 +6,16 @@ import math
 from collections.abc import Iterator
 
 from opsim.problems import Problem, shown
-from opsim.scenario.positions import Node, child, entries, items, problem, text
+from opsim.scenario.checks.ways import first_of
+from opsim.scenario.positions import Node, child, entries, problem, text
+
+MOST_AT_ONCE = 100_000
+"""Jobs that a saturated release may make at t = 0."""
 
 
 def material_problems(tree: Node) -> Iterator[Problem]:
     yield from _shares(tree)
     yield from _endless(tree)
-
-
-def visited(tree: Node) -> set[str]:
-    """The stations that some route goes to."""
-    return {
-        name
-        for product in entries(tree, "products").values()
-        for step in items(product, "route")
-        for name in _one_of(step)
-    }
-
-
-def _one_of(step: Node) -> list[str]:
-    return [node.value for node in [step, *items(step)] if isinstance(node.value, str)]
 
 
 def _shares(tree: Node) -> Iterator[Problem]:
@@ -50,11 +40,7 @@ def _endless(tree: Node) -> Iterator[Problem]:
     kind = child(tree, "release", "kind")
     if kind is None or kind.value != "saturated":
         return
-    firsts = {
-        name: product
-        for product, node in entries(tree, "products").items()
-        for name in _one_of(next(iter(items(node, "route")), Node(None, kind.place)))
-    }
+    firsts = {name: product for product, node in entries(tree, "products").items() for name in first_of(node)}
     for name, product in firsts.items():
         station = child(tree, "stations", name)
         if station is None or not isinstance(station.value, dict):
@@ -64,3 +50,6 @@ def _endless(tree: Node) -> Iterator[Problem]:
             place = station.name_place if buffer is None else buffer.place
             found = f"a saturated release into a buffer without limit (first of {shown(product)}) never ends"
             yield problem(place, ("stations", name, "buffer"), found, "give the buffer a number of places, such as 1")
+        elif isinstance(buffer.value, int) and buffer.value > MOST_AT_ONCE:
+            found = f"a saturated release would fill {buffer.value:,} places at once; at most {MOST_AT_ONCE:,}"
+            yield problem(buffer.place, ("stations", name, "buffer"), found, "give the first buffer fewer places")

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from opsim.problems import Problem, did_you_mean, shown
+from opsim.scenario.checks.ways import onward
 from opsim.scenario.positions import Node, Part, child, entries, items, problem
+from opsim.scenario.schema.routing import OUT, START
 
 
 def reference_problems(tree: Node) -> Iterator[Problem]:
@@ -15,17 +17,39 @@ def reference_problems(tree: Node) -> Iterator[Problem]:
         yield from _named(child(station, "at"), places, "place", ("stations", name, "at"))
         for number, task in enumerate(items(station, "tasks")):
             yield from _named(task, tasks, "task", ("stations", name, "tasks", number))
+    yield from _paths(tree, places)
     for name, product in entries(tree, "products").items():
         for number, step in enumerate(items(product, "route")):
             path = ("products", name, "route", number)
             for one in [step, *items(step)]:
                 yield from _named(one, stations, "station", path)
+        yield from _routing(product, stations, ("products", name, "routing"))
     for name, worker in entries(tree, "workers").items():
         yield from _named(child(worker, "home"), places, "place", ("workers", name, "home"))
         for skill, rating in entries(worker, "skills").items():
             named = Node(skill, rating.name_place)
             yield from _named(named, stations, "station", ("workers", name, "skills", skill))
+        for number, station in enumerate(items(worker, "patrol")):
+            yield from _named(station, stations, "station", ("workers", name, "patrol", number))
     yield from _libraries(tree)
+
+
+def _paths(tree: Node, places: Collection[str]) -> Iterator[Problem]:
+    for number, way in enumerate(items(tree, "layout", "paths")):
+        path = ("layout", "paths", number)
+        for place, node in enumerate(items(way)):
+            yield from _named(node, places, "place", (*path, place))
+        for end in ("from", "to"):
+            yield from _named(child(way, end), places, "place", (*path, end))
+
+
+def _routing(product: Node, stations: Collection[str], path: tuple[Part, ...]) -> Iterator[Problem]:
+    """Stations that a routing leads to; a row of its own is named where jobs are sent to it."""
+    known = {*stations, START, OUT}
+    for name, row in entries(product, "routing").items():
+        yield from _named(Node(name, row.name_place), known, "station", (*path, name))
+        for _, node in onward(row):
+            yield from _named(node, known, "station", (*path, name))
 
 
 def _libraries(tree: Node) -> Iterator[Problem]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from opsim.problems import Problem, shown
-from opsim.scenario.checks.material import visited
-from opsim.scenario.positions import Node, child, entries, items, problem
+from opsim.scenario.checks.ways import visited
+from opsim.scenario.positions import Node, child, entries, items, problem, text
 
 
 def staffing_problems(tree: Node) -> Iterator[Problem]:
@@ -23,6 +23,25 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
                 f"add '{name}: 1.0' to the skills of {first} or another worker" if first else "add a section 'workers:'"
             )
             yield problem(station.name_place, ("stations", name), found, hint)
+
+
+def patrol_problems(tree: Node) -> Iterator[Problem]:
+    """Who is to patrol needs a round, and the skills for it."""
+    idle = text(tree, "allocation", "idle")
+    for name, worker in entries(tree, "workers").items():
+        patrol = child(worker, "patrol")
+        if idle == "patrol" and patrol is None:
+            stations = list(entries(worker, "skills")) or ["pack"]
+            found = f"idle workers patrol, and nothing says which stations {name} goes round"
+            yield problem(
+                worker.name_place, ("workers", name), found, f"add e.g. 'patrol: [{', '.join(stations[:3])}]'"
+            )
+        for number, station in enumerate(items(patrol)):
+            known = isinstance(station.value, str) and station.value in entries(tree, "stations")
+            if known and station.value not in entries(worker, "skills"):
+                found = f"{name} goes round by {shown(station.value)} and has no skill there"
+                hint = f"add '{station.value}: 1.0' to the skills of {name}"
+                yield problem(station.place, ("workers", name, "patrol", number), found, hint)
 
 
 def _manual_task(tree: Node, station: Node) -> str | None:

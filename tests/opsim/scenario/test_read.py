@@ -12,7 +12,7 @@ from opsim import libraries
 from opsim.problems import ScenarioError
 from opsim.scenario import Scenario, read_scenarios
 from opsim.scenario.read import scenarios_in
-from opsim.tasks import Lognormal, Recorded, task_model
+from opsim.tasks import Erlang, Lognormal, Recorded, task_model, time_model
 
 HERE = Path(__file__).parent
 GOOD = (HERE / "good.yaml").read_text(encoding="utf-8")
@@ -104,6 +104,60 @@ def test_a_route_may_offer_one_of_several_stations():
     text = text.replace("{pack: 1.1}", "{pack: 1.1, other: 1.0}")
     scenario = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario
     assert scenario.products["carton"].route == [["pack", "other"]]
+
+
+def with_routing(routing):
+    text = GOOD.replace("stations:\n", "stations:\n  check: {like: pack}\n").replace(
+        "route: [pack]", f"routing: {routing}"
+    )
+    text = text.replace("{pack: 1.1}", "{pack: 1.1, check: 1.0}")
+    return scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.products["carton"]
+
+
+def test_a_routing_is_read_as_probabilities_from_each_station():
+    product = with_routing("{start: pack, pack: {check: 1/3, pack: 1/3, out: 1/3}, check: out}")
+    assert product.route is None
+    assert product.routing == {
+        "start": {"pack": 1.0},
+        "pack": {"check": 1 / 3, "pack": 1 / 3, "out": 1 / 3},
+        "check": {"out": 1.0},
+    }
+
+
+def test_a_way_that_is_never_taken_is_left_out():
+    product = with_routing("{start: pack, pack: {check: 0, out: 1}, check: out}")
+    assert product.routing["pack"] == {"out": 1.0}
+
+
+def test_probabilities_that_are_rounded_are_scaled_to_a_sum_of_1():
+    ways = with_routing("{start: pack, pack: {check: 0.3333333, pack: 0.6666666}, check: out}").routing["pack"]
+    assert sum(ways.values()) == pytest.approx(1.0, abs=1e-15)
+
+
+def test_gaps_between_jobs_may_come_from_a_distribution():
+    text = GOOD.replace("{kind: poisson, every: 55 s}", "{kind: renewal, every: {dist: erlang, mean: 55 s, k: 2}}")
+    release = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.release
+    assert (release.kind, release.every_s) == ("renewal", 55.0)
+    assert time_model(release.gap) == Erlang(55.0, 2)
+
+
+def test_a_poisson_release_has_a_mean_gap_and_no_model():
+    release = scenarios_in(GOOD.encode(), Path("line.yaml"))["base"].scenario.release
+    assert (release.every_s, release.gap) == (55.0, None)
+
+
+def test_a_worker_may_go_round_the_same_station_twice():
+    text = GOOD.replace("{rule: nearest}", "{idle: patrol}").replace(
+        "skills: {pack: 1.1}", "skills: {pack: 1}, patrol: [pack, pack]"
+    )
+    scenario = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario
+    assert scenario.workers["ana"].patrol == ["pack", "pack"] and scenario.allocation.idle == "patrol"
+
+
+def test_staffing_is_fixed_unless_it_is_redrawn():
+    assert scenarios_in(GOOD.encode(), Path("line.yaml"))["base"].scenario.run.staffing == "fixed"
+    text = GOOD.replace("seed: 7", "seed: 7, staffing: redrawn")
+    assert scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.run.staffing == "redrawn"
 
 
 def test_an_automatic_station_needs_no_worker():

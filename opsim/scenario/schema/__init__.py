@@ -1,0 +1,46 @@
+"""What a scenario may say: one frozen model a block. The YAML key is the alias; the attribute carries the SI unit."""
+
+from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, Uniform
+from opsim.scenario.schema.distributions import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Weibull
+from opsim.scenario.schema.layout import Layout, Path
+from opsim.scenario.schema.material import Product, Station
+from opsim.scenario.schema.release import Release
+from opsim.scenario.schema.run import Run
+from opsim.scenario.schema.scenario import BLOCKS, Scenario
+from opsim.scenario.schema.task_kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Task
+from opsim.scenario.schema.tasks import Emulated, Fixed, Recorded, TaskBlock
+from opsim.scenario.schema.workers import Allocation, Worker
+
+__all__ = [
+    "BLOCKS",
+    "DISTRIBUTIONS",
+    "KIND_KEYS",
+    "TASK_KINDS",
+    "Allocation",
+    "Beta",
+    "Block",
+    "Empirical",
+    "Emulated",
+    "Erlang",
+    "Exponential",
+    "Fixed",
+    "Gamma",
+    "Hyperexponential",
+    "Layout",
+    "Lognormal",
+    "Normal",
+    "Path",
+    "Product",
+    "Recorded",
+    "Release",
+    "Run",
+    "Scenario",
+    "Station",
+    "Task",
+    "TaskBlock",
+    "Triangular",
+    "Uniform",
+    "Weibull",
+    "Worker",
+]

@@ -1,0 +1,60 @@
+"""Routing by probability: where a job goes from each station; ``out`` is the way out."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
+
+from opsim.problems import shown
+from opsim.scenario.fields import plain_error
+
+START, OUT = "start", "out"
+_FRACTION = re.compile(r"\s*([0-9]{1,9})\s*/\s*([1-9][0-9]{0,8})\s*")
+
+
+def _probability(value: object) -> float:
+    fraction = _FRACTION.fullmatch(value) if isinstance(value, str) else None
+    if fraction is not None:
+        value = int(fraction[1]) / int(fraction[2])
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise plain_error(f"expected a probability, found {shown(value)}", "such as 0.3 or 1/3")
+    if not 0 <= value <= 1:
+        raise plain_error(f"a probability lies between 0 and 1, found {shown(value)}")
+    return float(value)
+
+
+def _sure(value: object) -> object:
+    """A station's name alone is where every job goes."""
+    if isinstance(value, str):
+        return {value: 1.0}
+    if not isinstance(value, dict) or not value:
+        found = f"expected a station, or stations with probabilities, found {shown(value)}"
+        raise plain_error(found, "such as {drill: 0.9, out: 0.1}")
+    return value
+
+
+def _sums_to_1(ways: dict[str, float]) -> dict[str, float]:
+    """The same without ways that are never taken, and with a sum of 1 to the last bits."""
+    total = math.fsum(ways.values())
+    if abs(total - 1) > 1e-6:
+        raise plain_error(f"the probabilities sum to {total:g}; they must sum to 1")
+    return {name: p / total for name, p in ways.items() if p > 0}
+
+
+Probability = Annotated[
+    float,
+    BeforeValidator(_probability),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "number", "minimum": 0, "maximum": 1},
+                {"type": "string", "pattern": r"^\s*[0-9]+\s*/\s*[1-9][0-9]*\s*$"},
+            ],
+            "description": "a probability, such as 0.3 or 1/3",
+        }
+    ),
+]
+Onward = Annotated[dict[str, Probability], BeforeValidator(_sure), AfterValidator(_sums_to_1)]

@@ -1,0 +1,54 @@
+"""How long is simulated, how often, and with which luck."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from opsim.problems import shown
+from opsim.scenario.fields import Seconds, SecondsOrZero, Whole, plain_error
+from opsim.scenario.schema.base import Block
+
+DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+_DAY_WORDS = {*DAYS, "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"}
+
+
+def _day_and_time(value: object) -> object:
+    match = re.fullmatch(r"\s*([A-Za-z]+)\s+([0-9]{1,2}):([0-9]{2})\s*", value) if isinstance(value, str) else None
+    if match is None or match[1].title() not in _DAY_WORDS or int(match[2]) > 23 or int(match[3]) > 59:
+        raise plain_error(f"expected a weekday and a time, found {shown(value)}", "such as 'Mon 06:00'")
+    return f"{match[1][:3].title()} {int(match[2]):02d}:{match[3]}"
+
+
+class Run(Block):
+    """How long is simulated, how often, and with which luck."""
+
+    start: Annotated[str, BeforeValidator(_day_and_time)] = Field(
+        "Mon 06:00", description="weekday and time at t = 0", examples=["Mon 06:00"]
+    )
+    horizon_s: Seconds = Field(alias="horizon", description="simulated time, end not included", examples=["8 h"])
+    warm_up_s: SecondsOrZero = Field(
+        0.0, alias="warm_up", description="time at the start that does not count", examples=["30 min"]
+    )
+    replications: Whole = Field(10, ge=1, le=1_000_000, description="how often it is simulated, each with other luck")
+    seed: Whole = Field(0, ge=0, lt=2**63, description="the same seed gives the same numbers")
+    staffing: Literal["fixed", "redrawn"] = Field(
+        "fixed", description="fixed: the same people in every replication; redrawn: other people in each"
+    )
+
+    @property
+    def start_s(self) -> float:
+        """Seconds from Monday 00:00 to the start."""
+        day, clock = self.start.split()
+        hours, minutes = clock.split(":")
+        return DAYS.index(day) * 86400.0 + int(hours) * 3600.0 + int(minutes) * 60.0
+
+    @model_validator(mode="after")
+    def _warm_up_ends(self) -> Run:
+        if self.warm_up_s >= self.horizon_s:
+            raise plain_error(
+                f"the warm-up ({self.warm_up_s:g} s) must end before the horizon ({self.horizon_s:g} s)", on="warm_up"
+            )
+        return self

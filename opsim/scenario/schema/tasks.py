@@ -1,0 +1,72 @@
+"""Tasks: how long a piece of work takes, said in exactly one way."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from opsim.scenario.fields import Load, Seconds, Whole
+from opsim.scenario.schema.base import Block
+
+
+class TaskBlock(Block):
+    """What every task may say."""
+
+    load_kg: Load | None = Field(None, alias="load", description="mass in the hands", examples=["6 kg"])
+    repeat: Whole = Field(1, ge=1, le=10_000, description="how often it is done, each with a draw of its own")
+    automatic: bool = Field(False, description="true: the station does it alone, no worker")
+
+    @property
+    def words(self) -> str:
+        """Where the time comes from, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
+        raise NotImplementedError
+
+
+class Emulated(TaskBlock):
+    """Duration and posture from a motion emulator: ``emulator: library/task``."""
+
+    emulator: str = Field(description="library/task", examples=["moves/deep_squat"])
+
+    @property
+    def library(self) -> str:
+        return self.emulator.partition("/")[0]
+
+    @property
+    def library_task(self) -> str:
+        return self.emulator.partition("/")[2]
+
+    @property
+    def words(self) -> str:
+        return f"emulator {self.emulator}"
+
+
+class Fixed(TaskBlock):
+    """Always this long."""
+
+    fixed_s: Seconds = Field(alias="fixed", description="always this long", examples=["20 s"])
+
+    @property
+    def mean_s(self) -> float:
+        return self.fixed_s
+
+    @property
+    def words(self) -> str:
+        return f"fixed, {self.fixed_s:g} s"
+
+
+class Recorded(TaskBlock):
+    """Durations in seconds from a column of a CSV file.
+
+    resample: drawn again; trace: replayed in order; smooth: from their smoothed distribution.
+    """
+
+    recorded: str = Field(description="a CSV file in the scenario's folder", examples=["times.csv"])
+    column: str | None = Field(None, description="needed where the file has several columns")
+    by: Literal["resample", "trace", "smooth"] = Field(
+        "resample", description="drawn again; in the file's order; or drawn from the smoothed distribution"
+    )
+
+    @property
+    def words(self) -> str:
+        return f"recorded, {self.recorded} ({self.by})"

@@ -1,0 +1,28 @@
+"""Times without a body: fixed, from a distribution, or recorded. Each satisfies the seam of ``opsim.task``."""
+
+from opsim.tasks.bounded import Beta, Normal
+from opsim.tasks.model import SMALLEST_S, TimePerformances
+from opsim.tasks.of_scenario import task_model, time_model
+from opsim.tasks.seen import Empirical, Recorded
+from opsim.tasks.shared import Gamma, Hyperexponential, Lognormal, Weibull
+from opsim.tasks.simple import Erlang, Exponential, Fixed, Triangular, Uniform
+
+__all__ = [
+    "SMALLEST_S",
+    "Beta",
+    "Empirical",
+    "Erlang",
+    "Exponential",
+    "Fixed",
+    "Gamma",
+    "Hyperexponential",
+    "Lognormal",
+    "Normal",
+    "Recorded",
+    "TimePerformances",
+    "Triangular",
+    "Uniform",
+    "Weibull",
+    "task_model",
+    "time_model",
+]

@@ -1,0 +1,105 @@
+"""What all times without a body share: performances that are times only, and workers who may differ in pace.
+
+All draws of a call are made at once, in one fixed order. A worker's effect is a shift b of his log time.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from opsim.variability import log_variance, within_cv
+
+# A drawn time is never 0: the engine's clock has this as its smallest step.
+SMALLEST_S = 2.0**-20
+
+
+@dataclass(frozen=True, slots=True)
+class TimePerformances:
+    """n performances that are times only: ``duration_s`` (n,) > 0; no marks, no scores, no skeleton."""
+
+    duration_s: np.ndarray
+    skeleton: None = None
+
+    @property
+    def mark_s(self) -> np.ndarray:
+        return np.empty((self.duration_s.size, 0))
+
+    @property
+    def scores(self) -> np.ndarray:
+        return np.empty((self.duration_s.size, 0))
+
+    def directions(self, *args: Any, **kwargs: Any) -> np.ndarray:
+        raise ValueError("a time without a body has no postures; use an emulator task")
+
+    positions_m = root_m = directions
+
+
+class TimeModel:
+    """No worker effect, and ``sample`` from the model's own draws."""
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        """The mean in seconds; of this worker, where workers differ."""
+        raise NotImplementedError
+
+    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> Any:
+        """A worker's own effect, to be passed back as ``worker=``; None: workers do not differ."""
+        return None
+
+    def sample(
+        self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
+    ) -> TimePerformances:
+        """n performances; the same generator gives the same n."""
+        if condition is not None:
+            raise ValueError(f"{type(self).__name__}: a time without a body knows no condition, found {condition!r}")
+        return TimePerformances(np.maximum(self._draw_s(n, rng, worker), SMALLEST_S))
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class SharedTime(TimeModel):
+    """A family by mean and cv; a share of the log variance ln(1 + cv^2) lies between workers.
+
+    A worker's effect is b ~ N(0, s2) with s2 = between_share ln(1 + cv^2); his times are exp(b - s2 / 2) times a draw
+    of the family with mean ``mean_s`` and the smaller cv of ``opsim.variability``; so mean and cv over the population
+    are exactly those given, whatever the share. Without a worker, every time is that of a worker of its own.
+    A child gives ``_within_s``: n times with mean ``mean_s`` and cv ``self.within_cv``.
+    """
+
+    mean_s: float
+    cv: float
+    between_share: float = 0.0
+
+    @property
+    def log_variance(self) -> float:
+        return log_variance(self.cv)
+
+    @property
+    def within_cv(self) -> float:
+        """cv of one worker's times."""
+        return within_cv(self.cv, self.between_share)
+
+    @property
+    def _between(self) -> float:
+        return self.between_share * self.log_variance
+
+    def mean_duration_s(self, worker: float | None = None) -> float:
+        return self.mean_s if worker is None else self.mean_s * math.exp(worker - self._between / 2)
+
+    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> float | None:
+        return float(rng.normal(0.0, math.sqrt(self._between))) if self.between_share else None
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: float | None) -> np.ndarray:
+        own_s = self._within_s(n, rng) if self.within_cv > 0 else np.full(n, self.mean_s)
+        if not self.between_share:
+            return own_s
+        shift = rng.normal(0.0, math.sqrt(self._between), n) if worker is None else worker
+        return own_s * np.exp(shift - self._between / 2)
+
+    def _within_s(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        raise NotImplementedError

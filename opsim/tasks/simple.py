@@ -1,0 +1,79 @@
+"""Times in which workers do not differ: fixed, exponential, Erlang, uniform, triangular."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from opsim.tasks.model import TimeModel
+
+
+@dataclass(frozen=True)
+class Fixed(TimeModel):
+    """Always this long."""
+
+    duration_s: float
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return self.duration_s
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return np.full(n, self.duration_s)
+
+
+@dataclass(frozen=True)
+class Exponential(TimeModel):
+    """Memoryless: cv 1."""
+
+    mean_s: float
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return self.mean_s
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return rng.exponential(self.mean_s, n)
+
+
+@dataclass(frozen=True)
+class Erlang(TimeModel):
+    """The sum of k exponential phases of mean mean_s / k each: cv = 1 / sqrt(k)."""
+
+    mean_s: float
+    k: int
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return self.mean_s
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return rng.gamma(self.k, self.mean_s / self.k, n)
+
+
+@dataclass(frozen=True)
+class Uniform(TimeModel):
+    """Anything from low to high, equally likely."""
+
+    low_s: float
+    high_s: float
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return (self.low_s + self.high_s) / 2
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return rng.uniform(self.low_s, self.high_s, n)
+
+
+@dataclass(frozen=True)
+class Triangular(TimeModel):
+    """From low to high, most likely the mode: variance (a^2 + b^2 + c^2 - ab - ac - bc) / 18."""
+
+    low_s: float
+    mode_s: float
+    high_s: float
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return (self.low_s + self.mode_s + self.high_s) / 3
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return rng.triangular(self.low_s, self.mode_s, self.high_s, n)

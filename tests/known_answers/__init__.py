@@ -1,0 +1,1 @@
+"""Scenario files whose answers theory knows."""

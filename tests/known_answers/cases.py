@@ -1,0 +1,99 @@
+"""What theory says of the scenario files beside this one, and how to ask the simulation for the same figure.
+
+The expected numbers are those of ``known_answers.json`` (each with its formula and source); every one can be had anew
+from the closed form or the Markov chain named there.
+"""
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from recordings import reference
+
+HERE = Path(__file__).parent
+
+
+@dataclass(frozen=True)
+class Case:
+    """A figure ``kpi`` of a variant of a file; ``expected`` names the model and the path to its number.
+
+    scale : figure = scale x number + shift (a rate per second is asked as a rate per hour; a wait as a stay)
+    """
+
+    file: str
+    variant: str
+    kpi: str
+    expected: tuple[str, ...]
+    scale: float = 1.0
+    shift: float = 0.0
+    most_half_width: float = 0.01
+
+    @property
+    def name(self) -> str:
+        return f"{self.file}/{self.variant} {self.kpi}"
+
+    def answer(self) -> float:
+        """The number that theory gives."""
+        found = _reference()
+        for part in self.expected:
+            found = sum(found) if part == "sum" else found[part]
+        return self.scale * found + self.shift
+
+
+@cache
+def _reference() -> dict:
+    return {entry["name"]: entry["expected"] for entry in json.loads(reference("known_answers.json").read_text())}
+
+
+def _queue(file: str, variant: str, model: str, *, length: float = 0.02, stay: float = 0.02) -> list[Case]:
+    return [
+        Case(file, variant, "time_in_system_s", (model, "W"), most_half_width=stay),
+        Case(file, variant, "work_in_progress", (model, "L"), most_half_width=length),
+    ]
+
+
+def _rate(file: str, variant: str, *expected: str) -> Case:
+    return Case(file, variant, "throughput_per_h", expected, scale=3600.0)
+
+
+_TWO = "two-station line, exponential, equal rates"
+_ANY = "two stations, no buffer, any distribution"
+_LINES = "balanced exponential lines (Hillier & Boling type table)"
+_SHAPES = {
+    "uniform": "uniform(0,2)",
+    "deterministic": "deterministic",
+    "erlang": "Erlang-2",
+    "normal": "normal cv=0.2",
+    "lognormal": "lognormal cv=0.5",
+}
+_ROOM = {3: (0, 1, 2, 3, 5), 4: (0, 1, 2, 3), 5: (0, 1, 2)}
+_WORD = {3: "three", 4: "four", 5: "five"}
+_JACKSON = "Jackson line with rework"
+
+CASES = (
+    *_queue("mmc", "one_server", "M/M/1 rho=0.80"),
+    *_queue("mmc", "two_servers", "M/M/2 rho=0.90"),
+    *_queue("mmc", "eight_servers", "M/M/8 rho=0.85"),
+    _rate("mm1k", "base", "M/M/1/5 rho=0.9", "throughput"),
+    Case("mm1k", "base", "work_in_progress", ("M/M/1/5 rho=0.9", "L")),
+    Case("mg1", "fixed", "work_in_progress", ("M/G/1 D rho=0.8", "L"), most_half_width=0.02),
+    Case("mg1", "erlang", "work_in_progress", ("M/G/1 E3 rho=0.8", "L"), most_half_width=0.02),
+    Case("mg1", "exponential", "work_in_progress", ("M/G/1 M rho=0.8", "L"), most_half_width=0.02),
+    Case("mg1", "lognormal", "work_in_progress", ("M/G/1 LN cv=0.5 rho=0.8", "L"), most_half_width=0.02),
+    Case("jackson", "base", "time_in_system_s", (_JACKSON, "total_flow_time")),
+    Case("jackson", "base", "work_in_progress", (_JACKSON, "L", "sum")),
+    Case(
+        *("polling", "base", "time_in_system_s"),
+        ("one worker walking round 4 stations (exhaustive polling)", "mean_wait"),
+        shift=1.0,
+        most_half_width=0.02,
+    ),
+    *(_rate("line_of_two", f"buffer_{b}" if b else "base", _TWO, "throughput", str(b)) for b in (0, 1, 2, 3, 5, 10)),
+    *(_rate("line_of_two", variant, _ANY, "throughput", key) for variant, key in _SHAPES.items()),
+    *(
+        _rate(f"line_of_{_WORD[k]}", f"buffer_{b}" if b else "base", _LINES, "throughput", f"K={k},B={b}")
+        for k, room in _ROOM.items()
+        for b in room
+    ),
+)

@@ -1,0 +1,51 @@
+"""Prints theory beside simulation for every case, at the replications the files ask for: ``make known-answers``."""
+
+import os
+import sys
+
+from known_answers.cases import CASES, Case
+from known_answers.simulate import simulate
+from recordings import data_folder
+
+from opsim.study.interval import t_interval
+
+MOST_OUTSIDE_95 = 4
+
+
+def main() -> int:
+    """0 where theory holds: none outside the 99.9 % interval, at most 4 outside the 95 %, all precise enough."""
+    if not (data_folder() / "reference" / "known_answers.json").exists():
+        print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
+        return 2
+    runs = simulate(CASES, processes=os.cpu_count() or 1, done=_progress)
+    print(f"\n{'figure':42} {'theory':>10} {'simulated':>10} {'95 %':>8}  half-width  n")
+    verdicts = [_line(case, runs[case.file, case.variant][case.kpi]) for case in CASES]
+    outside = [sum(verdict == word for verdict in verdicts) for word in ("outside 95 %", "outside 99.9 %", "imprecise")]
+    print(f"{len(CASES)} figures: {outside[0]} outside 95 %, {outside[1]} outside 99.9 %, {outside[2]} imprecise")
+    return int(outside[0] > MOST_OUTSIDE_95 or any(outside[1:]))
+
+
+def _line(case: Case, values) -> str:
+    narrow, wide, theory = t_interval(values, 0.95), t_interval(values, 0.999), case.answer()
+    verdict = _verdict(theory, narrow, wide, case.most_half_width)
+    relative = f"{100 * narrow.half_width / narrow.mean:5.2f} %" if narrow.mean else "-"
+    print(
+        f"{case.name:42} {theory:10.4f} {narrow.mean:10.4f} {narrow.half_width:8.4f}  {relative}  {narrow.n:5} {verdict}"
+    )
+    return verdict
+
+
+def _verdict(theory, narrow, wide, most_half_width: float) -> str:
+    if narrow.half_width > most_half_width * narrow.mean:
+        return "imprecise"
+    if abs(theory - narrow.mean) <= 1e-6 * theory or narrow.low <= theory <= narrow.high:
+        return ""
+    return "outside 95 %" if wide.low <= theory <= wide.high else "outside 99.9 %"
+
+
+def _progress(n: int, total: int) -> None:
+    print(f"\r{n} of {total} replications", end="", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,70 @@
+from pathlib import Path
+
+import pytest
+
+from opsim.scenario.read import scenarios_in
+from opsim.scenario.risks import risks_of
+
+LINE = """
+opsim: 1
+name: Rework
+run: {horizon: 1 h}
+layout: {places: {here: [0 m, 0 m]}}
+tasks: {do: {fixed: 3 s, automatic: true}}
+stations:
+  cut: {at: here, tasks: [do], buffer: 2}
+  drill: {at: here, tasks: [do], buffer: 2}
+  out: {at: here, tasks: [do], buffer: 2}
+products: {part: {route: [cut, drill, out]}}
+release: {kind: saturated}
+"""
+
+
+def risks(*edits):
+    text = LINE
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new)
+    return risks_of(scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario)
+
+
+def test_a_line_has_no_risks():
+    assert risks() == []
+
+
+def test_a_route_that_comes_back_through_finite_buffers_may_lock():
+    assert risks(("[cut, drill, out]", "[cut, drill, cut, out]")) == [
+        "cut and drill send jobs round in a circle through buffers with limits: when all are full, nothing moves any "
+        "more; give one of them 'buffer: unlimited'"
+    ]
+
+
+def test_two_products_that_cross_may_lock():
+    crossing = "{a: {share: 0.5, route: [cut, drill]}, b: {share: 0.5, route: [[drill, out], cut]}}"
+    (risk,) = risks(("{part: {route: [cut, drill, out]}}", crossing))
+    assert risk.startswith("cut and drill send jobs round")
+
+
+def test_a_station_that_sends_to_itself_may_lock():
+    (risk,) = risks(("[cut, drill, out]", "[cut, drill, drill, out]"))
+    assert risk.startswith("drill sends jobs back to itself")
+
+
+@pytest.mark.parametrize("station", ["cut", "drill"])
+def test_one_buffer_without_limit_takes_the_risk_away(station):
+    edits = [("[cut, drill, out]", "[out, cut, drill, cut]")]
+    edits += [(f"{station}: {{at: here, tasks: [do], buffer: 2}}", f"{station}: {{at: here, tasks: [do]}}")]
+    assert risks(*edits) == []
+
+
+def test_rework_by_probability_through_a_finite_buffer_may_lock():
+    (risk,) = risks(
+        ("route: [cut, drill, out]", "routing: {start: cut, cut: {cut: 0.1, drill: 0.9}, drill: out}"),
+        ("  out: {at", "  paint: {at"),
+    )
+    assert risk.startswith("cut sends jobs back to itself")
+
+
+def test_a_patrol_while_idle_workers_stay_is_said_to_mean_nothing():
+    (risk,) = risks(("release:", "workers: {ana: {skills: {cut: 1}, patrol: [cut]}}\nrelease:"))
+    assert risk == "ana has a patrol, which means nothing while idle workers stay"
