@@ -1,56 +1,77 @@
 """How long work takes: performances of each task, and the work a job gets at each station."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from opsim.kpi.figure import Figure
-from opsim.kpi.flow import mean
-from opsim.log import BLOCKED, JOB_KINDS, QUEUE, WORK, EventLog
+from opsim.kpi.values import by_rank, changes, in_window, mean, quantiles
+from opsim.log import WORK, EventLog
 from opsim.plan import Plan
+
+
+@dataclass(frozen=True, slots=True)
+class Visits:
+    """Visits of jobs to stations, as far as they were worked on; every array is (V,).
+
+    station : rank; work_s : seconds of work the job got; end_s : when the last of it ended;
+    whole   : whether every performance of the visit is done
+    """
+
+    station: np.ndarray
+    work_s: np.ndarray
+    end_s: np.ndarray
+    whole: np.ndarray
+
+
+def visits(log: EventLog, plan: Plan) -> Visits:
+    """Work rows, put together by visit: the n-th visit of a job to a station holds its n-th P performances there.
+
+    P is the number of performances that one visit takes, repeats included. A performance under way (progress below 1)
+    belongs to the visit under way. NOTE: the log is sorted by time, so a stable sort keeps each job's rows in time.
+    """
+    work = np.flatnonzero((log["kind"] == WORK) & (log["job"] >= 0) & (log["station"] >= 0))
+    stay = log["job"][work] * len(plan.stations) + log["station"][work]
+    order = np.argsort(stay, kind="stable")
+    work, stay = work[order], stay[order]
+    station, done = log["station"][work], log["progress_to"][work] == 1
+    needed = np.array([sum(plan.tasks[task].repeat for task in s.tasks) for s in plan.stations])
+    first = changes(stay)
+    done_before = np.cumsum(done) - done
+    done_before -= done_before[first][np.cumsum(first) - 1]
+    begins = changes(stay, done_before // needed[station])
+    visit, start = np.cumsum(begins) - 1, np.flatnonzero(begins)
+    last = np.r_[start[1:], work.size][: start.size] - 1
+    work_s = np.bincount(visit, weights=log["end_s"][work] - log["start_s"][work], minlength=start.size)
+    n_done = np.bincount(visit[done], minlength=start.size)
+    return Visits(station[start], work_s, log["end_s"][work[last]], n_done == needed[station[start]])
+
+
+def cycle_times(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
+    """By station: seconds of work in each visit that ends in the window, whole ones only."""
+    found = visits(log, plan)
+    counted = found.whole & in_window(found.end_s, plan)
+    parts = by_rank(found.work_s[counted], found.station[counted], len(plan.stations))
+    return {station.name: part for station, part in zip(plan.stations, parts)}
 
 
 def task_durations(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
     """By task: seconds of performances that end in the window, whole ones only."""
-    low, high = plan.window_s
-    work = log.of(WORK)
-    whole = (work["progress_from"] == 0) & (work["progress_to"] == 1)
-    rows = work.where(whole & (work["end_s"] >= low) & (work["end_s"] < high))
-    return {task.name: rows.duration_s[rows["task"] == rank] for rank, task in enumerate(plan.tasks)}
+    whole = (log["kind"] == WORK) & (log["progress_from"] == 0) & (log["progress_to"] == 1)
+    rows = np.flatnonzero(whole & in_window(log["end_s"], plan) & (log["task"] >= 0))
+    parts = by_rank(log["end_s"][rows] - log["start_s"][rows], log["task"][rows], len(plan.tasks))
+    return {task.name: part for task, part in zip(plan.tasks, parts)}
 
 
-def cycle_times(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
-    """By station: seconds of work in each visit of a job that ended its work there in the window."""
-    rows = log.where(np.isin(log["kind"], JOB_KINDS))
-    rows = rows.where(np.lexsort([rows["end_s"], rows["start_s"], rows["job"]]))
-    visit = _visit_numbers(rows)
-    work = rows["kind"] == WORK
-    n_visits = int(visit[-1]) + 1 if visit.size else 0
-    seconds = np.bincount(visit[work], weights=rows.duration_s[work], minlength=n_visits)
-    unfinished = np.bincount(visit[work], weights=rows["progress_to"][work] < 1, minlength=n_visits) > 0
-    ends = np.zeros(n_visits)
-    np.maximum.at(ends, visit[work], rows["end_s"][work])
-    station = np.zeros(n_visits, dtype=int)
-    station[visit] = rows["station"]
-    low, high = plan.window_s
-    counted = (seconds > 0) & ~unfinished & (ends >= low) & (ends < high)
-    return {s.name: seconds[counted & (station == rank)] for rank, s in enumerate(plan.stations)}
-
-
-def mean_durations(log: EventLog, plan: Plan) -> Iterator[Figure]:
+def durations(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Mean seconds of a performance of each task."""
     for task, seconds in task_durations(log, plan).items():
         yield Figure("duration_s", task, "", "s", mean(seconds))
 
 
-def mean_cycle_times(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Mean seconds of work a job gets at each station."""
+def work_by_visit(log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """Seconds of work a job gets in a visit to each station: their mean and quantiles."""
     for station, seconds in cycle_times(log, plan).items():
         yield Figure("cycle_time_s", station, "", "s", mean(seconds))
-
-
-def _visit_numbers(rows: EventLog) -> np.ndarray:
-    """(rows,) a number for each stay of a job at a station, rows being sorted by job and time."""
-    job, station, kind = rows["job"], rows["station"], rows["kind"]
-    begins = (job[1:] != job[:-1]) | (station[1:] != station[:-1]) | (kind[:-1] == BLOCKED) | (kind[1:] == QUEUE)
-    return np.cumsum(np.r_[0, begins]) if job.size else np.zeros(0, dtype=int)
+        yield from quantiles("cycle_time_quantile_s", station, "s", seconds)

@@ -5,10 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.kpi.figure import Figure
+from opsim.kpi.values import SECONDS_PER_HOUR, by_rank, in_window, mean, quantiles, window_length_s
 from opsim.log import CREATE, FINISH, LOST, EventLog
 from opsim.plan import Plan
-
-SECONDS_PER_HOUR = 3600.0
 
 
 def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -16,8 +15,8 @@ def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     No calendar closes release or stations yet, so scheduled open hours and calendar hours are the same.
     """
-    hours = _window_length_s(plan) / SECONDS_PER_HOUR
-    product = _in_window(log.of(FINISH), plan)["product"]
+    hours = window_length_s(plan) / SECONDS_PER_HOUR
+    product = log["product"][_ended(log, plan, FINISH)]
     for name in ("throughput_per_h", "throughput_per_calendar_h"):
         yield Figure(name, "", "", "1/h", product.size / hours)
     for rank, count in enumerate(np.bincount(product, minlength=len(plan.products))):
@@ -28,50 +27,63 @@ def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
 def lost(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Jobs turned away per hour and their share of all that arrived in the window, where the source turns jobs away."""
     if plan.release.when_full == "lose":
-        n_lost = len(_in_window(log.of(LOST), plan))
-        n_arrived = len(_in_window(log.of(CREATE), plan))
-        yield Figure("lost_per_h", "", "", "1/h", n_lost / (_window_length_s(plan) / SECONDS_PER_HOUR))
+        n_lost, n_arrived = _ended(log, plan, LOST).size, _ended(log, plan, CREATE).size
+        yield Figure("lost_per_h", "", "", "1/h", n_lost / (window_length_s(plan) / SECONDS_PER_HOUR))
         yield Figure("lost_share", "", "", "share", n_lost / n_arrived if n_arrived else np.nan)
 
 
 def times_in_system(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
     """By product: seconds from creation to leaving of jobs that finish in the window."""
-    created = log.of(CREATE)
-    enter_s = np.empty(len(created))
-    enter_s[created["job"]] = created["end_s"]
-    done = _in_window(log.of(FINISH), plan)
-    stay_s = done["end_s"] - enter_s[done["job"]]
-    return {product.name: stay_s[done["product"] == rank] for rank, product in enumerate(plan.products)}
+    created = np.flatnonzero(log["kind"] == CREATE)
+    enter_s = np.empty(created.size)
+    enter_s[log["job"][created]] = log["end_s"][created]
+    done = _ended(log, plan, FINISH)
+    stay_s = log["end_s"][done] - enter_s[log["job"][done]]
+    parts = by_rank(stay_s, log["product"][done], len(plan.products))
+    return {product.name: part for product, part in zip(plan.products, parts)}
 
 
 def time_in_system(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Mean time in system, in all and by product."""
+    """Time in system, in all: mean and quantiles; and lead time, which is the same of each product.
+
+    Both run from creation to finish: waiting outside a full first buffer belongs to them.
+    """
     by_product = times_in_system(log, plan)
-    yield Figure("time_in_system_s", "", "", "s", mean(np.concatenate(list(by_product.values()))))
+    every_s = np.concatenate(list(by_product.values()))
+    yield Figure("time_in_system_s", "", "", "s", mean(every_s))
     for product, stay_s in by_product.items():
         if len(by_product) > 1:
             yield Figure("time_in_system_s", product, "", "s", mean(stay_s))
+    yield from quantiles("time_in_system_quantile_s", "", "s", every_s)
+    for product, stay_s in by_product.items():
+        yield Figure("lead_time_s", product, "", "s", mean(stay_s))
+    for product, stay_s in by_product.items():
+        yield from quantiles("lead_time_quantile_s", product, "s", stay_s)
 
 
 def work_in_progress(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Jobs inside, averaged over the window."""
+    """Jobs inside, averaged over the window: in all, and by product where there are several.
+
+    Little's law L = lambda W holds of it exactly where the floor is empty at both ends of the window.
+    Source: Little 1961, A proof for the queuing formula L = lambda W, Operations Research 9(3).
+    """
+    length_s = window_length_s(plan)
+    inside_s = _seconds_left(log, plan, CREATE) - _seconds_left(log, plan, FINISH, LOST)
+    yield Figure("work_in_progress", "", "", "jobs", inside_s.sum() / length_s)
+    for product, spent_s in zip(plan.products, inside_s):
+        if len(plan.products) > 1:
+            yield Figure("work_in_progress", product.name, "", "jobs", spent_s / length_s)
+
+
+def _seconds_left(log: EventLog, plan: Plan, *kinds: int) -> np.ndarray:
+    """(products,) seconds of the window that follow on the instants of some kinds, summed."""
     low, high = plan.window_s
-    left = log.of(FINISH, LOST)["end_s"]
-    created = log.of(CREATE)["end_s"]
-    inside_s = np.clip(left, low, high).sum() + (created.size - left.size) * high - np.clip(created, low, high).sum()
-    yield Figure("work_in_progress", "", "", "jobs", inside_s / (high - low))
+    rows = np.flatnonzero(np.isin(log["kind"], kinds))
+    left_s = high - np.clip(log["end_s"][rows], low, high)
+    return np.bincount(log["product"][rows], weights=left_s, minlength=len(plan.products))
 
 
-def mean(values: np.ndarray) -> float:
-    """The mean, or nan where there is nothing to average."""
-    return float(values.mean()) if values.size else float("nan")
-
-
-def _in_window(log: EventLog, plan: Plan) -> EventLog:
-    low, high = plan.window_s
-    return log.where((log["end_s"] >= low) & (log["end_s"] < high))
-
-
-def _window_length_s(plan: Plan) -> float:
-    low, high = plan.window_s
-    return high - low
+def _ended(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
+    """Numbers of the rows of a kind that end in the window."""
+    rows = np.flatnonzero(log["kind"] == kind)
+    return rows[in_window(log["end_s"][rows], plan)]

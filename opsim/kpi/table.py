@@ -2,10 +2,15 @@
 
 import numpy as np
 
-from opsim.kpi.cycle import cycle_times, mean_cycle_times, mean_durations, task_durations
+from opsim.kpi.active import active_time
+from opsim.kpi.balance import line_balance
+from opsim.kpi.bottleneck import bottleneck
+from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
-from opsim.kpi.states import queue_lengths, station_states, worker_states
+from opsim.kpi.oee import oee
+from opsim.kpi.states import station_states, worker_states
+from opsim.kpi.takt import takt
 from opsim.kpi.walking import walked
 from opsim.log import EventLog
 from opsim.plan import Plan
@@ -17,10 +22,14 @@ _FUNCTIONS = (
     work_in_progress,
     worker_states,
     station_states,
-    queue_lengths,
     walked,
-    mean_cycle_times,
-    mean_durations,
+    work_by_visit,
+    durations,
+    takt,
+    line_balance,
+    oee,
+    active_time,
+    bottleneck,
 )
 
 

@@ -19,6 +19,19 @@ NAMES = {
     "queue_length": "Jobs waiting at the station",
     "walked_m": "Walked",
     "duration_s": "Duration of the task",
+    "time_in_system_quantile_s": "Time in system, quantiles",
+    "lead_time_s": "Lead time of the product",
+    "lead_time_quantile_s": "Lead time of the product, quantiles",
+    "cycle_time_quantile_s": "Work a job gets at the station, quantiles",
+    "takt_s": "Takt that the release asks for",
+    "takt_attainment": "Jobs that follow the one before within takt",
+    "line_balance_efficiency": "Line balance efficiency",
+    "balance_loss": "Line balance loss",
+    "smoothness_index_s": "Smoothness index (0 s: every station has the same work)",
+    "oee": "Overall equipment effectiveness (OEE)",
+    "oee_factor": "Factors of OEE",
+    "active_period_s": "Active period of the station",
+    "bottleneck": "Time as the bottleneck",
 }
 ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_s", "_m", "_kg", "_j", "_share")
 ABSENT = "\N{EN DASH}"

@@ -1,6 +1,7 @@
 """Figures of a log small enough to check by hand, and laws on a run."""
 
-from math import nan
+import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,10 @@ from plans import CELL, line, plan
 
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import KPIS, figures, samples
-from opsim.log import BLOCKED, CREATE, FINISH, IDLE, QUEUE, WAIT, WALK, WORK, event_log, names_of
+from opsim.kpi.names import USUAL
+from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
+from opsim.report.words import NAMES
+from tests.opsim.kpi.made_logs import found, made, row, tiled, work
 
 HAND = """
 opsim: 1
@@ -23,27 +27,6 @@ workers: {w: {skills: {s1: 1.0, s2: 1.0}}}
 """
 
 
-def row(
-    kind, start, end, *, worker=-1, station=-1, places=(-1, -1), job=-1, task=-1, k=-1, progress=(nan, nan), cause=0
-):
-    named = job >= 0
-    return (
-        *(
-            kind,
-            start,
-            end,
-            worker,
-            station,
-            *places,
-            0 if named else -1,
-            job,
-            0 if named else -1,
-            station if named else -1,
-        ),
-        *(task, k, k, *progress, 0.0, cause),
-    )
-
-
 @pytest.fixture(scope="module")
 def by_hand():
     """One job: queue 0-10, work at s1 10-30, blocked 30-40, work at s2 50-70; the worker walks 40-50 in between."""
@@ -52,16 +35,15 @@ def by_hand():
         row(CREATE, 0, 0, job=0),
         row(QUEUE, 0, 10, station=0, job=0),
         row(WAIT, 0, 10, worker=0, places=(0, 0), cause=IDLE),
-        row(WORK, 10, 30, worker=0, station=0, job=0, task=0, k=0, progress=(0.0, 1.0)),
+        work(10, 30, 0, worker=0, k=0),
         row(BLOCKED, 30, 40, station=0, job=0),
         row(WAIT, 30, 40, worker=0, places=(0, 0), cause=IDLE),
         row(WALK, 40, 50, worker=0, station=1, places=(0, 1), job=0),
-        row(WORK, 50, 70, worker=0, station=1, job=0, task=0, k=1, progress=(0.0, 1.0)),
+        work(50, 70, 1, worker=0, k=1),
         row(FINISH, 70, 70, job=0),
         row(WAIT, 70, 100, worker=0, places=(1, 1), cause=IDLE),
     ]
-    log = event_log(rows, 100.0, names_of(p))
-    return {(f.kpi, f.subject, f.part): f.value for f in figures(log, p)}
+    return found(made(rows, p), p)
 
 
 @pytest.mark.parametrize(
@@ -88,6 +70,14 @@ def test_a_figure_is_what_the_hand_finds(by_hand, kpi, subject, part, expected):
     assert by_hand[kpi, subject, part] == pytest.approx(expected)
 
 
+def test_jobs_wait_in_the_buffer_and_on_the_server_for_a_worker():
+    p = plan(HAND)
+    values = found(made([row(QUEUE, 10, 50, station=1, job=0), row(HELD, 50, 60, station=1, job=0)], p), p)
+    assert values["queue_length", "s2", ""] == 40 / 80
+    assert values["station_states", "s2", "waiting"] == 10 / 80
+    assert values["station_states", "s2", "starved"] == 70 / 80
+
+
 @pytest.mark.parametrize("text", [CELL, CELL.replace("held", "free"), line(4, 1, horizon="3000 s")])
 def test_states_sum_to_one(text):
     p = plan(text)
@@ -108,13 +98,48 @@ def test_every_name_a_scenario_may_ask_for_is_computed():
 def test_samples_average_to_their_figures():
     p = plan(CELL)
     log = run_plan(p)
-    means = {(f.kpi, f.subject): f.value for f in figures(log, p)}
+    means = found(log, p)
     for (kpi, subject), values in samples(log, p).items():
-        assert np.mean(values) == pytest.approx(means[kpi, subject])
+        assert np.mean(values) == pytest.approx(means[kpi, subject, ""])
 
 
 def test_nothing_finished_is_nan_and_not_an_error():
     p = plan(HAND.replace("{fixed: 10 s}", "{fixed: 1 h}"))
-    found = {f.kpi: f.value for f in figures(run_plan(p), p) if not f.subject}
-    assert np.isnan(found["time_in_system_s"])
-    assert found["throughput_per_h"] == 0
+    values = found(run_plan(p), p)
+    assert np.isnan(values["time_in_system_s", "", ""])
+    assert values["throughput_per_h", "", ""] == 0
+
+
+def repeated(text, times):
+    """The log of a run repeated after itself, and the plan with a window as long."""
+    p = plan(text)
+    log = tiled(run_plan(p), times)
+    return log, replace(p, horizon_s=log.horizon_s, warm_up_s=0.0)
+
+
+def test_a_log_after_itself_has_the_same_shares_and_all_its_metres():
+    text = CELL.replace("warm_up: 10 min", "warm_up: 0 s")
+    once, thrice = (found(*repeated(text, times)) for times in (1, 3))
+    shares = [key for key in once if key[0] in ("worker_states", "station_states", "queue_length", "oee", "oee_factor")]
+    assert len(shares) > 40
+    assert [thrice[key] for key in shares] == pytest.approx([once[key] for key in shares], nan_ok=True)
+    for key in (key for key in once if key[0] == "walked_m"):
+        assert thrice[key] == pytest.approx(3 * once[key])
+
+
+def test_every_figure_has_words_in_the_report():
+    assert set(NAMES) == set(KPIS)
+    assert set(USUAL) <= set(KPIS)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("text", [CELL, line(10, 3, horizon="3000 s")], ids=["cell", "line"])
+def test_a_million_rows_take_seconds(text, capsys):
+    """About 0.2 to 0.4 s of CPU time; ten times that would be a loop over rows somewhere."""
+    log, p = repeated(text, 1_000_000 // len(run_plan(plan(text))) + 1)
+    started_s = time.process_time()
+    n = len(figures(log, p))
+    spent_s = time.process_time() - started_s
+    with capsys.disabled():
+        print(f"\n{n} figures of {len(log):,} rows: {spent_s:.2f} s")
+    assert spent_s < 4

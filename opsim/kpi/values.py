@@ -1,0 +1,60 @@
+"""What figures share: the window, values by subject, means and quantiles."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from opsim.kpi.figure import Figure
+from opsim.log import EventLog
+from opsim.plan import Plan
+
+SECONDS_PER_HOUR = 3600.0
+QUANTILES = {"p10": 0.1, "median": 0.5, "p90": 0.9, "p95": 0.95}
+
+
+def window_length_s(plan: Plan) -> float:
+    """Seconds from the end of the warm-up to the horizon."""
+    low, high = plan.window_s
+    return high - low
+
+
+def in_window(times_s: np.ndarray, plan: Plan) -> np.ndarray:
+    """(n,) whether each instant lies in the window; the horizon itself does not."""
+    low, high = plan.window_s
+    return (times_s >= low) & (times_s < high)
+
+
+def inside_s(log: EventLog, rows: np.ndarray, plan: Plan) -> np.ndarray:
+    """(n,) seconds in the window of the rows with some numbers."""
+    low, high = plan.window_s
+    return np.maximum(np.minimum(log["end_s"][rows], high) - np.maximum(log["start_s"][rows], low), 0.0)
+
+
+def by_rank(values: np.ndarray, rank: np.ndarray, n: int) -> list[np.ndarray]:
+    """The values of each of n subjects, in their order; rank: (rows,) whose value each is, 0 to n - 1."""
+    order = np.argsort(rank, kind="stable")
+    return np.split(values[order], np.searchsorted(rank[order], np.arange(1, n)))
+
+
+def changes(*columns: np.ndarray) -> np.ndarray:
+    """(rows,) True where any of some columns differs from the row before; the first row differs from nothing."""
+    changed = np.zeros(columns[0].size, dtype=bool)
+    for column in columns:
+        changed[1:] |= column[1:] != column[:-1]
+    changed[:1] = True
+    return changed
+
+
+def mean(values: np.ndarray) -> float:
+    """The mean, or nan where there is nothing to average."""
+    return float(values.mean()) if values.size else float("nan")
+
+
+def quantiles(kpi: str, subject: str, unit: str, values: np.ndarray) -> Iterator[Figure]:
+    """A figure for each of ``QUANTILES``, linear between order statistics; nan where there is no value.
+
+    Source: Hyndman & Fan 1996, Sample quantiles in statistical packages, The American Statistician 50(4), definition 7.
+    """
+    found = np.quantile(values, list(QUANTILES.values())) if values.size else np.full(len(QUANTILES), np.nan)
+    for part, value in zip(QUANTILES, found):
+        yield Figure(kpi, subject, part, unit, float(value))
