@@ -38,7 +38,7 @@ def plan_workers(scenario, places: dict[str, int], station_names: tuple[str, ...
             worker.walk_m_per_s,
             tuple(worker.skills.get(station, 0.0) for station in station_names),
             Body(worker.height_m, worker.mass_kg),
-            tuple(station_names.index(name) for name in getattr(worker, "patrol", None) or ()),
+            tuple(station_names.index(name) for name in worker.patrol or ()),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )

@@ -29,9 +29,8 @@ def _line(case: Case, values) -> str:
     narrow, wide, theory = t_interval(values, 0.95), t_interval(values, 0.999), case.answer()
     verdict = _verdict(theory, narrow, wide, case.most_half_width)
     relative = f"{100 * narrow.half_width / narrow.mean:5.2f} %" if narrow.mean else "-"
-    print(
-        f"{case.name:42} {theory:10.4f} {narrow.mean:10.4f} {narrow.half_width:8.4f}  {relative}  {narrow.n:5} {verdict}"
-    )
+    figures = f"{theory:10.4f} {narrow.mean:10.4f} {narrow.half_width:8.4f}  {relative}  {narrow.n:5}"
+    print(f"{case.name:42} {figures} {verdict}")
     return verdict
 
 
