@@ -1,4 +1,4 @@
-# make demo | test | test-fast | lint | bench | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | test-fast | lint | known-answers | bench | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 RUN := $(VENV)/bin/python
@@ -6,7 +6,7 @@ READY := $(VENV)/.ready
 MOTION ?= ../shared/data/motion
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test test-fast test-slow lint bench libraries lock wheel clean
+.PHONY: demo test test-fast test-slow lint known-answers bench libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -35,6 +35,9 @@ test-slow: $(READY)
 
 bench: $(READY)
 	$(RUN) -m pytest tests/bench -p no:xdist -q -s
+
+known-answers: $(READY)
+	PYTHONPATH=tests $(RUN) -m known_answers.show
 
 libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz

@@ -81,8 +81,8 @@ CASES = (
     Case("mg1", "erlang", "work_in_progress", ("M/G/1 E3 rho=0.8", "L"), most_half_width=0.02),
     Case("mg1", "exponential", "work_in_progress", ("M/G/1 M rho=0.8", "L"), most_half_width=0.02),
     Case("mg1", "lognormal", "work_in_progress", ("M/G/1 LN cv=0.5 rho=0.8", "L"), most_half_width=0.02),
-    Case("jackson", "base", "time_in_system_s", (_JACKSON, "total_flow_time")),
-    Case("jackson", "base", "work_in_progress", (_JACKSON, "L", "sum")),
+    Case("jackson", "base", "time_in_system_s", (_JACKSON, "total_flow_time"), most_half_width=0.02),
+    Case("jackson", "base", "work_in_progress", (_JACKSON, "L", "sum"), most_half_width=0.02),
     Case(
         *("polling", "base", "time_in_system_s"),
         ("one worker walking round 4 stations (exhaustive polling)", "mean_wait"),

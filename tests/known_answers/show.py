@@ -3,6 +3,7 @@
 import os
 import sys
 
+from known_answers import staffing
 from known_answers.cases import CASES, Case
 from known_answers.simulate import simulate
 from recordings import data_folder
@@ -17,12 +18,23 @@ def main() -> int:
     if not (data_folder() / "reference" / "known_answers.json").exists():
         print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
         return 2
-    runs = simulate(CASES, processes=os.cpu_count() or 1, done=_progress)
+    runs = simulate((*CASES, *staffing.CASES), processes=os.cpu_count() or 1, done=_progress)
     print(f"\n{'figure':42} {'theory':>10} {'simulated':>10} {'95 %':>8}  half-width  n")
     verdicts = [_line(case, runs[case.file, case.variant][case.kpi]) for case in CASES]
     outside = [sum(verdict == word for verdict in verdicts) for word in ("outside 95 %", "outside 99.9 %", "imprecise")]
     print(f"{len(CASES)} figures: {outside[0]} outside 95 %, {outside[1]} outside 99.9 %, {outside[2]} imprecise")
-    return int(outside[0] > MOST_OUTSIDE_95 or any(outside[1:]))
+    staffed = [_staffing(runs, variant) for variant in staffing.EXPECTED]
+    return int(outside[0] > MOST_OUTSIDE_95 or any(outside[1:]) or not all(staffed))
+
+
+def _staffing(runs, variant: str) -> bool:
+    rates, (mean, sd) = staffing.rates(runs, variant), staffing.EXPECTED[variant]
+    found, spread = float(rates.mean()), float(rates.std(ddof=1))
+    holds = abs(found / mean - 1) <= 0.015 and (sd is None or abs(spread / sd - 1) <= 0.1)
+    against = "" if sd is None else f" (of {sd})"
+    print(f"staffing/{variant}: {found:.4f} of {mean}, SD over {len(rates)} workforces {spread:.4f}{against}", end=" ")
+    print("" if holds else "does not hold")
+    return holds
 
 
 def _line(case: Case, values) -> str:
