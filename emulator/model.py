@@ -95,11 +95,14 @@ class MotionEmulator:
         return self.performances(z, 1.0 if effect is None else effect.scale)
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
-        """The performances with these joint coordinates (n, K): duration and marks at once, postures on demand."""
+        """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand."""
         duration_s = np.exp(self.margin.inverse(self.scale.raw(scores, "duration")[:, 0]))
+        return MotionPerformances(self, scores, duration_s, np.broadcast_to(body_scale, duration_s.shape))
+
+    def mark_share(self, scores: np.ndarray) -> np.ndarray:
+        """(n, E) the share of its own duration at which each mark of a performance falls."""
         clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        mark_s = duration_s[:, None] * evaluate(self.warps(scores), clock)
-        return MotionPerformances(self, scores, duration_s, mark_s, np.broadcast_to(body_scale, duration_s.shape))
+        return evaluate(self.warps(scores), clock)
 
     def mean_duration_s(self, worker: Any = None) -> float:
         """Mean duration in seconds of the model: of a worker with this effect, or over the population."""

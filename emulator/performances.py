@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,15 +20,13 @@ if TYPE_CHECKING:
 class MotionPerformances:
     """n performances of a task.
 
-    duration_s (n,) seconds; mark_s (n, E) seconds, increasing, inside the duration; scores (n, K) joint coordinates;
-    body_scale (n,) factor on every bone. ``performances[3]`` and slices are performances again, decoded to the same
-    postures as in the block (to 1e-10).
+    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone.
+    ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
     """
 
     model: MotionEmulator
     scores: np.ndarray
     duration_s: np.ndarray
-    mark_s: np.ndarray
     body_scale: np.ndarray
 
     def __len__(self) -> int:
@@ -35,13 +34,19 @@ class MotionPerformances:
 
     def __getitem__(self, index: int | slice | np.ndarray) -> MotionPerformances:
         rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
-        return MotionPerformances(
-            self.model, self.scores[rows], self.duration_s[rows], self.mark_s[rows], self.body_scale[rows]
-        )
+        return MotionPerformances(self.model, self.scores[rows], self.duration_s[rows], self.body_scale[rows])
 
     @property
     def skeleton(self) -> Skeleton:
         return self.model.skeleton
+
+    @cached_property
+    def mark_s(self) -> np.ndarray:
+        """(n, E) seconds at which the marks fall, increasing, inside the duration.
+
+        NOTE: made when asked for; a simulation spends durations, and marks are half the cost of a draw.
+        """
+        return self.duration_s[:, None] * self.model.mark_share(self.scores)
 
     @property
     def bone_length_m(self) -> np.ndarray:
