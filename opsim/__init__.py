@@ -10,12 +10,15 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "EventLog": "opsim.log",
+    "Performance": "opsim.performance",
     "Performances": "opsim.task",
     "Plan": "opsim.plan",
     "Result": "opsim.results",
     "Scenario": "opsim.scenario",
     "ScenarioError": "opsim.scenario",
     "TaskModel": "opsim.task",
+    "Worker": "opsim.worker",
+    "WorkerLog": "opsim.worker_log",
     "audit": "opsim.laws",
     "compile_plan": "opsim.plan",
     "figures": "opsim.kpi",

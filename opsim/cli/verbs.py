@@ -78,11 +78,13 @@ class Verbs(click.Group):
 def mistakes(*only: type[Exception]) -> Iterator[None]:
     """What is wrong with the user's files, inside this block, is a Mistake. Set OPSIM_TRACEBACK=1 to see where.
 
-    only : exceptions that are the user's doing; by default those of reading: ScenarioError, ValueError, OSError
+    only : exceptions that are the user's doing; by default those of reading: ScenarioError, ValueError, OSError.
+           A plug-in's own mistake is said in every case: who installed it can do something about it.
     """
+    from opsim.plugins.blame import PluginError
     from opsim.problems import ScenarioError
 
-    kinds = only or (ScenarioError, ValueError, OSError)
+    kinds: tuple[type[Exception], ...] = (*(only or (ScenarioError, ValueError, OSError)), PluginError)
     try:
         yield
     except BrokenPipeError:

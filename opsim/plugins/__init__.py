@@ -1,0 +1,32 @@
+"""Parts that others install: found by entry points, loaded when asked for, blamed by name for their own mistakes.
+
+| group | an entry point names |
+|---|---|
+| ``opsim.emulators`` | a callable that takes parameters by name and gives a TaskModel (``opsim/task.py``) |
+| ``opsim.dispatch`` | a rule: a callable with the arguments of those in ``engine/rules/allocation.py``, giving a key |
+| ``opsim.stations`` | a callable that takes parameters by name and gives the block of a station as a scenario has it |
+| ``opsim.routing``, ``opsim.human`` | nothing yet; the names are kept free |
+
+Our own distributions and rules are registered in the same groups. A parameter whose name ends in ``_s``, ``_m``,
+``_kg`` or ``_m_per_s`` is written in a scenario without that ending and with its unit: ``reach_m`` is ``reach: 40 cm``.
+A callable that is given a value it cannot take raises ValueError: that is the user's mistake; anything else is its own.
+"""
+
+from importlib import import_module
+from typing import Any
+
+_HOMES = {
+    "NoSuchPlugin": "opsim.plugins.blame",
+    "PluginError": "opsim.plugins.blame",
+    "dispatch_rule": "opsim.plugins.door",
+    "plugin_model": "opsim.plugins.parameters",
+    "plugin_problems": "opsim.plugins.parameters",
+    "plugins": "opsim.plugins.door",
+}
+__all__ = ["NoSuchPlugin", "PluginError", "dispatch_rule", "plugin_model", "plugin_problems", "plugins"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"opsim.plugins has no {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

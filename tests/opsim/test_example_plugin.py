@@ -1,0 +1,159 @@
+"""The example plug-in, installed by pip into an environment of its own that sees our packages; no network."""
+
+import json
+import re
+import shutil
+import site
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "opsim_example_plugin"
+
+
+class Installed:
+    """A fresh environment with the example plug-in in it."""
+
+    def __init__(self, folder):
+        self.folder = folder / "environment"
+        venv.create(self.folder, with_pip=False, symlinks=True)
+        self.python = next(self.folder.glob("*/python"))
+        self.packages = next(self.folder.glob("lib/*/site-packages"))
+        ours = [str(ROOT), *site.getsitepackages()]
+        (self.packages / "ours.pth").write_text("".join(f"import site; site.addsitedir({path!r})\n" for path in ours))
+        shutil.copytree(EXAMPLE, folder / "source")
+        self.pip("install", "--no-index", "--no-deps", "--no-build-isolation", str(folder / "source"))
+
+    def pip(self, *words):
+        command = [sys.executable, "-m", "pip", "--python", str(self.python), "--quiet", "--disable-pip-version-check"]
+        subprocess.run([*command, *words], check=True)
+
+    def run(self, code, *, expect=0):
+        """What a script prints in the environment; on an error, what it says there."""
+        done = subprocess.run([self.python, "-c", code], capture_output=True, text=True, cwd=self.folder)
+        assert done.returncode == expect, done.stderr
+        return done.stdout if expect == 0 else done.stderr
+
+    def broken(self, file, old, new):
+        """The file of the installed plug-in with a line changed; a function that mends it again."""
+        path = self.packages / "opsim_example_plugin" / file
+        right = path.read_text()
+        assert old in right
+        path.write_text(right.replace(old, new))
+        return lambda: path.write_text(right)
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    return Installed(tmp_path_factory.mktemp("plugin"))
+
+
+FOUND = """
+from opsim.plugins import plugins
+for group in ("opsim.emulators", "opsim.dispatch"):
+    print(*(plugins(group).found(name) for name in plugins(group) if not plugins(group).found(name).is_ours))
+"""
+WORK = """
+import json, simpy
+from opsim import Worker
+from opsim.plugins import plugin_model
+pick = plugin_model("mtm1_get_and_place", {"reach": "12 in", "move": "18 in", "grasp": "1B", "cv": 0.1})
+env = simpy.Environment()
+ana = Worker(env, "ana", {"pick": pick})
+done = [env.run(ana.perform("pick")) for _ in range(500)]
+print(json.dumps([pick.mean_duration_s(), sum(p.duration_s for p in done) / 500, done[0].mark_s, done[0].duration_s]))
+"""
+LINE = """
+from dataclasses import replace
+from opsim import audit, compile_plan, read_scenarios, run_plan
+from opsim.engine.rules import ALLOCATION_RULES
+from opsim.plugins import dispatch_rule
+ALLOCATION_RULES["best_skill"] = dispatch_rule("best_skill")
+plan = replace(compile_plan(read_scenarios("repack_cell")["base"]), rule="best_skill", horizon_s=3600.0, warm_up_s=0.0)
+log = run_plan(plan)
+audit(log, plan)
+print(len(log.of(0)), log["end_s"].max())
+"""
+FROM_THE_COMMAND_LINE = """
+import sys, types, click, numpy
+from opsim.cli.verbs import Verbs, mistakes
+from opsim.plugins import dispatch_rule, plugin_model
+@click.command()
+def use():
+    with mistakes():
+        {code}
+sys.modules["use"] = types.SimpleNamespace(command=use)
+Verbs("opsim", verbs={{"use": "use"}}).main(["use"])
+"""
+MAKE = "plugin_model('mtm1_get_and_place', {'reach': '40 cm', 'move': '40 cm'})"
+DRAW = f"{MAKE}.sample(64, numpy.random.default_rng())"
+CHOOSE = "dispatch_rule('best_skill')(1, 0, 0, 1, 0, 0)"
+
+
+def test_the_installed_example_is_found_with_its_distribution(installed):
+    emulators, rules = installed.run(FOUND).splitlines()
+    assert emulators == (
+        "opsim-example-plugin 0.1.0 (opsim.emulators: mtm1_get_and_place = opsim_example_plugin.mtm1:GetAndPlace)"
+    )
+    assert (
+        rules == "opsim-example-plugin 0.1.0 (opsim.dispatch: best_skill = opsim_example_plugin.best_skill:best_skill)"
+    )
+
+
+def test_the_emulator_of_the_example_works_for_a_worker(installed):
+    mean_s, mean_drawn_s, marks, duration_s = json.loads(installed.run(WORK))
+    assert mean_s == pytest.approx(0.036 * (12.9 + 3.5 + 17.0 + 2.0))
+    assert mean_drawn_s == pytest.approx(mean_s, rel=4 * 0.1 / 500**0.5)
+    shares = [mark / duration_s for mark in marks]
+    assert shares == pytest.approx([12.9 / 35.4, 16.4 / 35.4, 33.4 / 35.4], abs=1e-6)
+
+
+def test_the_rule_of_the_example_runs_in_a_scenario(installed):
+    performances, end_s = installed.run(LINE).split()
+    assert int(performances) > 100 and float(end_s) == 3600.0
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "code", "said"),
+    [
+        ("mtm1.py", "import numpy as np", "import no_such", MAKE, "cannot be imported: ModuleNotFoundError: No module"),
+        ("mtm1.py", ".cumsum()", ".no_such()", DRAW, "failed as it drew 64 performances: AttributeError"),
+        (
+            "best_skill.py",
+            ", worker_rank):",
+            "):",
+            "dispatch_rule('best_skill')",
+            "best_skill takes (n_waiting, oldest",
+        ),
+        ("best_skill.py", "-rating", "-rating / 0", CHOOSE, "failed as it chose: ZeroDivisionError: division by zero"),
+    ],
+    ids=["import", "use of an emulator", "signature", "use of a rule"],
+)
+def test_a_mistake_of_the_example_is_reported_as_its_own(file, old, new, code, said, installed):
+    mend = installed.broken(file, old, new)
+    try:
+        complaint = installed.run(FROM_THE_COMMAND_LINE.format(code=code), expect=2)
+    finally:
+        mend()
+    assert said in complaint and "of opsim-example-plugin 0.1.0: " in complaint
+    assert re.search(rf"opsim_example_plugin/{file}", complaint) and "entry point opsim." in complaint
+    assert "Traceback" not in complaint and "opsim/plugins" not in complaint
+
+
+def test_what_a_user_gives_the_example_wrongly_is_not_its_mistake(installed):
+    complaint = installed.run(FROM_THE_COMMAND_LINE.format(code=MAKE.replace("40 cm", "4 m")), expect=2)
+    assert complaint == "plug-in mtm1_get_and_place: reach must be 0.05 to 0.76 m, found 4 m\n"
+
+
+def test_the_source_of_the_example_is_small_and_declares_what_it_has():
+    sources = list((EXAMPLE / "src").rglob("*.py"))
+    assert sum(len(path.read_text().splitlines()) for path in sources) < 120
+    declared = re.findall(r'= "(opsim_example_plugin\.\w+):(\w+)"', (EXAMPLE / "pyproject.toml").read_text())
+    for module, name in declared:
+        source = Path(EXAMPLE, "src", *module.split(".")).with_suffix(".py").read_text()
+        assert re.search(rf"^(def|class) {name}\b", source, re.MULTILINE)
+    assert len(declared) == 2
