@@ -18,7 +18,7 @@ $(READY): requirements.lock pyproject.toml
 	@touch $(READY)
 
 demo: $(READY)
-	$(VENV)/bin/opsim run scenarios/repack_cell.yaml
+	$(VENV)/bin/opsim run scenarios/repack_cell.yaml --overwrite
 
 test: lint test-fast test-slow
 

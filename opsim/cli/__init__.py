@@ -8,7 +8,13 @@ from opsim.cli.verbs import Verbs
 
 @click.group(
     cls=Verbs,
-    verbs={"check": "opsim.cli.check", "run": "opsim.cli.run", "motion": "opsim.cli.motion"},
+    verbs={
+        "check": "opsim.cli.check",
+        "run": "opsim.cli.run",
+        "compare": "opsim.cli.compare",
+        "warm-up": "opsim.cli.warm_up",
+        "motion": "opsim.cli.motion",
+    },
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
 @click.version_option(__version__, message="opsim %(version)s")

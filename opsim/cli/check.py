@@ -18,26 +18,38 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     from opsim.cli.console import print_json
 
     with mistakes():
-        variants = _loads(file, names)
+        variants, warnings = _checked(file, names)
     if as_json:
         from dataclasses import asdict
 
-        print_json(
-            {"file": file, "variants": {name: [asdict(load) for load in loads] for name, loads in variants.items()}}
-        )
+        loads_of = {name: [asdict(load) for load in loads] for name, loads in variants.items()}
+        print_json({"file": file, "variants": loads_of, "warnings": warnings})
         return
     for name, loads in variants.items():
         _print_loads(name, loads)
+        for warning in warnings[name]:
+            click.echo(f"warning: {name}: {warning}", err=True)
     said = ", ".join(variants)
     click.echo(f"{file}: no problems found in {'variant' if len(variants) == 1 else 'variants'} {said}")
 
 
-def _loads(file: str, names: tuple[str, ...]) -> dict[str, list[Any]]:
+def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], dict[str, list[str]]]:
+    """By variant: the load of each station, and what may go wrong."""
     from opsim.plan import compile_plan, station_loads
     from opsim.scenario import read_scenarios
+    from opsim.scenario.risks import risks_of
 
     loaded = read_scenarios(file, list(names) or None)
-    return {name: station_loads(compile_plan(variant)) for name, variant in loaded.items()}
+    loads = {name: station_loads(compile_plan(variant)) for name, variant in loaded.items()}
+    return loads, {name: [*_too_much(loads[name]), *risks_of(variant.scenario)] for name, variant in loaded.items()}
+
+
+def _too_much(loads: list[Any]) -> list[str]:
+    return [
+        f"{load.station} cannot keep up: {load.load:.0%} of its time is wanted"
+        for load in loads
+        if load.load is not None and load.load >= 1
+    ]
 
 
 def _print_loads(variant: str, loads: list[Any]) -> None:
@@ -45,11 +57,6 @@ def _print_loads(variant: str, loads: list[Any]) -> None:
 
     columns = ("station", "servers", "work a visit", "visits a job", "most per h", "arrivals per h", "load")
     print_table(f"{variant}: load of the stations, from mean times", columns, [_cells(load) for load in loads])
-    for load in loads:
-        if load.load is not None and load.load >= 1:
-            click.echo(
-                f"warning: {variant}: {load.station} cannot keep up: {load.load:.0%} of its time is wanted", err=True
-            )
 
 
 def _cells(load: Any) -> tuple[str, ...]:

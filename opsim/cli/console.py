@@ -14,19 +14,27 @@ PIPE_WIDTH = 140
 
 
 def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], *, words: int = 1) -> None:
-    """A table; the first ``words`` columns are text, the others stand to the right. Nothing in it is read as markup."""
+    """A table; the first ``words`` columns are text, the others stand to the right. Nothing in it is read as markup.
+
+    Characters that do not print, such as those that steer a terminal, become '?'.
+    """
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     console = Console() if sys.stdout.isatty() else Console(width=PIPE_WIDTH)
-    table = Table(title=Text(title, style="bold"), title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=Text(printable(title), style="bold"), title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     for place, column in enumerate(columns):
-        table.add_column(Text(column), justify="left" if place < words else "right", overflow="fold")
+        table.add_column(Text(printable(column)), justify="left" if place < words else "right", overflow="fold")
     for row in rows:
-        table.add_row(*(Text(cell) for cell in row))
+        table.add_row(*(Text(printable(cell)) for cell in row))
     console.print(table)
+
+
+def printable(text: str) -> str:
+    """The text without anything that a terminal would obey; a tab or a new line becomes a space."""
+    return "".join(c if c.isprintable() else " " if c in "\t\n\r" else "?" for c in text)
 
 
 def print_json(value: Any) -> None:

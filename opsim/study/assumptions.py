@@ -1,19 +1,32 @@
 """The assumption sheet: what was not measured, what was left at its default, what is read and not used yet."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from opsim.plan import Plan
 from opsim.plan.worker import start_place
 from opsim.provenance import behind, fit_report
 from opsim.streams import stream
 
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a run was given beside its scenario file, None where nothing; ``why`` it has so many replications."""
+
+    seed: int | None = None
+    replications: int | None = None
+    why: str = ""
+
+
+NOTHING_ASKED = Asked()
 Assumption = tuple[str, str]
 """(topic, what is assumed)"""
 
 
-def assumptions_of(loaded, plan: Plan) -> list[Assumption]:
+def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
-    return [line for part in (_times, _people, _flow, _window) for line in part(loaded, plan)]
+    lines = [line for part in (_times, _people, _flow, _window) for line in part(loaded, plan)]
+    return [*lines, *_run(loaded, asked)]
 
 
 def _times(loaded, plan: Plan) -> Iterator[Assumption]:
@@ -89,9 +102,23 @@ def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
 def _window(loaded, plan: Plan) -> Iterator[Assumption]:
     if plan.warm_up_s == 0:
         yield "window", "no warm-up: figures include the time in which the empty floor fills"
-    for path, words in (("run.seed", f"seed {plan.seed}"), ("run.replications", "10 replications")):
-        if path not in loaded.given:
-            yield "window", f"{path.split('.')[1]} not given: {words}"
+
+
+def _run(loaded, asked: Asked) -> Iterator[Assumption]:
+    """Where the seed and the number of replications come from, where the file does not say them."""
+    run = loaded.scenario.run
+    if asked.why:
+        yield "run", f"replications: {asked.replications}, as many as needed: {asked.why}"
+    for name, own, used in (
+        ("seed", run.seed, asked.seed),
+        ("replications", run.replications, asked.replications),
+    )[: 1 if asked.why else 2]:
+        in_file = f"run.{name}" in loaded.given
+        if used is None and not in_file:
+            yield "run", f"{name}: {own}, the default, as neither the file nor the call says"
+        elif used is not None and not (in_file and used == own):
+            instead = f"instead of the file's {own}" if in_file else "the file says nothing"
+            yield "run", f"{name}: {used}, given with the call; {instead}"
 
 
 def _walks(plan: Plan, worker) -> bool:

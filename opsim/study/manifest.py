@@ -1,68 +1,77 @@
-"""What a results folder was made from: versions, seed, hashes. A folder goes on only with the same manifest."""
+"""What a results folder was made from: versions, seed, hashes. A folder goes on only with a run of the same rows."""
 
 import hashlib
 import json
 import platform
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from opsim import __version__
-from opsim.plan import Plan
-from opsim.whole import write_json, write_text
+from opsim.study.resolved import decides_rows
 
 _PACKAGES = ("numpy", "scipy", "numba", "simpy", "pyyaml", "pydantic", "duckdb")
+_NAMES_ONLY = ("scenario", "variant", "file")
 
 
-def manifest_of(loaded, plan: Plan) -> dict:
+def manifest_of(loaded, seed: int) -> dict[str, Any]:
     """Everything that decides the bytes of the events files, and the versions that made them."""
-    from opsim.libraries import resolve_library
-
-    libraries = {name: resolve_library(file, loaded.folder) for name, file in loaded.scenario.libraries.items()}
     return {
         "opsim": __version__,
-        "scenario": plan.name,
+        "scenario": loaded.scenario.name,
         "variant": loaded.variant,
         "file": loaded.file.name,
-        "seed": plan.seed,
-        "resolved_sha256": hashlib.sha256(resolved_text(loaded).encode()).hexdigest(),
+        "seed": seed,
+        "resolved_sha256": _hash(decides_rows(loaded.resolved)),
         "libraries": {
-            name: {"file": loaded.scenario.libraries[name], "sha256": _sha256(path)} for name, path in libraries.items()
+            name: {"file": loaded.scenario.libraries[name], "sha256": _sha256(path)}
+            for name, path in library_files(loaded).items()
         },
-        "recorded": _recorded(loaded),
+        "recorded": {name: _sha256(path) for name, path in recorded_files(loaded).items()},
+        "plugins": plugins_used(loaded),
         "python": platform.python_version(),
         "packages": {name: version(name) for name in _PACKAGES},
     }
 
 
-def open_folder(folder: Path, loaded, manifest: dict) -> None:
-    """Write scenario and manifest; events of another manifest are removed first, as they would not belong together."""
-    path = folder / "manifest.json"
-    if not _same(path, manifest):
-        for stale in (folder / "events").glob("replication_*.parquet"):
-            stale.unlink()
-    write_text(folder / "scenario.resolved.yaml", resolved_text(loaded))
-    write_json(path, manifest)
+def deciding(manifest: dict[str, Any]) -> dict[str, Any]:
+    """The part of a manifest that two runs with the same rows have in common."""
+    return {key: value for key, value in manifest.items() if key not in _NAMES_ONLY}
 
 
-def resolved_text(loaded) -> str:
-    """The variant as one plain YAML file: ``like`` and overrides applied, units kept."""
-    import yaml
-
-    return yaml.safe_dump(loaded.resolved, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
+def digest(manifest: dict[str, Any]) -> str:
+    """A short name of the run, kept in each of its events files."""
+    return _hash(deciding(manifest))[:16]
 
 
-def _same(path: Path, manifest: dict) -> bool:
-    try:
-        return json.loads(path.read_text(encoding="utf-8")) == manifest
-    except (OSError, ValueError):
-        return False
+def library_files(loaded) -> dict[str, Path]:
+    """The file of each library, by the name tasks use."""
+    from opsim.libraries import resolve_library
+
+    return {name: resolve_library(file, loaded.folder) for name, file in loaded.scenario.libraries.items()}
 
 
-def _recorded(loaded) -> dict[str, str]:
+def recorded_files(loaded) -> dict[str, Path]:
+    """The files of recorded times, by the name that stands in the scenario."""
     from opsim.recorded import resolve_times
 
-    files = {task.recorded for task in loaded.scenario.tasks.values() if hasattr(task, "recorded")}
-    return {file: _sha256(resolve_times(file, loaded.folder)) for file in sorted(files)}
+    names = {task.recorded for task in loaded.scenario.tasks.values() if hasattr(task, "recorded")}
+    return {name: resolve_times(name, loaded.folder) for name in sorted(names)}
+
+
+def plugins_used(loaded) -> dict[str, str]:
+    """The distribution and version behind each plug-in that the scenario uses, by the plug-in's name."""
+    from opsim.engine.rules import ALLOCATION_RULES
+    from opsim.plugins import plugins
+
+    rule = loaded.scenario.allocation.rule
+    used = {task.plugin: "opsim.emulators" for task in loaded.scenario.tasks.values() if hasattr(task, "plugin")}
+    used |= {} if rule in ALLOCATION_RULES else {rule: "opsim.dispatch"}
+    return {name: plugins(used[name]).found(name).distribution for name in sorted(used)}
+
+
+def _hash(value: Any) -> str:
+    return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
 def _sha256(path: Path) -> str:

@@ -2,16 +2,18 @@
 
 import os
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from opsim.kpi import Figure, figures, samples
+from opsim.log import EventLog, names_of
 from opsim.plan import Plan
+from opsim.study.pool import pooled
 
 Progress = Callable[[int, int], None]
 
@@ -36,10 +38,7 @@ def events_file(folder: Path, replication: int) -> Path:
 
 
 MakePlan = Callable[[], Plan]
-"""Makes the Plan anew in each process: what it is made from is small, a Plan with its emulators is not.
-
-NOTE: a process that dies before it has read its arguments blocks its parent for ever where they exceed a pipe's 64 kB.
-"""
+"""Makes the Plan anew in each process: what it is made from is small, a Plan with its emulators is not."""
 
 
 def replicate(
@@ -47,78 +46,76 @@ def replicate(
     replications: int,
     folder: Path,
     *,
+    first: int = 0,
+    made_from: str = "",
     processes: int | None = None,
     progress: Progress | None = None,
 ) -> list[Replicated]:
-    """Run replications 0 .. n-1; each one's events file is whole as soon as it is there, and is not run again.
+    """Run replications first .. n-1; each one's events file is whole as soon as it is there, and is not run again.
 
+    made_from : names the run; an events file of another one, or one that cannot be read, is made anew
     processes : None takes one, and all cores where the work left is worth it
-    Raises BrokenLog where a log contradicts itself. Ctrl-C keeps what is finished.
+    Raises BrokenLog where a log contradicts itself, ProcessLost where a process is killed, OSError where a file cannot
+    be written. Whatever stops it, Ctrl-C too, what is finished is kept.
     """
     done: list[Replicated] = []
-    for result in _results(make_plan, replications, folder, processes):
-        done.append(result)
-        if progress is not None:
-            progress(len(done), replications)
+    with closing(_results(make_plan, range(first, replications), folder, made_from, processes)) as results:
+        for result in results:
+            done.append(result)
+            if progress is not None:
+                progress(first + len(done), replications)
     return sorted(done, key=lambda result: result.replication)
 
 
-def run_one(plan: Plan, replication: int, folder: Path) -> Replicated:
-    """One replication: run, audited, written; or read, where its file is there already."""
-    from opsim.laws import audit
+def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "") -> Replicated:
+    """One replication: run, audited, written; or read, where its file is there already and is the one asked for."""
     from opsim.engine.simpy_engine import run_plan
-    from opsim.log_store import read_events, write_events
+    from opsim.laws import audit
+    from opsim.log_store import write_events
 
     path = events_file(folder, replication)
-    if path.exists():
-        log = read_events(path)
-    else:
+    log = _finished(path, plan, replication, made_from)
+    if log is None:
         log = run_plan(plan, replication)
         audit(log, plan)
-        write_events(log, path)
+        write_events(log, path, made_from)
     kept = {key: _thinned(values) for key, values in samples(log, plan).items()}
     return Replicated(replication, figures(log, plan), kept)
 
 
-def _results(make_plan: MakePlan, replications: int, folder: Path, processes: int | None) -> Iterator[Replicated]:
-    plan = make_plan()
-    left = list(range(replications))
-    if processes is None:
+def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> EventLog | None:
+    """The rows in the file, or None where it is missing, damaged, or not this replication of this plan."""
+    from opsim.log_store import read_events
+
+    try:
+        log = read_events(path, made_from) if path.exists() else None
+    except OSError:
+        return None
+    if log is None or (log.replication, log.horizon_s) != (replication, plan.horizon_s) or log.names != names_of(plan):
+        return None
+    return log
+
+
+def _results(
+    make_plan: MakePlan, replications: Sequence[int], folder: Path, made_from: str, processes: int | None
+) -> Generator[Replicated, None, None]:
+    run = _runner(make_plan, folder, made_from)
+    left = list(replications)
+    if processes is None and left:
         started = time.perf_counter()
-        yield run_one(plan, left.pop(0), folder)
+        yield run(left.pop(0))
         worth = (time.perf_counter() - started) * len(left) > WORTH_A_POOL_S
         processes = (os.cpu_count() or 1) if worth else 1
-    if min(processes, len(left)) <= 1:
-        for replication in left:
-            yield run_one(plan, replication, folder)
-        return
-    context = get_context("spawn")  # a fork would copy the locks of whatever threads run by then
-    with ProcessPoolExecutor(
-        min(processes, len(left)), context, initializer=_keep, initargs=(make_plan, folder)
-    ) as pool:
-        yield from _pooled(pool, left)
+    processes = min(processes or 1, len(left))
+    if processes > 1:
+        yield from pooled(partial(_runner, make_plan, folder, made_from), left, processes)
+    else:
+        yield from (run(replication) for replication in left)
 
 
-def _pooled(pool: Executor, replications: list[int]) -> Iterator[Replicated]:
-    futures: list[Future[Replicated]] = [pool.submit(_run_kept, replication) for replication in replications]
-    try:
-        for future in as_completed(futures):
-            yield future.result()
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        raise
-
-
-_kept: dict[str, tuple[Plan, Path]] = {}
-
-
-def _keep(make_plan: MakePlan, folder: Path) -> None:
-    _kept["task"] = make_plan(), folder
-
-
-def _run_kept(replication: int) -> Replicated:
-    plan, folder = _kept["task"]
-    return run_one(plan, replication, folder)
+def _runner(make_plan: MakePlan, folder: Path, made_from: str) -> Callable[[int], Replicated]:
+    plan = make_plan()
+    return lambda replication: run_one(plan, replication, folder, made_from)
 
 
 def _thinned(values: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ def _source(loaded, plan: Plan, name: str, model) -> dict:
     row = {"task": name, "station": ", ".join(stations), "emulated": hasattr(task, "emulator")}
     row |= {"repeat": task.repeat, "automatic": task.automatic, "mean_s": model.mean_duration_s()}
     if not row["emulated"]:
-        return row | {"model": in_words(task)}
+        return row | {"model": task.words}
     report = fit_report(model)
     return row | {
         "model": f"emulator {task.emulator}",
@@ -26,19 +26,3 @@ def _source(loaded, plan: Plan, name: str, model) -> dict:
         "n_sequences": report.n_sequences,
         "n_workers": report.n_workers,
     }
-
-
-def in_words(task) -> str:
-    """A time without a body, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
-    if hasattr(task, "fixed_s"):
-        return f"fixed, {task.fixed_s:g} s"
-    if hasattr(task, "recorded"):
-        return f"recorded, {task.recorded} ({task.by})"
-    if task.dist == "uniform":
-        return f"uniform, {task.low_s:g} to {task.high_s:g} s"
-    words = f"{task.dist}, mean {task.mean_s:g} s"
-    if hasattr(task, "cv"):
-        words += f", cv {task.cv:g}"
-    if getattr(task, "between_share", 0):
-        words += f", {task.between_share:.0%} of it between workers"
-    return words

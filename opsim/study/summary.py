@@ -9,8 +9,9 @@ from opsim import __version__
 from opsim.laws import CHECKS
 from opsim.log_store import parquet_file
 from opsim.plan import Plan
-from opsim.study.assumptions import assumptions_of
+from opsim.study.assumptions import NOTHING_ASKED, Asked, assumptions_of
 from opsim.study.interval import CONFIDENCE, t_interval
+from opsim.study.precision import Reached
 from opsim.study.replicate import Replicated
 from opsim.study.sources import task_sources
 
@@ -18,8 +19,13 @@ QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40
 
 
-def summary_of(loaded, plan: Plan, done: Sequence[Replicated]) -> dict:
-    """The content of ``summary.json``."""
+def summary_of(
+    loaded, plan: Plan, done: Sequence[Replicated], asked: Asked = NOTHING_ASKED, reached: Sequence[Reached] = ()
+) -> dict:
+    """The content of ``summary.json``.
+
+    asked : what this run had instead of the file's own; reached : what became of the precision that was wanted
+    """
     return {
         "opsim": __version__,
         "scenario": plan.name,
@@ -28,12 +34,16 @@ def summary_of(loaded, plan: Plan, done: Sequence[Replicated]) -> dict:
         "seed": plan.seed,
         "replications": len(done),
         "confidence": CONFIDENCE,
+        "precision": [
+            {"figure": one.precision.name, "wanted": one.precision.relative, "found": one.found, "reached": one.reached}
+            for one in reached
+        ],
         "start": loaded.scenario.run.start,
         "window_s": list(plan.window_s),
         "kpis": _intervals(done, set(loaded.scenario.outputs)),
         "distributions": _distributions(done),
         "tasks": task_sources(loaded, plan),
-        "assumptions": [{"topic": topic, "says": says} for topic, says in assumptions_of(loaded, plan)],
+        "assumptions": [{"topic": topic, "says": says} for topic, says in assumptions_of(loaded, plan, asked)],
         "checks": list(CHECKS),
     }
 

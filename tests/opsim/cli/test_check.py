@@ -50,3 +50,10 @@ def test_an_unknown_variant_gets_the_nearest_word(tmp_path):
 
 def test_a_shipped_scenario_is_known_by_name():
     assert opsim("check", "serial_line")[0] == 0
+
+
+def test_a_route_that_may_lock_is_warned_of(tmp_path):
+    path = line(tmp_path, LINE.replace("route: [saw, press]", "route: [saw, press, saw]"))
+    code, _, complaint = opsim("check", path)
+    assert code == 0 and "warning: base: press and saw send jobs round in a circle" in complaint
+    assert "send jobs round" in json.loads(opsim("check", path, "--json")[1])["warnings"]["base"][0]

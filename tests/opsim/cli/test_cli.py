@@ -27,7 +27,10 @@ VERBS = dict(verbs())
 
 
 def test_the_verbs_are_these():
-    assert set(VERBS) == {("check",), ("run",), ("motion", "fit"), ("motion", "sample"), ("motion", "show")}
+    assert set(VERBS) == {
+        *(("check",), ("run",), ("compare",), ("warm-up",)),
+        *(("motion", "fit"), ("motion", "sample"), ("motion", "show")),
+    }
 
 
 @pytest.mark.parametrize("words", VERBS, ids=" ".join)
@@ -62,7 +65,7 @@ def test_the_version_is_that_of_the_package():
     [
         (["rum"], "did you mean 'run'?"),
         (["motion", "sampel"], "did you mean 'sample'?"),
-        (["xyzzy"], "known: check, run, motion"),
+        (["xyzzy"], "known: check, run, compare, warm-up, motion"),
         (["run"], "Missing argument 'FILE'"),
         (["run", "x.yaml", "--replications", "0"], "--replications"),
         (["run", "x.yaml", "--seed", "-1"], "--seed"),

@@ -2,7 +2,10 @@ import json
 
 import pytest
 
-from opsim.cli import run as run_module
+from opsim.cli.run_table import without_repeats
+from opsim.engine.simpy_engine.settle import EndlessInstant
+from opsim.laws import BrokenLog
+from opsim.study.pool import ProcessLost
 from tests.opsim.cli.calls import LINE, line, opsim
 
 TWO = LINE + "overrides: {wide: {stations.press.servers: 2}}\nscenarios: {base: [], wider: [wide]}\n"
@@ -64,6 +67,50 @@ def test_control_c_leaves_with_130_and_says_what_is_kept(tmp_path, monkeypatch):
     assert code == 130 and "finished replications are kept in" in complaint
 
 
+def test_a_folder_of_another_run_is_refused_before_anything_is_run(tmp_path):
+    words = ("run", line(tmp_path, TWO), "-o", tmp_path / "out", "--replications", 1)
+    opsim(*words)
+    code, _, complaint = opsim(*words, "--seed", 8)
+    assert code == 2 and "base holds 1 replication" in complaint and "wider holds 1 replication" in complaint
+    assert "seed 3, now 8" in complaint and "--overwrite" in complaint
+    assert opsim(*words)[0] == 0
+    assert opsim(*words, "--seed", 8, "--overwrite")[0] == 0
+
+
+@pytest.mark.parametrize(
+    "error, said",
+    [
+        (BrokenLog("replication 1: job 3 is gone twice"), "mistake in opsim"),
+        (EndlessInstant("t = 0 s: over 10000 rounds"), "does not move on in time"),
+        (ProcessLost("a process was killed (out of memory?)"), "try --processes 1"),
+        (MemoryError(), "out of memory"),
+    ],
+)
+def test_what_is_nobodys_mistake_in_the_file_is_said_in_words_with_exit_code_1(tmp_path, monkeypatch, error, said):
+    def fails(*_, **__):
+        raise error
+
+    monkeypatch.setattr("opsim.study.run_scenario", fails)
+    code, _, complaint = opsim("run", line(tmp_path), "-o", tmp_path / "out")
+    assert code == 1 and said in complaint and "finished replications are kept in" in complaint
+
+
+def test_a_wanted_precision_decides_the_number_of_replications(tmp_path):
+    words = ("run", line(tmp_path), "-o", tmp_path / "out", "--precision", "throughput_per_h=5%")
+    code, shown, _ = opsim(*words)
+    assert code == 0 and "throughput_per_h is known within" in shown and "wanted: 5 %" in shown
+    code, shown, _ = opsim(*words, "--replications", 2)
+    assert code == 0 and "after 2 replications" in shown and "not reached" in shown
+
+
+@pytest.mark.parametrize(
+    "wanted, said", [("throughput=1%", "throughput_per_h"), ("throughput_per_h/x=1%", "no figure"), ("x", "PER CENT")]
+)
+def test_a_wrong_precision_is_a_mistake(tmp_path, wanted, said):
+    code, _, complaint = opsim("run", line(tmp_path), "-o", tmp_path / "out", "--precision", wanted)
+    assert code == 2 and said in complaint
+
+
 def test_a_bug_of_ours_is_not_dressed_up_as_a_mistake(tmp_path, monkeypatch):
     def broken(*_, **__):
         raise ValueError("a bug")
@@ -75,7 +122,7 @@ def test_a_bug_of_ours_is_not_dressed_up_as_a_mistake(tmp_path, monkeypatch):
 
 def test_repeated_names_of_a_figure_are_left_out():
     rows = [("A", "x"), ("A", "y"), ("B", "x")]
-    assert run_module._without_repeats(rows) == [("A", "x"), ("", "y"), ("B", "x")]
+    assert without_repeats(rows) == [("A", "x"), ("", "y"), ("B", "x")]
 
 
 def test_emulated_tasks_come_with_their_strips(tmp_path):

@@ -1,11 +1,14 @@
 import json
+import shutil
 
+import numpy as np
 import pytest
 from plans import CELL, loaded
 
 from opsim.log_store import connect, read_events
 from opsim.study import replicate as replicating
 from opsim.study import run_scenario
+from opsim.study.summary import _distribution
 
 
 def files(folder):
@@ -51,19 +54,43 @@ def test_a_killed_run_goes_on_where_it_stopped(one, tmp_path, monkeypatch):
     monkeypatch.setattr(
         replicating,
         "run_one",
-        lambda plan, r, folder: ran.append(replicating.events_file(folder, r).exists()) or run_one(plan, r, folder),
+        lambda plan, r, folder, made_from: (
+            ran.append(replicating.events_file(folder, r).exists()) or run_one(plan, r, folder, made_from)
+        ),
     )
     finished = run_scenario(loaded(CELL), folder=tmp_path, processes=1)
     assert ran == [True, True, False]
     assert finished.summary == one.summary
 
 
-def test_rows_of_another_seed_are_not_mixed_in(one, tmp_path):
-    run_scenario(loaded(CELL), folder=tmp_path, processes=1, seed=99, replications=1)
-    other = files(tmp_path)
-    run_scenario(loaded(CELL), folder=tmp_path, processes=1)
-    assert files(tmp_path) == files(one.folder)
-    assert other["replication_00000.parquet"] != files(tmp_path)["replication_00000.parquet"]
+def test_rows_that_cannot_be_read_or_are_of_another_run_are_made_anew(one, tmp_path):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    first, second, third = (tmp_path / "copy" / "events" / name for name in files(one.folder))
+    first.write_bytes(b"")
+    second.write_bytes(second.read_bytes()[:500])
+    third.write_bytes((one.folder / "events" / first.name).read_bytes())
+    assert run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1).summary == one.summary
+    assert files(tmp_path / "copy") == files(one.folder)
+
+
+def test_rows_of_another_seed_are_not_taken_for_those_asked_for(one, tmp_path):
+    other = run_scenario(loaded(CELL), folder=tmp_path / "other", processes=1, seed=99, replications=1)
+    shutil.copytree(one.folder, tmp_path / "copy")
+    shutil.copy(other.events_files[0], tmp_path / "copy" / "events")
+    run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1)
+    assert files(tmp_path / "copy") == files(one.folder)
+
+
+def test_fewer_replications_give_the_results_of_the_first_and_keep_the_other_rows(one, tmp_path):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    fewer = run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1, replications=2)
+    assert fewer.summary["replications"] == 2 and len(fewer.events_files) == 2
+    assert files(tmp_path / "copy") == files(one.folder)
+
+
+def test_times_that_are_all_the_same_and_huge_have_a_histogram():
+    row = _distribution("duration_s", "long", np.full(7, 5e9))
+    assert sum(row["histogram"]["counts"]) == 7 and np.all(np.diff(row["histogram"]["edges"]) > 0)
 
 
 def test_progress_counts_every_replication(tmp_path):
@@ -88,6 +115,27 @@ def test_what_was_not_measured_is_on_the_assumption_sheet(one):
         "same people",
     ):
         assert words in says
+
+
+@pytest.mark.parametrize(
+    "run, how, says",
+    [
+        ("seed: 5", {"replications": 1}, ["replications: 1, given with the call; the file says nothing"]),
+        (
+            "replications: 3, seed: 5",
+            {"replications": 1},
+            ["replications: 1, given with the call; instead of the file's 3"],
+        ),
+        ("replications: 1", {"seed": 9}, ["seed: 9, given with the call; the file says nothing"]),
+        ("replications: 1", {}, ["seed: 0, the default"]),
+        ("replications: 1, seed: 5", {"seed": 5}, []),
+    ],
+)
+def test_the_assumption_sheet_says_where_seed_and_replications_come_from(tmp_path, run, how, says):
+    text = CELL.replace("horizon: 2 h", "horizon: 20 min").replace("replications: 3, seed: 5", run)
+    found = run_scenario(loaded(text), folder=tmp_path, processes=1, **how).summary["assumptions"]
+    found = [line["says"] for line in found if line["topic"] == "run"]
+    assert len(found) == len(says) and all(words in line for words, line in zip(says, found))
 
 
 def test_the_manifest_names_seed_and_versions(one):

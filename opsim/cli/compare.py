@@ -1,0 +1,97 @@
+"""``opsim compare``: variants against a base, replication by replication."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from opsim.cli.verbs import mistakes
+
+
+@click.command("compare")
+@click.argument("of", metavar="FOLDER|FILE")
+@click.option("--base", default="base", show_default=True, metavar="NAME", help="The variant to compare with.")
+@click.option("--kpi", "kpis", multiple=True, metavar="NAME", help="This figure; may be given again.")
+@click.option("-o", "--out", type=click.Path(path_type=Path), help="Results folder, where a FILE is run first.")
+@click.option("--replications", type=click.IntRange(min=1), help="Of a FILE, instead of its own.")
+@click.option("--seed", type=click.IntRange(min=0), help="Of a FILE, instead of its own.")
+@click.option("--processes", type=click.IntRange(min=1), help="Processes to use for a FILE.  [default: as many as pay]")
+@click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
+def command(of: str, base: str, kpis: tuple[str, ...], out: Path | None, as_json: bool, **how: Any) -> None:
+    """Compare the variants in a results FOLDER, or those of a scenario FILE, which are run first.
+
+    Replications with the same number have the same random numbers in every variant, so their differences say more.
+    """
+    from opsim.cli.console import print_json
+    from opsim.report.comparison import write_comparison
+    from opsim.study.compare import compare
+
+    with mistakes():
+        folder, results = _results(of, out, how)
+        comparison = compare(results, base, kpis)
+        title = str(results[base].summary.get("scenario", folder.name))
+        page = write_comparison(comparison, folder / "compare.html", title)
+    if as_json:
+        print_json(_as_json(comparison, page))
+        return
+    _print(comparison, title)
+    click.echo(f"comparison: {page}")
+
+
+def _results(of: str, out: Path | None, how: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
+    from opsim.cli.running import run_variants
+    from opsim.results import variants_in
+
+    folder = Path(of)
+    if folder.is_dir():
+        given = [f"--{name}" for name, value in {"out": out, **how}.items() if value is not None]
+        if given:
+            raise ValueError(f"{', '.join(given)}: only where a scenario FILE is run; {of} is a folder of results")
+        return folder, variants_in(folder)
+    folder, _, results = run_variants(of, out, **how)
+    return folder, results
+
+
+def _print(comparison: Any, title: str) -> None:
+    from opsim.cli.console import print_table
+    from opsim.cli.run_table import without_repeats
+    from opsim.report.comparison import comparison_cells, largest_of
+    from opsim.report.words import kpi_name
+
+    rows = []
+    for difference in comparison.differences:
+        kpi, subject, part, _ = difference.key
+        cells = comparison_cells(difference, largest_of([d for d in comparison.differences if d.key[0] == kpi]))
+        of = " ".join(filter(None, (subject, part)))
+        texts = (cells[name] for name in ("base", "mean", "difference", "unit", "relative", "pairing", "verdict"))
+        rows.append((kpi_name(kpi), of, difference.variant, *texts))
+    columns = ("figure", "of", "variant", comparison.base, "mean", "difference", "", "relative", "pairing", "verdict")
+    print_table(f"{title}: differences from {comparison.base}", columns, without_repeats(rows), words=3)
+    for sentence in comparison.words:
+        click.echo(sentence)
+
+
+def _as_json(comparison: Any, page: Path) -> dict[str, Any]:
+    return {
+        "base": comparison.base,
+        "seed": comparison.seed,
+        "pairs": comparison.n,
+        "differences": [
+            {
+                "variant": d.variant,
+                **dict(zip(("kpi", "subject", "part", "unit"), d.key)),
+                "base": d.base,
+                "mean": d.mean,
+                **{name: getattr(d.interval, name) for name in ("low", "high", "half_width", "sd", "n")},
+                "difference": d.interval.mean,
+                "p": d.p,
+                "p_holm": d.p_together,
+                "variance_ratio": d.variance_ratio,
+                "verdict": d.verdict,
+            }
+            for d in comparison.differences
+        ],
+        "page": str(page),
+    }

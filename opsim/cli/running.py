@@ -1,0 +1,103 @@
+"""Running every variant of a scenario into a folder each, with an answer in words to whatever may stop it."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from opsim.cli.verbs import Interrupted, mistakes
+
+
+class Failed(click.ClickException):
+    """Not the user's mistake, said in words all the same: exit code 1."""
+
+    exit_code = 1
+
+    def show(self, file: Any = None) -> None:
+        click.echo(self.format_message(), err=True)
+
+
+def run_variants(
+    file: str, out: Path | None, *, names: tuple[str, ...] = (), horizon: str | None = None, **how: Any
+) -> tuple[Path, dict[str, Any], dict[str, Any]]:
+    """(results folder, variants as read, their Results); everything that is wrong is found before the first run.
+
+    how : arguments of ``run_scenario``
+    """
+    from opsim.cli.stopping import stops_once
+
+    with mistakes():
+        variants = _variants(file, names, horizon)
+        out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
+        out.mkdir(parents=True, exist_ok=True)
+        if not how.get("overwrite"):
+            _refuse_other_runs(variants, out, how.get("seed"))
+    with stops_once():
+        return out, variants, {name: _run(name, loaded, out / name, how) for name, loaded in variants.items()}
+
+
+def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> dict[str, Any]:
+    """The variants, each planned once, so that a broken library or file of times is found before the first run."""
+    from opsim.plan import compile_plan
+    from opsim.scenario import read_scenarios
+
+    changes = {} if horizon is None else {"run.horizon": horizon}
+    loaded = read_scenarios(file, list(names) or None, changes)
+    for variant in loaded.values():
+        compile_plan(variant)
+    return loaded
+
+
+def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None) -> None:
+    """All folders that hold another run are said at once, before anything is run or removed."""
+    from opsim.study.folder import other_run
+
+    found = [
+        other_run(out / name, loaded, loaded.scenario.run.seed if seed is None else seed)
+        for name, loaded in variants.items()
+    ]
+    if words := [words for words in found if words is not None]:
+        raise ValueError("\n".join([*words, "take another folder with -o, or --overwrite to remove what is there"]))
+
+
+def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
+    from opsim.cli.progress import progress
+    from opsim.cli.stopping import Stop, Terminated
+    from opsim.study import run_scenario
+    from opsim.study.folder import OtherRun
+    from opsim.study.precision import NoSuchFigure
+
+    kept = f"finished replications are kept in {folder}; the same command goes on from there"
+    try:
+        with mistakes(OSError, OtherRun, NoSuchFigure), _failures(kept), progress(f"run {name}") as report:
+            return run_scenario(loaded, folder=folder, progress=report, **how)
+    except KeyboardInterrupt as stop:
+        kind = Terminated if isinstance(stop, Stop) and stop.number == signal.SIGTERM else Interrupted
+        raise kind(f"stopped; {kept}") from None
+
+
+@contextmanager
+def _failures(kept: str) -> Iterator[None]:
+    """What is neither the user's mistake nor to be met with a traceback. Set OPSIM_TRACEBACK=1 to see where."""
+    from opsim.engine.simpy_engine.settle import EndlessInstant
+    from opsim.laws import BrokenLog
+    from opsim.study.pool import ProcessLost
+
+    try:
+        yield
+    except (ProcessLost, MemoryError, BrokenLog, EndlessInstant) as error:
+        if os.environ.get("OPSIM_TRACEBACK"):
+            raise
+        said = {
+            ProcessLost: f"{error}; {kept}; try --processes 1",
+            MemoryError: f"out of memory; {kept}; try --processes 1",
+            BrokenLog: f"a run contradicts itself, which is a mistake in opsim: please report it\n{error}\n{kept}",
+            EndlessInstant: f"the simulation does not move on in time\n{error}\n{kept}",
+        }
+        raise Failed(next(words for kind, words in said.items() if isinstance(error, kind))) from None

@@ -1,0 +1,84 @@
+"""Variants compared, as one HTML file that needs nothing else: no network, no other file, no script."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from opsim.report.interval_picture import intervals_svg
+from opsim.report.words import digits, is_number, kpi_name, quantity, scale_of
+from opsim.whole import write_text
+
+HERE = Path(__file__).parent
+
+
+def write_comparison(comparison: Any, path: str | Path, title: str) -> Path:
+    """Write the page of a Comparison and return where it is."""
+    path = Path(path)
+    write_text(path, comparison_html(comparison, title))
+    return path
+
+
+def comparison_html(comparison: Any, title: str) -> str:
+    """The page as text; names are escaped by jinja2, and in pictures by ``intervals_svg``."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    keys = list(dict.fromkeys(difference.key for difference in comparison.differences))
+    groups = [_group([d for d in comparison.differences if d.key == key]) for key in keys]
+    environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined)
+    return environment.get_template("comparison.html.jinja").render(
+        title=title,
+        words=comparison.words,
+        base=comparison.base,
+        groups=groups,
+        style=(HERE / "report.css").read_text(encoding="utf-8"),
+    )
+
+
+def comparison_cells(difference: Any, largest: float | None = None) -> dict[str, str]:
+    """The cells of one difference: base, variant, difference ± half-width, per cent of the base, pairing, verdict."""
+    interval, unit = difference.interval, difference.key[3]
+    factor, word = scale_of(unit, difference.base if largest is None else largest)
+    half = interval.half_width * factor if is_number(interval.half_width) and interval.half_width else None
+    by = digits(interval.mean * factor, half)
+    relative = 100 * interval.mean / abs(difference.base) if difference.base else None
+    share = None if relative is None or half is None else 100 * interval.half_width / abs(difference.base)
+    ratio = difference.variance_ratio
+    return {
+        "base": quantity_in(difference.base, factor, half),
+        "mean": quantity_in(difference.mean, factor, half),
+        "difference": "0" if difference.identical else f"{by} ± {digits(half, half)}" if half is not None else by,
+        "unit": word,
+        "relative": "0 %" if difference.identical else f"{digits(relative, share)} %" if is_number(relative) else "",
+        "pairing": f"{ratio:.3g}" if is_number(ratio) else "",
+        "verdict": difference.verdict,
+        "n": str(interval.n),
+    }
+
+
+def quantity_in(value: float, factor: float, half_width: float | None) -> str:
+    """A mean in a unit chosen before, as exact as the difference is."""
+    return digits(value * factor, half_width)
+
+
+def largest_of(differences: Sequence[Any]) -> float | None:
+    """The largest mean of some differences, which chooses their common unit."""
+    values = [abs(v) for d in differences for v in (d.base, d.mean) if is_number(v)]
+    return max(values, default=None)
+
+
+def _group(differences: Sequence[Any]) -> dict[str, Any]:
+    kpi, subject, part, unit = differences[0].key
+    largest = largest_of(differences)
+    factor, word = scale_of(unit, largest)
+    bars = [
+        (d.variant, d.interval.low * factor, d.interval.mean * factor, d.interval.high * factor, d.verdict)
+        for d in differences
+    ]
+    return {
+        "name": " · ".join(filter(None, (kpi_name(kpi), subject, part))),
+        "base": quantity(differences[0].base, unit),
+        "rows": [{"variant": d.variant, **comparison_cells(d, largest)} for d in differences],
+        "picture": intervals_svg(bars, word),
+    }

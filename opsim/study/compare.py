@@ -1,0 +1,160 @@
+"""Variants against a base, replication by replication: common random numbers make the pairs alike."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from opsim.problems import did_you_mean
+from opsim.results import Key, Result
+from opsim.study.interval import CONFIDENCE, Interval, t_interval
+
+
+class NotComparable(ValueError):
+    """Results that cannot be compared, and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One figure of a variant minus that of the base.
+
+    base, mean      : means of the base and of the variant
+    interval        : of the mean of paired differences, for itself alone
+    p, p_together   : two-sided paired t test; the same held against all comparisons made (Holm)
+    variance_ratio  : (var a + var b) / var(a - b): so many times more replications independent runs would need for the
+                      same interval; None where the difference does not vary
+    """
+
+    variant: str
+    key: Key
+    base: float
+    mean: float
+    interval: Interval
+    p: float
+    p_together: float
+    variance_ratio: float | None
+
+    @property
+    def identical(self) -> bool:
+        """The same in every replication, to the last bit."""
+        return self.interval.n > 0 and self.interval.mean == 0 and self.interval.sd == 0
+
+    @property
+    def verdict(self) -> str:
+        """What may be said: higher, lower, no clear difference, identical, or nothing."""
+        if self.interval.n == 0:
+            return "nothing observed"
+        if self.identical:
+            return "identical"
+        if np.isnan(self.p_together):
+            return "one replication says nothing"
+        if self.p_together > 1 - CONFIDENCE:
+            return "no clear difference"
+        return "higher" if self.interval.mean > 0 else "lower"
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """All differences from ``base``; ``n`` is the number of pairs of replications."""
+
+    base: str
+    seed: int
+    n: int
+    differences: tuple[Difference, ...]
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """How the numbers are to be read."""
+        m = sum(not np.isnan(difference.p) for difference in self.differences)
+        pairs = "1 pair" if self.n == 1 else f"{self.n} pairs"
+        own, wrong = f"{100 * CONFIDENCE:.0f} %", f"{100 * (1 - CONFIDENCE):.0f} %"
+        return (
+            f"Differences from {self.base} in {pairs} of replications with the same random numbers (seed {self.seed}).",
+            f"Each {own} interval is for its own figure alone. 'higher' and 'lower' are said so that "
+            f"all comparisons together ({m}) are wrong with a chance of at most {wrong} (Holm 1979).",
+            "Pairing: so many times more replications would be needed with independent random numbers.",
+        )
+
+
+def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[str] = ()) -> Comparison:
+    """Paired differences of every variant from the base.
+
+    kpis : names of figures, each with all its subjects; by default the headline figures of the whole
+    Raises NotComparable (no such base, other seeds, unknown figures), OSError where results cannot be read.
+    """
+    _check(results, base)
+    tables = {name: result.kpis() for name, result in results.items()}
+    keys = _keys(results[base], list(tables[base]), kpis)
+    shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
+    found = [
+        _difference(name, key, table[key], tables[base][key], shared)
+        for key in keys
+        for name, table in tables.items()
+        if name != base and key in table
+    ]
+    together = holm([difference.p for difference in found])
+    differences = tuple(
+        Difference(d.variant, d.key, d.base, d.mean, d.interval, d.p, float(p), d.variance_ratio)
+        for d, p in zip(found, together)
+    )
+    return Comparison(base, results[base].summary["seed"], len(shared), differences)
+
+
+def holm(p: Sequence[float]) -> np.ndarray:
+    """(m,) p-values held against all m tests made; nan stays nan and does not count.
+
+    Source: Holm 1979, A simple sequentially rejective multiple test procedure, Scand. J. Statist. 6:65-70.
+    """
+    alone = np.asarray(p, dtype=float)
+    adjusted = np.full(alone.shape, np.nan)
+    order = np.argsort(alone)[: np.count_nonzero(~np.isnan(alone))]
+    steps = alone[order] * np.arange(order.size, 0, -1)
+    adjusted[order] = np.minimum(1.0, np.maximum.accumulate(steps))
+    return adjusted
+
+
+def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, float | None]:
+    """(interval of the mean of a - b, two-sided p, variance ratio) of pairs; a pair with a nan is left out."""
+    from scipy.special import stdtr  # scipy.stats costs three times this import
+
+    pairs = np.array([a, b], dtype=float)
+    pairs = pairs[:, ~np.isnan(pairs).any(axis=0)]
+    interval = t_interval(pairs[0] - pairs[1])
+    if interval.n < 2:
+        return interval, np.nan, None
+    if interval.sd == 0:
+        return interval, 1.0 if interval.mean == 0 else 0.0, None
+    t = interval.mean / (interval.sd / np.sqrt(interval.n))
+    apart = float(pairs.var(axis=1, ddof=1).sum())
+    return interval, float(2 * stdtr(interval.n - 1, -abs(t))), apart / interval.sd**2 if apart > 0 else None
+
+
+def _difference(name: str, key: Key, of: dict[int, float], base: dict[int, float], shared: list[int]) -> Difference:
+    a, b = ([row.get(replication, np.nan) for replication in shared] for row in (of, base))
+    interval, p, ratio = paired(a, b)
+    return Difference(name, key, t_interval(b).mean, t_interval(a).mean, interval, p, p, ratio)
+
+
+def _check(results: Mapping[str, Result], base: str) -> None:
+    if base not in results:
+        raise NotComparable(
+            f"no variant {base!r} to compare with; {did_you_mean(base, results, otherwise='there are')}"
+        )
+    if len(results) < 2:
+        raise NotComparable(f"only {base} is there: nothing to compare it with")
+    seeds = {name: result.summary["seed"] for name, result in results.items()}
+    if len(set(seeds.values())) > 1:
+        said = ", ".join(f"{name} has seed {seed}" for name, seed in seeds.items())
+        raise NotComparable(f"pairs need the same random numbers: {said}; run all variants with one seed")
+
+
+def _keys(base: Result, keys: list[Key], kpis: Sequence[str]) -> list[Key]:
+    names = {key[0] for key in keys}
+    unknown = [f"no figure {kpi!r}; {did_you_mean(kpi, names)}" for kpi in kpis if kpi not in names]
+    if unknown:
+        raise NotComparable("\n".join(unknown))
+    if kpis:
+        return [key for kpi in kpis for key in keys if key[0] == kpi]
+    headline = {row["kpi"] for row in base.summary["kpis"] if row["headline"]}
+    whole = [key for key in keys if not key[1]]
+    return [key for key in whole if key[0] in headline] or whole

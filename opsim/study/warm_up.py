@@ -1,0 +1,106 @@
+"""How long a run needs to forget that it began empty: MSER-5 on the average of all replications."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from opsim.log import CREATE, FINISH, LOST, EventLog
+from opsim.results import Result
+
+BATCH = 5
+FEWEST_BATCHES = 20
+SLICES = 500
+"""Equal slices of time a run is cut into: 100 batches of five."""
+MOST_OF_LEFT = 0.5
+"""A truncation beyond this share of the series is not believed: the run is too short to tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class WarmUp:
+    """The warm-up that one series suggests.
+
+    series      : (slices,) the average over replications, slice by slice of the whole run
+    until_s     : the time to leave out, or None where no truncation can be believed
+    """
+
+    name: str
+    unit: str
+    slice_s: float
+    series: np.ndarray
+    until_s: float | None
+
+
+def mser(series: np.ndarray, batch: int = BATCH) -> int | None:
+    """How many values to leave out from the front, a multiple of ``batch``; None where no truncation can be believed.
+
+    The truncation with the smallest squared standard error of the mean of what is left; it is refused in the second
+    half of the series, where few values are left and happen to lie close together.
+    Raises ValueError for fewer than 20 batches or values that are not finite.
+    Source: White 1997, Simulation 69:323-334; batches of five: Spratt 1998 (White, Cobb & Spratt 2000, WSC).
+    """
+    means = _batch_means(np.asarray(series, dtype=float), batch)
+    best = int(np.argmin(_statistic(means)))
+    return None if best > MOST_OF_LEFT * means.size else best * batch
+
+
+def suggested_warm_up(result: Result) -> list[WarmUp]:
+    """The warm-up that each series of a run suggests: jobs inside, and jobs finished per hour.
+
+    Raises OSError where its rows cannot be read.
+    """
+    from opsim.log_store import read_events
+
+    totals: dict[str, np.ndarray] = {}
+    horizon_s, files = result.summary["window_s"][1], result.events_files
+    for path in files:
+        log = read_events(path)
+        for name, (_, of) in SERIES.items():
+            totals[name] = totals.get(name, 0.0) + of(log, np.linspace(0, horizon_s, SLICES + 1))
+    return [_found(name, totals[name] / len(files), horizon_s / SLICES) for name in totals]
+
+
+def jobs_inside(log: EventLog, edges_s: np.ndarray) -> np.ndarray:
+    """(slices,) jobs inside, averaged over each slice of time between two edges."""
+    return (_area(log.of(CREATE), edges_s) - _area(log.of(FINISH, LOST), edges_s)) / np.diff(edges_s)
+
+
+def finished_per_h(log: EventLog, edges_s: np.ndarray) -> np.ndarray:
+    """(slices,) jobs finished per hour in each slice of time."""
+    return np.histogram(log.of(FINISH)["end_s"], edges_s)[0] / np.diff(edges_s) * 3600
+
+
+SERIES: dict[str, tuple[str, Callable[[EventLog, np.ndarray], np.ndarray]]] = {
+    "work_in_progress": ("jobs", jobs_inside),
+    "throughput_per_h": ("1/h", finished_per_h),
+}
+
+
+def _area(rows: EventLog, edges_s: np.ndarray) -> np.ndarray:
+    """(slices,) integral over each slice of how many of the rows have happened."""
+    at = np.sort(rows["end_s"])
+    before = np.searchsorted(at, edges_s)
+    until = before * edges_s - np.r_[0.0, np.cumsum(at)][before]
+    return np.diff(until)
+
+
+def _found(name: str, series: np.ndarray, slice_s: float) -> WarmUp:
+    left_out = mser(series)
+    return WarmUp(name, SERIES[name][0], slice_s, series, None if left_out is None else left_out * slice_s)
+
+
+def _batch_means(series: np.ndarray, batch: int) -> np.ndarray:
+    n = series.size // batch
+    if n < FEWEST_BATCHES:
+        raise ValueError(f"{series.size} values are too few: {FEWEST_BATCHES * batch} are needed")
+    if not np.all(np.isfinite(series)):
+        raise ValueError("a value of the series is not finite")
+    return series[: n * batch].reshape(n, batch).mean(axis=1)
+
+
+def _statistic(means: np.ndarray) -> np.ndarray:
+    """(batches - 4,) sum of squares about the mean of what is left, over its number squared; five batches are left."""
+    from_end = means[::-1] - means.mean()  # so that large values lose no digits
+    left = np.arange(1, means.size + 1)
+    squares = np.cumsum(from_end**2) - np.cumsum(from_end) ** 2 / left
+    return (np.maximum(squares, 0.0) / left**2)[: BATCH - 2 : -1]

@@ -1,0 +1,71 @@
+import json
+
+import pytest
+
+from tests.opsim.cli.calls import LINE, line, opsim
+
+TWO = LINE.replace("replications: 2", "replications: 3") + (
+    "overrides: {wide: {stations.press.servers: 2}, same: {release.when_full: wait}}\n"
+    "scenarios: {base: [], wider: [wide], same: [same]}\n"
+)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("compared")
+    code, shown, _ = opsim("compare", line(folder, TWO), "-o", folder / "out")
+    assert code == 0 and "comparison:" in shown
+    return folder / "out"
+
+
+def test_a_file_is_run_and_its_variants_compared(results):
+    code, shown, _ = opsim("compare", results)
+    assert code == 0
+    assert "Throughput" in shown and "wider" in shown and "higher" in shown and "identical" in shown
+    assert "3 pairs of replications" in shown and "Holm" in shown
+    page = (results / "compare.html").read_text(encoding="utf-8")
+    assert "<svg" in page and "http://" not in page.replace("http://www.w3.org/2000/svg", "") and "<script" not in page
+
+
+def test_the_comparison_as_json(results):
+    code, shown, _ = opsim("compare", results, "--json")
+    found = {(d["variant"], d["kpi"]): d for d in json.loads(shown)["differences"]}
+    assert code == 0 and found["same", "throughput_per_h"]["difference"] == 0
+    wider = found["wider", "throughput_per_h"]
+    assert wider["difference"] == pytest.approx(wider["mean"] - wider["base"]) and wider["n"] == 3
+
+
+def test_another_base_and_a_named_figure(results):
+    code, shown, _ = opsim("compare", results, "--base", "wider", "--kpi", "station_states", "--json")
+    found = json.loads(shown)["differences"]
+    assert (
+        code == 0
+        and {d["kpi"] for d in found} == {"station_states"}
+        and {d["subject"] for d in found}
+        == {
+            "saw",
+            "press",
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (["--kpi", "throughput_per_hour"], "did you mean 'throughput_per_h'"),
+        (["--base", "wide"], "did you mean 'wider'"),
+        (["--seed", "3"], "--seed: only where a scenario FILE is run"),
+    ],
+)
+def test_a_wrong_call_is_answered_with_what_is_right(results, words, said):
+    code, _, complaint = opsim("compare", results, *words)
+    assert code == 2 and said in complaint
+
+
+def test_damaged_figures_are_named(results, tmp_path):
+    import shutil
+
+    shutil.copytree(results, tmp_path / "copy")
+    (tmp_path / "copy" / "wider" / "kpis.parquet").write_bytes(b"PAR1")
+    code, _, complaint = opsim("compare", tmp_path / "copy")
+    assert code == 2 and "wider/kpis.parquet" in complaint

@@ -1,0 +1,160 @@
+import json
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from opsim.scenario import read_scenarios
+from opsim.study import run_scenario
+from opsim.study.compare import NotComparable, compare, holm, paired
+from opsim.study.interval import t_interval
+
+
+@dataclass(frozen=True)
+class Made:
+    """What ``compare`` needs of a Result."""
+
+    summary: dict
+    table: dict
+
+    def kpis(self):
+        return self.table
+
+
+def made(seed=1, **figures):
+    table = {(kpi, "", "", "1/h"): dict(enumerate(values)) for kpi, values in figures.items()}
+    return Made({"seed": seed, "kpis": [{"kpi": kpi, "headline": True} for kpi in figures]}, table)
+
+
+def test_the_difference_is_that_of_the_pairs():
+    base, near = [10.0, 12.0, 11.0, 13.0], [11.0, 13.5, 12.0, 14.1]
+    (found,) = compare({"base": made(out=base), "near": made(out=near)}).differences
+    assert found.interval == t_interval(np.subtract(near, base))
+    assert (found.base, found.mean) == (11.5, pytest.approx(12.65))
+    assert found.verdict == "higher"
+
+
+def test_a_known_paired_t_test():
+    """Student 1908, extra hours of sleep by two drugs: t = 4.0621 with 9 degrees of freedom, p = 0.002833."""
+    one = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0]
+    two = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4]
+    interval, p, _ = paired(two, one)
+    assert interval.mean == pytest.approx(1.58)
+    assert (interval.low, interval.high) == (pytest.approx(0.7001142), pytest.approx(2.4598858))
+    assert p == pytest.approx(0.002833, abs=5e-7)
+
+
+def test_the_variance_ratio_is_one_for_independent_runs_and_large_for_alike_ones():
+    rng = np.random.default_rng(0)
+    a, b = rng.normal(size=(2, 20_000))
+    assert paired(a, b)[2] == pytest.approx(1.0, abs=0.05)
+    assert paired(a + 0.1 * b, a)[2] == pytest.approx(201, rel=0.05)
+
+
+def test_identical_runs_differ_by_exactly_nothing_and_it_is_said():
+    values = [0.1, 0.2, 0.30000000000000004]
+    (found,) = compare({"base": made(out=values), "same": made(out=values)}).differences
+    assert (found.interval.mean, found.interval.half_width) == (0, 0)
+    assert found.verdict == "identical" and found.p_together == 1
+
+
+def test_the_same_step_in_every_replication_is_certain():
+    (found,) = compare({"base": made(out=[1.0, 2.0]), "more": made(out=[2.0, 3.0])}).differences
+    assert found.verdict == "higher" and found.p == 0 and found.interval.half_width == 0
+
+
+def test_one_replication_says_nothing_and_nothing_observed_is_said():
+    (found,) = compare({"base": made(out=[1.0]), "more": made(out=[2.0])}).differences
+    assert found.verdict == "one replication says nothing" and found.interval.mean == 1
+    (found,) = compare({"base": made(out=[np.nan] * 3), "more": made(out=[2.0] * 3)}).differences
+    assert found.verdict == "nothing observed"
+
+
+def test_a_pair_of_which_one_is_unknown_is_left_out():
+    (found,) = compare({"base": made(out=[1.0, np.nan, 3.0]), "b": made(out=[2.0, 5.0, 4.5])}).differences
+    assert found.interval.n == 2 and found.base == 2.0
+
+
+def test_only_replications_that_all_variants_have_are_paired():
+    found = compare({"base": made(out=[1.0, 2.0, 3.0]), "b": made(out=[2.0, 1.0])})
+    assert found.n == 2 and found.differences[0].interval.mean == 0
+
+
+def test_holm_is_the_textbook_procedure():
+    assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    assert holm([0.6, 0.7]) == pytest.approx([1.0, 1.0])
+    assert holm([np.nan, 0.02])[1] == 0.02 and np.isnan(holm([np.nan, 0.02])[0])
+
+
+def test_many_comparisons_ask_for_more():
+    rng = np.random.default_rng(3)
+    base = rng.normal(size=10)
+    weak = base + 0.35 + rng.normal(0, 0.4, 10)
+    alone = compare({"base": made(out=base), "weak": made(out=weak)}).differences[0]
+    others = {f"v{i}": made(out=base + rng.normal(0, 0.4, 10)) for i in range(20)}
+    among = compare({"base": made(out=base), "weak": made(out=weak), **others}).differences[0]
+    assert alone.p == among.p and alone.verdict == "higher" and among.verdict == "no clear difference"
+
+
+@pytest.mark.parametrize(
+    "results, base, kpis, said",
+    [
+        ({"base": made(out=[1.0])}, "base", (), "nothing to compare"),
+        ({"base": made(out=[1.0]), "near": made(2, out=[1.0])}, "base", (), "near has seed 2"),
+        ({"base": made(out=[1.0]), "near": made(out=[1.0])}, "bsae", (), "did you mean 'base'"),
+        ({"base": made(output=[1.0]), "near": made(output=[1.0])}, "base", ("outptu",), "did you mean 'output'"),
+    ],
+)
+def test_what_cannot_be_compared_is_said(results, base, kpis, said):
+    with pytest.raises(NotComparable, match=said):
+        compare(results, base, kpis)
+
+
+VARIANTS = """
+  faster: {tasks.drill.mean: 57.142857 s}
+  idle:
+    workers.zoe: {home: third, skills: {storing: 1.0}}
+    tasks.store: {fixed: 1 s}
+    stations.storing: {at: third, tasks: [store]}
+"""
+
+
+@pytest.fixture(scope="module")
+def serial_line(tmp_path_factory):
+    """The shipped line with one station 5 % faster, and with a worker more who has nothing to do."""
+    from opsim.shipped import shipped_folder
+
+    text = (shipped_folder() / "serial_line.yaml").read_text()
+    text = text[: text.index("overrides:")] + "overrides:" + VARIANTS
+    text += "scenarios: {base: [], faster: [faster], idle: [idle]}\noutputs: [throughput_per_h, time_in_system_s]\n"
+    folder = tmp_path_factory.mktemp("serial")
+    (folder / "line.yaml").write_text(text)
+    variants = read_scenarios(folder / "line.yaml")
+    return {
+        name: run_scenario(one, folder=folder / name, processes=1, replications=20) for name, one in variants.items()
+    }
+
+
+@pytest.mark.slow
+def test_common_random_numbers_find_a_station_5_percent_faster(serial_line, capsys):
+    found = {d.key[0]: d for d in compare(serial_line).differences if d.variant == "faster"}
+    throughput = found["throughput_per_h"]
+    with capsys.disabled():
+        print(f"\n5 % faster: {throughput.interval}, variance ratio {throughput.variance_ratio:.1f}", end="")
+    assert throughput.verdict == "higher" and throughput.variance_ratio >= 10
+
+
+@pytest.mark.slow
+def test_an_idle_worker_more_changes_nothing_at_all(serial_line):
+    found = [d for d in compare(serial_line).differences if d.variant == "idle"]
+    assert len(found) == 2 and all(d.verdict == "identical" and d.interval.mean == 0 for d in found)
+
+
+def test_results_that_are_no_numbers_are_refused_with_their_place(tmp_path):
+    from opsim.results import Result, variants_in
+
+    with pytest.raises(ValueError, match="no results here"):
+        variants_in(tmp_path)
+    (tmp_path / "summary.json").write_text(json.dumps([1]))
+    with pytest.raises(ValueError, match=r"summary.json: not the summary"):
+        Result.load(tmp_path)

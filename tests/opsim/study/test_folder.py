@@ -1,0 +1,113 @@
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from plans import CELL, loaded
+
+from opsim.scenario import read_scenarios
+from opsim.shipped import shipped_folder
+from opsim.study import run_scenario
+from opsim.study.folder import OtherRun, other_run
+
+SHORT = CELL.replace("horizon: 2 h", "horizon: 20 min")
+
+
+def run(folder, text=SHORT, **how):
+    return run_scenario(loaded(text), folder=folder, processes=1, **how)
+
+
+def content(folder: Path) -> dict:
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("finished")
+    run(folder)
+    (folder / "report.html").write_text("of seed 5")
+    return folder
+
+
+@pytest.mark.parametrize(
+    "text, seed, said",
+    [
+        (SHORT, 9, "seed 5, now 9"),
+        (SHORT.replace("20 min", "30 min"), None, "run.horizon 20 min, now 30 min"),
+        (SHORT.replace("every: 40 s", "every: 50 s"), None, "release.every 40 s, now 50 s"),
+    ],
+)
+def test_another_run_is_refused_and_nothing_is_touched(finished, text, seed, said):
+    before = content(finished)
+    with pytest.raises(OtherRun, match=f"3 replications of 'cell', variant base, seed 5; not the same: .*{said}"):
+        run(finished, text, seed=seed)
+    assert content(finished) == before
+
+
+def test_overwriting_leaves_nothing_of_the_other_run(finished, tmp_path):
+    folder = tmp_path / "copy"
+    shutil.copytree(finished, folder)
+    run(folder, seed=9, replications=1, overwrite=True)
+    assert not (folder / "report.html").exists()
+    assert [path.name for path in (folder / "events").iterdir()] == ["replication_00000.parquet"]
+    assert json.loads((folder / "summary.json").read_text())["seed"] == 9
+
+
+@pytest.mark.parametrize(
+    "change", [("replications: 3", "replications: 4"), ("warm_up: 10 min", "warm_up: 5 min"), ("cell", "room")]
+)
+def test_more_replications_another_warm_up_or_name_keep_the_rows(finished, tmp_path, change):
+    folder = tmp_path / "copy"
+    shutil.copytree(finished, folder)
+    before = content(folder)
+    run(folder, SHORT.replace(*change))
+    after = content(folder)
+    assert all(after[path] == rows for path, rows in before.items() if path.suffix == ".parquet" and path.parent.name)
+
+
+def test_a_folder_of_an_unknown_run_is_refused(tmp_path):
+    (tmp_path / "events").mkdir()
+    (tmp_path / "events" / "replication_00000.parquet").write_bytes(b"rows")
+    with pytest.raises(OtherRun, match="1 replication of a run that is not known"):
+        run(tmp_path)
+
+
+def test_a_folder_without_finished_work_may_be_taken(tmp_path):
+    (tmp_path / "manifest.json").write_text("{}")
+    assert other_run(tmp_path, loaded(SHORT), 5) is None
+
+
+def test_other_versions_are_named(finished, tmp_path):
+    shutil.copytree(finished, tmp_path / "old")
+    manifest = json.loads((finished / "manifest.json").read_text())
+    manifest["packages"]["numpy"] = "1.0"
+    (tmp_path / "old" / "manifest.json").write_text(json.dumps(manifest))
+    assert "numpy 1.0, now" in str(other_run(tmp_path / "old", loaded(SHORT), 5))
+
+
+OWN = """
+opsim: 1
+name: Own
+run: {horizon: 10 min, replications: 1}
+libraries: {mine: own.npz}
+layout: {places: {here: [0 m, 0 m]}}
+tasks: {squat: {emulator: mine/deep_squat}, wait: {recorded: times.csv}}
+stations: {pack: {at: here, tasks: [squat, wait], buffer: 1}}
+products: {box: {route: [pack]}}
+release: {kind: saturated}
+workers: {ana: {skills: {pack: 1.0}}}
+"""
+
+
+def test_the_resolved_scenario_of_a_users_own_library_runs_again_from_the_folder(tmp_path):
+    shutil.copy(shipped_folder() / "libraries" / "public_movements.npz", tmp_path / "own.npz")
+    (tmp_path / "times.csv").write_text("3\n4\n5\n")
+    (tmp_path / "own.yaml").write_text(OWN)
+    first = run_scenario(read_scenarios(tmp_path / "own.yaml")["base"], folder=tmp_path / "out", processes=1)
+    for name in ("own.yaml", "own.npz", "times.csv"):
+        (tmp_path / name).unlink()
+    again = read_scenarios(tmp_path / "out" / "scenario.resolved.yaml")["base"]
+    second = run_scenario(again, folder=tmp_path / "again", processes=1)
+    assert second.summary["kpis"] == first.summary["kpis"]
+    assert run_scenario(again, folder=tmp_path / "out", processes=1).summary["kpis"] == first.summary["kpis"]
+    assert str(tmp_path) not in (tmp_path / "out" / "manifest.json").read_text()

@@ -1,0 +1,39 @@
+import math
+import multiprocessing
+import signal
+from functools import partial
+
+import pytest
+
+from opsim.study.pool import ProcessLost, pooled
+
+POWER_OF_TWO = partial(partial, pow, 2)
+"""Made in each process; what spawned processes are given must be found by name, so all of it is from the library."""
+
+
+def test_every_item_is_done_once_and_no_process_is_left():
+    assert sorted(pooled(POWER_OF_TWO, range(6), 2)) == [1, 2, 4, 8, 16, 32]
+    assert multiprocessing.active_children() == []
+
+
+def test_an_error_of_the_work_comes_through_and_ends_the_processes():
+    with pytest.raises(ValueError, match="math domain"):
+        list(pooled(partial(partial, math.sqrt), [-1.0, 4.0], 2))
+    assert multiprocessing.active_children() == []
+
+
+def test_a_process_that_cannot_begin_says_why():
+    with pytest.raises(ValueError, match="math domain"):
+        list(pooled(partial(math.sqrt, -1.0), [1], 2))
+
+
+def test_a_killed_process_is_said_in_words():
+    with pytest.raises(ProcessLost, match="was killed"):
+        list(pooled(partial(partial, signal.raise_signal), [signal.SIGKILL], 2))
+
+
+def test_an_iteration_that_is_left_early_leaves_no_process():
+    results = pooled(POWER_OF_TWO, range(1000), 2)
+    next(results)
+    results.close()
+    assert multiprocessing.active_children() == []
