@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from heapq import nsmallest
+from itertools import islice
 
 MOST_SHOWN = 50
 WIDEST_LINE = 160
+MOST_COMPARED = 2000
+MOST_FOUND = 200
+"""Problems that a reader looks for: more would be read by nobody, and a hostile file could hold a million."""
 
 
 @dataclass(frozen=True, order=True)
@@ -67,18 +72,27 @@ def shown(value: object) -> str:
 def nearest(word: object, known: Iterable[str]) -> str | None:
     """The known word most like this one, or None where none is near."""
     text = str(word)[:60]
-    words = sorted(known)
+    words = sorted(_comparable(text, known))
     by_folded = {known_word.casefold(): known_word for known_word in reversed(words)}
     match = get_close_matches(text.casefold(), by_folded, n=1)
     return by_folded[match[0]] if match else None
 
 
+def _comparable(text: str, known: Iterable[str]) -> list[str]:
+    """The known words; of very many those that begin alike and are about as long: a hint must not take long."""
+    words = list(known)
+    if len(words) <= MOST_COMPARED:
+        return words
+    alike = (one for one in words if one[:1] == text[:1] and abs(len(one) - len(text)) <= 1)
+    return list(islice(alike, MOST_COMPARED))
+
+
 def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known") -> str:
     """The hint for an unknown word: the nearest right one, or the words that are known."""
-    words = sorted(known)
-    near = nearest(word, words)
+    near = nearest(word, known := list(known))
     if near is not None:
         return f"did you mean {shown(near)}?"
+    words = nsmallest(13, known)
     if not words:
         return ""
     return f"{otherwise}: {', '.join(words[:12])}{', ...' if len(words) > 12 else ''}"

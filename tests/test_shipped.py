@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from opsim.laws import CHECKS, audit
 from opsim.engine.simpy_engine import run_plan
+from opsim.laws import CHECKS, audit
 from opsim.libraries import load_library
 from opsim.log import FINISH
 from opsim.plan import compile_plan, station_loads

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.like import SECTIONS
-from opsim.scenario.positions import Node, entries, problem, text
+from opsim.scenario.positions import Node, child, entries, problem, text
 from opsim.scenario.schema import Scenario
 
 # Keys of the file an override may begin with.
-_BEGINNINGS = sorted(set(Scenario.model_fields) - {"opsim"})
+_BEGINNINGS = sorted({*Scenario.model_fields, "defaults"} - {"opsim"})
 
 
 class _NoWay(Exception):
@@ -61,7 +61,7 @@ def _check_step(node: Node, passed: tuple[str, ...], part: str) -> None:
 
 
 def _inherited(root: Node, node: Node, passed: tuple[str, ...], key: str) -> Node | None:
-    """What the key says in the entry that this one is like, so that an override can change a part of it."""
+    """What the key says in the entry that this one is like, or in the defaults, so that a part of it can be changed."""
     seen: set[str] = set()
     other = text(node, "like") if len(passed) == 2 and passed[0] in SECTIONS else None
     while other is not None and other not in seen:
@@ -70,4 +70,4 @@ def _inherited(root: Node, node: Node, passed: tuple[str, ...], key: str) -> Nod
         if key in copied:
             return copied[key]
         other = copied["like"].value if "like" in copied and isinstance(copied["like"].value, str) else None
-    return None
+    return child(root, "defaults", passed[0], key) if len(passed) == 2 and passed[0] in SECTIONS else None

@@ -131,14 +131,14 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
     model = _model_at(loc)
     keys = [field.alias or name for name, field in model.model_fields.items()]
     if model is Scenario:
-        return [*keys, "overrides", "scenarios"]
+        return [*keys, "include", "defaults", "overrides", "scenarios"]
     return [*keys, "like"] if loc and loc[0] in like.SECTIONS else keys
 
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     if not loc:
         return Scenario
-    marked = {**TASK_KINDS, "<path>": Path}
+    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path}
     kind = next((marked[part] for part in loc if isinstance(part, str) and part in marked), None)
     return kind or BLOCKS.get(str(loc[0]), Scenario)
 

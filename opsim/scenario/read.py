@@ -10,19 +10,17 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from opsim.problems import Problem, ScenarioError, did_you_mean, shown
+from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.checks import check_problems
+from opsim.scenario.include import with_includes
 from opsim.scenario.like import without_likes
 from opsim.scenario.overrides import applied
 from opsim.scenario.plain_words import schema_problems
 from opsim.scenario.positions import Node, Place, Source, problem, written_paths
 from opsim.scenario.schema import Scenario
 from opsim.scenario.variants import variants
-from opsim.scenario.yaml_nodes import MOST_BYTES, read_tree
+from opsim.scenario.yaml_nodes import Budget, read_bytes, read_tree
 from opsim.shipped import find_scenario
-
-# More would be read by nobody, and a hostile file could hold a million.
-MOST_PROBLEMS = 200
 
 
 @dataclass(frozen=True)
@@ -51,23 +49,21 @@ def read_scenarios(
     Raises ScenarioError with every problem found.
     """
     file = find_scenario(path)
-    try:
-        with file.open("rb") as opened:
-            raw = opened.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise ScenarioError([Problem(str(file), 0, 0, "", f"cannot be read: {error.strerror}")]) from None
-    return scenarios_in(raw, file, names, changes)
+    return scenarios_in(read_bytes(file), file, names, changes)
 
 
 def scenarios_in(
     raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
 ) -> dict[str, Loaded]:
     """As ``read_scenarios``, from the bytes of a file; ``file`` names it and places the files it mentions."""
-    root, problems = read_tree(raw, str(file))
+    budget = Budget()
+    root, problems = read_tree(raw, str(file), budget)
     if not isinstance(root.value, dict):
         found = f"expected a scenario, found {shown(root.value)}"
         raise ScenarioError([*problems, problem(root.place, "", found, "a scenario begins with 'opsim: 1'")])
-    base, trees, more = variants(root)
+    root, more = with_includes(root, file, budget)
+    problems += more
+    base, trees, more = variants(root, budget)
     problems += more
     loaded: dict[str, Loaded] = {}
     for variant, tree in trees.items():
@@ -79,7 +75,7 @@ def scenarios_in(
             given = frozenset(written_paths(tree))
             loaded[variant] = Loaded(scenario, variant, file, file.parent, given, tree.plain())
     if problems:
-        raise ScenarioError(_once(problems))
+        raise ScenarioError(sorted(_unheard(problems)))
     return loaded if names is None else _chosen(loaded, names, file)
 
 
@@ -102,16 +98,18 @@ def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Nod
         scenario = Scenario.model_validate(tree.plain())
     except ValidationError as error:
         schema_found = schema_problems(error, tree)
-    found = islice(chain(schema_found, check_problems(tree, base, folder)), MOST_PROBLEMS)
+    found = islice(_unheard(chain(schema_found, check_problems(tree, base, folder))), MOST_FOUND)
     return scenario, tree, [*problems, *found]
 
 
-def _once(problems: Iterable[Problem]) -> list[Problem]:
-    """In the order of the file, each place and message once: variants and likes repeat what they share."""
-    first: dict[tuple[str, int, int, str], Problem] = {}
+def _unheard(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """Each place and message once: variants, likes and defaults repeat what they share."""
+    heard: set[tuple[str, int, int, str]] = set()
     for one in problems:
-        first.setdefault((one.file, one.line, one.column, one.message), one)
-    return sorted(first.values())
+        said = (one.file, one.line, one.column, one.message)
+        if said not in heard:
+            heard.add(said)
+            yield one
 
 
 def _chosen(loaded: dict[str, Loaded], names: Sequence[str], file: Path) -> dict[str, Loaded]:

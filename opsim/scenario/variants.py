@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-from opsim.problems import Problem, did_you_mean, shown
+from itertools import islice
+
+from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.fields import is_name, not_a_name
 from opsim.scenario.overrides import applied
 from opsim.scenario.positions import Node, entries, items, problem
+from opsim.scenario.yaml_nodes import Budget
 
 BASE = "base"
+MOST_CHECKED = 10_000_000
+"""Values of all variants together: some two minutes."""
+MOST_COPIED = 200_000_000
+"""Values times paths of overrides: some seconds."""
 _NOT_IN_A_VARIANT = ("overrides", "scenarios")
 
 
-def variants(root: Node) -> tuple[Node, dict[str, Node], list[Problem]]:
-    """The tree without overrides, that of every variant under ``scenarios`` ("base" where there are none), problems."""
+def variants(root: Node, budget: Budget | None = None) -> tuple[Node, dict[str, Node], list[Problem]]:
+    """The tree without overrides, that of every variant under ``scenarios`` ("base" where there are none), problems.
+
+    Raises ScenarioError where there are so many, of so large a file, that reading them all would take minutes.
+    """
+    _refuse_too_many(root, (budget or Budget()).n_nodes)
     problems = [*_wrong_shape(root, "overrides", "{near: {layout.places.rack: [6 m, 1 m]}}")]
     problems += _wrong_shape(root, "scenarios", "{base: [], near: [rack_near]}")
     base = root.with_entries({key: node for key, node in entries(root).items() if key not in _NOT_IN_A_VARIANT})
@@ -28,9 +39,27 @@ def variants(root: Node) -> tuple[Node, dict[str, Node], list[Problem]]:
             trees[variant], more = applied(trees[variant], name, overrides[name])
             wrong += more
         problems += wrong
+        if len(problems) > MOST_FOUND:
+            raise ScenarioError(sorted(problems))
     for name in overrides.keys() - used:
         problems += applied(base, name, overrides[name])[1]
     return base, trees or {BASE: base}, problems
+
+
+def _refuse_too_many(root: Node, n_nodes: int) -> None:
+    """Every variant is checked as a whole, and every path of an override copies the blocks on its way."""
+    overrides, scenarios = entries(root, "overrides"), entries(root, "scenarios")
+    n_paths = {name: len(entries(node)) for name, node in overrides.items()}
+    n_applied = sum(n_paths.values()) + sum(
+        n_paths.get(name.value, 0) if isinstance(name.value, str) else 1
+        for wanted in scenarios.values()
+        for name in items(wanted)
+    )
+    for section, n, most in (("scenarios", len(scenarios), MOST_CHECKED), ("overrides", n_applied, MOST_COPIED)):
+        if n * n_nodes > most:
+            node = entries(root)[section]
+            found = f"{n:,} {section} in files of {n_nodes:,} values are more than can be checked"
+            raise ScenarioError([problem(node.name_place, (section,), found, "spread them over several files")])
 
 
 def _names(variant: str, wanted: Node, overrides: dict[str, Node]) -> tuple[list[str], list[Problem]]:
@@ -40,6 +69,7 @@ def _names(variant: str, wanted: Node, overrides: dict[str, Node]) -> tuple[list
         found = f"expected a list of overrides, found {shown(wanted.value)}"
         return [], [problem(wanted.place, ("scenarios", variant), found, hint)]
     names = [node.value for node in items(wanted) if isinstance(node.value, str) and node.value in overrides]
+    unknown = (node for node in items(wanted) if not isinstance(node.value, str) or node.value not in overrides)
     wrong = [
         problem(
             node.place,
@@ -47,8 +77,7 @@ def _names(variant: str, wanted: Node, overrides: dict[str, Node]) -> tuple[list
             f"no override {shown(node.value)}",
             did_you_mean(node.value, overrides) or "there are no overrides in this file",
         )
-        for node in items(wanted)
-        if not isinstance(node.value, str) or node.value not in overrides
+        for node in islice(unknown, MOST_FOUND)
     ]
     return names, wrong
 

@@ -8,23 +8,25 @@ bounded, duplicate keys are found, and plain scalars follow the YAML 1.2 core sc
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import yaml
 
-from opsim.problems import Problem, ScenarioError, did_you_mean, shown
+from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario import yaml_words
 from opsim.scenario.positions import Node, Part, Place, Source, problem
 
 DEEPEST = 30
 MOST_NODES = 250_000
-MOST_PROBLEMS = 200
 MOST_BYTES = 8_000_000
 
 _Parser: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ufeff]")
+"""Characters that move a cursor, change colours, or turn the direction of a line about; a tab or a new line is none."""
 _WORDS = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL"), None),
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -46,13 +48,29 @@ def scalar(text: str) -> Any:
     return float(text) if _FLOAT.fullmatch(text) else text
 
 
-def read_tree(raw: bytes, file: str) -> tuple[Node, list[Problem]]:
+@dataclass
+class Budget:
+    """How many values have been read, over all files of a scenario; aliases count as what they stand for."""
+
+    n_nodes: int = 0
+
+
+def read_bytes(file: Path) -> bytes:
+    """What stands in a file, as far as a scenario may be long. Raises ScenarioError where it cannot be read."""
+    try:
+        with file.open("rb") as opened:
+            return opened.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise ScenarioError([Problem(str(file), 0, 0, "", f"cannot be read: {error.strerror}")]) from None
+
+
+def read_tree(raw: bytes, file: str, budget: Budget | None = None) -> tuple[Node, list[Problem]]:
     """The tree of a file and what is wrong with its keys. Raises ScenarioError where no tree can be had at all."""
     text = _decoded(raw, file)
     source = Source(file, tuple(text.splitlines()))
     parser = _Parser(text)
     try:
-        return _Builder(source, parser).document()
+        return _Builder(source, parser, Budget() if budget is None else budget).document()
     except yaml.MarkedYAMLError as error:
         raise ScenarioError([yaml_words.syntax_problem(error, source)]) from None
     except yaml.YAMLError:
@@ -99,11 +117,10 @@ def _place_at(text: str, index: int, file: str) -> Place:
 class _Builder:
     """Builds the tree from the events of one file."""
 
-    def __init__(self, source: Source, parser: Any):
-        self.source, self.parser = source, parser
+    def __init__(self, source: Source, parser: Any, budget: Budget):
+        self.source, self.parser, self.budget = source, parser, budget
         self.problems: list[Problem] = []
         self.anchors: dict[str, tuple[Node, int]] = {}
-        self.n_nodes = 0
 
     def document(self) -> tuple[Node, list[Problem]]:
         self.parser.get_event()
@@ -124,11 +141,11 @@ class _Builder:
         place = self.place(event)
         if isinstance(event, yaml.AliasEvent):
             return self.alias(event.anchor, place, path, key)
-        before = self.n_nodes
+        before = self.budget.n_nodes
         self.count(1, place, path)
         value: Any
         if isinstance(event, yaml.ScalarEvent):
-            value = scalar(event.value) if event.implicit[0] and not event.style else event.value
+            value = scalar(event.value) if event.implicit[0] and not event.style else self.clean(event.value, place)
         elif len(path) >= DEEPEST:
             raise self.stop(place, path[:3], f"blocks inside blocks, more than {DEEPEST} deep", "")
         elif isinstance(event, yaml.SequenceStartEvent):
@@ -139,7 +156,7 @@ class _Builder:
             self.problems.append(problem(place, path, f"the tag {shown(event.tag)} means nothing here", "remove it"))
         node = Node(value, place, key)
         if event.anchor is not None:
-            self.anchors[event.anchor] = (node, self.n_nodes - before)
+            self.anchors[event.anchor] = (node, self.budget.n_nodes - before)
         return node
 
     def list_items(self, path: tuple[Part, ...]) -> list[Node]:
@@ -152,7 +169,7 @@ class _Builder:
     def entries(self, path: tuple[Part, ...]) -> dict[str, Node]:
         found: dict[str, Node] = {}
         while not self.parser.check_event(yaml.MappingEndEvent):
-            if len(self.problems) >= MOST_PROBLEMS:
+            if len(self.problems) >= MOST_FOUND:
                 raise ScenarioError(self.problems)
             key, place = self.key(path)
             node = self.node((*path, key), place)
@@ -176,7 +193,15 @@ class _Builder:
         place = self.place(event)
         if not isinstance(event, yaml.ScalarEvent):
             raise self.stop(place, path, "a key must be a word", "is a brace, a bracket or a '*' one too many?")
-        return event.value, place
+        return self.clean(event.value, place), place
+
+    def clean(self, text: str, place: Place) -> str:
+        """A text that may have been written with escapes; what would steer a terminal is refused as in the open."""
+        bad = None if text.isprintable() else STEERING.search(text)
+        if bad is not None:
+            found = f"a control character (U+{ord(bad[0]):04X}) stands in this text"
+            self.problems.append(problem(place, "", found, "remove it"))
+        return text
 
     def alias(self, anchor: Any, place: Place, path: tuple[Part, ...], key: Place | None) -> Node:
         if anchor not in self.anchors:
@@ -188,8 +213,8 @@ class _Builder:
         return replace(node, key=key)
 
     def count(self, n: int, place: Place, path: tuple[Part, ...]) -> None:
-        self.n_nodes += n
-        if self.n_nodes > MOST_NODES:
+        self.budget.n_nodes += n
+        if self.budget.n_nodes > MOST_NODES:
             raise self.stop(
                 place, path[:3], f"the file holds more than {MOST_NODES:,} values", "are aliases nested in aliases?"
             )

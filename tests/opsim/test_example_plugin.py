@@ -38,6 +38,13 @@ class Installed:
         assert done.returncode == expect, done.stderr
         return done.stdout if expect == 0 else done.stderr
 
+    def opsim(self, verb, scenario, *words):
+        """Exit code and all that ``opsim VERB`` says of a scenario."""
+        (self.folder / "scenario.yaml").write_text(scenario)
+        command = [self.python, "-c", "from opsim.cli import main; main()", verb, "scenario.yaml", *words]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=self.folder)
+        return done.returncode, done.stdout + done.stderr
+
     def broken(self, file, old, new):
         """The file of the installed plug-in with a line changed; a function that mends it again."""
         path = self.packages / "opsim_example_plugin" / file
@@ -67,16 +74,19 @@ ana = Worker(env, "ana", {"pick": pick})
 done = [env.run(ana.perform("pick")) for _ in range(500)]
 print(json.dumps([pick.mean_duration_s(), sum(p.duration_s for p in done) / 500, done[0].mark_s, done[0].duration_s]))
 """
-LINE = """
-from dataclasses import replace
-from opsim import audit, compile_plan, read_scenarios, run_plan
-from opsim.engine.rules import ALLOCATION_RULES
-from opsim.plugins import dispatch_rule
-ALLOCATION_RULES["best_skill"] = dispatch_rule("best_skill")
-plan = replace(compile_plan(read_scenarios("repack_cell")["base"]), rule="best_skill", horizon_s=3600.0, warm_up_s=0.0)
-log = run_plan(plan)
-audit(log, plan)
-print(len(log.of(0)), log["end_s"].max())
+SCENARIO = """
+opsim: 1
+name: Picking
+run: {horizon: 1 h, replications: 2, seed: 1}
+layout: {places: {rack: [0 m, 0 m], bench: [5 m, 0 m]}}
+tasks:
+  pick: {plugin: mtm1_get_and_place, with: {reach: 12 in, move: 18 in, grasp: 1B, cv: 0.1}, repeat: 3}
+  label: {fixed: 4 s}
+stations: {rack: {at: rack, tasks: [pick], buffer: 2}, bench: {at: bench, tasks: [label], buffer: 2}}
+products: {order: {route: [rack, bench]}}
+release: {kind: saturated}
+workers: {ana: {skills: {rack: 1.0, bench: 0.9}}, ben: {skills: {rack: 0.9, bench: 1.1}}}
+allocation: {rule: best_skill}
 """
 FROM_THE_COMMAND_LINE = """
 import sys, types, click, numpy
@@ -112,9 +122,38 @@ def test_the_emulator_of_the_example_works_for_a_worker(installed):
     assert shares == pytest.approx([12.9 / 35.4, 16.4 / 35.4, 33.4 / 35.4], abs=1e-6)
 
 
-def test_the_rule_of_the_example_runs_in_a_scenario(installed):
-    performances, end_s = installed.run(LINE).split()
-    assert int(performances) > 100 and float(end_s) == 3600.0
+def test_a_scenario_names_the_example_and_its_results_say_which_version_it_was(installed):
+    assert installed.opsim("check", SCENARIO)[0] == 0
+    code, said = installed.opsim("run", SCENARIO, "-o", "out")
+    assert code == 0 and "Work a job gets at the station" in said
+    manifest = json.loads((installed.folder / "out" / "base" / "manifest.json").read_text())
+    assert manifest["plugins"] == dict.fromkeys(["best_skill", "mtm1_get_and_place"], "opsim-example-plugin 0.1.0")
+    summary = json.loads((installed.folder / "out" / "base" / "summary.json").read_text())
+    pick = next(row for row in summary["kpis"] if (row["kpi"], row["subject"]) == ("duration_s", "pick"))
+    assert pick["mean"] == pytest.approx(0.036 * (12.9 + 3.5 + 17.0 + 2.0), rel=0.02)
+
+
+def test_every_mistake_in_naming_a_plug_in_is_said_at_its_place(installed):
+    wrong = SCENARIO.replace("reach: 12 in", "reech: 12 in, reach: 4").replace("best_skill", "best_skil")
+    code, said = installed.opsim("check", wrong)
+    assert code == 2 and "3 problems" in said
+    assert "tasks.pick.with.reech: no parameter 'reech'" in said and "did you mean 'reach'?" in said
+    assert "tasks.pick.with.reach: 4 has no unit; expected a length" in said
+    assert "allocation.rule: no rule 'best_skil'" in said and "did you mean 'best_skill'?" in said
+    code, said = installed.opsim("check", SCENARIO.replace("mtm1_get", "mtm2_get"))
+    assert code == 2 and "tasks.pick.plugin: no plug-in 'mtm2_get_and_place'" in said
+
+
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_a_plug_in_that_fails_in_the_middle_of_a_run_is_blamed_without_a_traceback_of_ours(processes, installed):
+    mend = installed.broken("best_skill.py", "-rating", "1 / (n_waiting - n_waiting)")
+    try:
+        code, said = installed.opsim("run", SCENARIO, "-o", f"blamed{processes}", "--processes", processes)
+    finally:
+        mend()
+    assert code == 2 and "Traceback" not in said
+    assert "plug-in 'best_skill' of opsim-example-plugin 0.1.0: failed as it chose: ZeroDivisionError" in said
+    assert re.search(r"opsim_example_plugin/best_skill.py:\d+: return", said)
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,11 @@ from typing import Any
 
 import simpy
 
-from opsim.engine.rules import ALLOCATION_RULES
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.engine.simpy_engine.state import Gate, Job, Station, Worker
 from opsim.log import WORK, LogWriter, pack_row
 from opsim.plan import Plan
+from opsim.plugins import dispatch_rule
 
 AFTER_EVERYTHING = 2
 """SimPy's priorities are 0 (urgent) and 1 (normal): settle comes after both."""
@@ -47,7 +47,7 @@ class Floor:
         self.gates = _gates(plan, self.stations)
         self.stirred: set[Gate] = set()
         self.operation_rank = {name: rank for rank, name in enumerate(plan.operations)}
-        self.rule = ALLOCATION_RULES[plan.rule]
+        self.rule = dispatch_rule(plan.rule)
         self.jobs: dict[int, Job] = {}
         self.n_released = 0
         self.next_gate: Gate | None = None

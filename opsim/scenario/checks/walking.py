@@ -17,26 +17,40 @@ def walking_problems(tree: Node) -> Iterator[Problem]:
         return
     graph = _graph(paths)
     back = reverse(graph)
-    said: set[str] = set()
+    said: set[tuple[str, str]] = set()
     for name, worker in entries(tree, "workers").items():
-        places = [place for place in _places(tree, worker) if place in entries(tree, "layout", "places")]
-        if len(places) < 2:
+        for start, end in _not_led(tree, worker, graph, back):
+            if (start, end) not in said:
+                said.add((start, end))
+                found = f"no path leads from {shown(start)} to {shown(end)}, and {name} has to walk there"
+                yield problem(paths.name_place, ("layout", "paths"), found, _hint(graph, back, start, end))
+
+
+def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph) -> Iterator[tuple[str, str]]:
+    """(from, to) of what a worker must be able to walk and cannot; ways between all his stations, seen from the first.
+
+    He starts at his home, and needs to come back there only where idle workers go home.
+    """
+    known = entries(tree, "layout", "places")
+    stations = [entries(tree, "stations").get(name) for name in entries(worker, "skills")]
+    places = [place for station in stations if (place := text(station, "at")) in known and place is not None]
+    if not places:
+        return
+    first, home = places[0], text(worker, "home")
+    there, here = reached(graph, [first]), reached(back, [first])
+    goes_home = text(tree, "allocation", "idle") == "home"
+    for place in dict.fromkeys([*places, home]):
+        if place is None or place not in known:
             continue
-        there, home = reached(graph, places[:1]), reached(back, places[:1])
-        for place in dict.fromkeys(places[1:]):
-            if place in said or (place in there and place in home):
-                continue
-            said.add(place)
-            start, end = (places[0], place) if place not in there else (place, places[0])
-            found = f"no path leads from {shown(start)} to {shown(end)}, and {name} has to walk there"
-            node = entries(tree, "layout", "places")[place]
-            yield problem(node.name_place, ("layout", "places", place), found, _hint(graph, back, place))
+        if place not in there and (place in places or goes_home):
+            yield first, place
+        if place not in here:
+            yield place, first
 
 
-def _hint(graph: Graph, back: Graph, place: str) -> str:
-    if not graph.get(place) and not back.get(place):
-        return f"add e.g. [{place}, ...] to the paths"
-    return "is a path missing, or 'one_way' too much?"
+def _hint(graph: Graph, back: Graph, *places: str) -> str:
+    cut_off = next((place for place in places if not graph.get(place) and not back.get(place)), None)
+    return "is a path missing, or 'one_way' too much?" if cut_off is None else f"add e.g. [{cut_off}, ...]"
 
 
 def _graph(paths: Node) -> dict[str, set[str]]:
@@ -54,10 +68,3 @@ def _graph(paths: Node) -> dict[str, set[str]]:
                 if one_way is None or one_way.value is not True:
                     graph.setdefault(b, set()).add(a)
     return graph
-
-
-def _places(tree: Node, worker: Node) -> list[str]:
-    """Where the worker works and starts, the work first."""
-    stations = [entries(tree, "stations").get(name) for name in entries(worker, "skills")]
-    places = [text(station, "at") for station in stations] + [text(worker, "home")]
-    return [place for place in places if place is not None]

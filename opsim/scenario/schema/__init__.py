@@ -9,7 +9,7 @@ from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
 from opsim.scenario.schema.task_kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Task
-from opsim.scenario.schema.tasks import Emulated, Fixed, Recorded, TaskBlock
+from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
 from opsim.scenario.schema.workers import Allocation, Worker
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "Lognormal",
     "Normal",
     "Path",
+    "Plugged",
     "Product",
     "Recorded",
     "Release",

@@ -36,7 +36,9 @@ class Scenario(Block):
     opsim: Annotated[Literal[1], BeforeValidator(_version_1)] = Field(
         description="version of this language", examples=[1]
     )
-    name: str = Field(description="title of tables and report", examples=["Repacking cell"])
+    name: str = Field(
+        min_length=1, max_length=200, description="title of tables and report", examples=["Repacking cell"]
+    )
     run: Run = Field(description="how long, how often, with which luck", examples=["{horizon: 8 h}"])
     libraries: dict[Name, str] = Field({}, description="motion libraries by the name tasks use")
     layout: Layout = Field(

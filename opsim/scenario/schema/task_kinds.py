@@ -10,7 +10,7 @@ from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import plain_error
 from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, Uniform
 from opsim.scenario.schema.distributions import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Weibull
-from opsim.scenario.schema.tasks import Emulated, Fixed, Recorded, TaskBlock
+from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
 
 DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
     "exponential": Exponential,
@@ -27,11 +27,12 @@ DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
 }
 TASK_KINDS: dict[str, type[TaskBlock]] = {
     "<emulator>": Emulated,
+    "<plugin>": Plugged,
     "<fixed>": Fixed,
     "<recorded>": Recorded,
     **{f"<{name}>": model for name, model in DISTRIBUTIONS.items()},
 }
-KIND_KEYS = ("emulator", "fixed", "recorded", "dist")
+KIND_KEYS = ("emulator", "plugin", "fixed", "recorded", "dist")
 
 
 def _one_kind(value: object) -> object:
@@ -59,6 +60,7 @@ def _kind_tag(value: Any) -> str:
 
 Task = Annotated[
     Annotated[Emulated, Tag("<emulator>")]
+    | Annotated[Plugged, Tag("<plugin>")]
     | Annotated[Fixed, Tag("<fixed>")]
     | Annotated[Recorded, Tag("<recorded>")]
     | Annotated[Exponential, Tag("<exponential>")]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -39,6 +39,23 @@ class Emulated(TaskBlock):
     @property
     def words(self) -> str:
         return f"emulator {self.emulator}"
+
+
+class Plugged(TaskBlock):
+    """Duration from an emulator that a plug-in brings: ``plugin: NAME`` and what is said to it, ``with: {...}``."""
+
+    plugin: str = Field(description="an installed emulator", examples=["mtm1_get_and_place"])
+    said: dict[str, Any] = Field(
+        {},
+        alias="with",
+        description="the emulator's parameters, quantities with their units",
+        examples=["{reach: 40 cm}"],
+    )
+
+    @property
+    def words(self) -> str:
+        said = ", ".join(f"{key} {value}" for key, value in self.said.items())
+        return f"plug-in {self.plugin}" + (f" with {said}" if said else "")
 
 
 class Fixed(TaskBlock):

@@ -28,8 +28,10 @@ class Worker(Block):
 class Allocation(Block):
     """The rules by which workers choose."""
 
-    rule: Literal["longest_queue", "nearest", "oldest_job"] = Field(
-        "longest_queue", description="which of the stations that call a free worker goes to"
+    rule: NameText = Field(
+        "longest_queue",
+        description="which of the stations that call a free worker goes to; a plug-in may bring more rules",
+        examples=["longest_queue", "nearest", "oldest_job"],
     )
     idle: Literal["stay", "home", "patrol"] = Field(
         "stay",

@@ -160,6 +160,17 @@ def test_staffing_is_fixed_unless_it_is_redrawn():
     assert scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.run.staffing == "redrawn"
 
 
+def test_who_starts_behind_a_one_way_path_need_not_come_back():
+    text = GOOD.replace("{like: ana}", "{like: ana, home: door}")
+    text = text.replace(
+        "  places:\n", "  distance: paths\n  paths: [{from: door, to: bench, one_way: true}]\n  places:\n"
+    )
+    layout = scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.layout
+    assert [(path.start, path.end, path.one_way, path.length_m) for path in layout.path_steps] == [
+        ("door", "bench", True, None)
+    ]
+
+
 def test_an_automatic_station_needs_no_worker():
     text = GOOD.replace("load: 6 kg", "automatic: true").replace("skills: {pack: 1.1}", "skills: {}")
     assert scenarios_in(text.encode(), Path("line.yaml"))["base"].scenario.tasks["lift"].automatic

@@ -44,6 +44,21 @@ def test_an_override_of_a_part_of_what_is_copied_keeps_the_rest():
     assert ben.skills == {"pack": 0.9, "check": 1.0}
 
 
+def test_an_override_changes_a_part_of_a_default():
+    text = GOOD.replace("layout.places.bench: [6 m, 1 m]", "defaults.workers.walk: 1 m/s").replace(
+        "workers:\n", "defaults: {workers: {walk: 2 m/s}}\nworkers:\n"
+    )
+    loaded = scenarios_in(text.encode(), Path("line.yaml"))
+    assert [loaded[name].scenario.workers["ben"].walk_m_per_s for name in ("base", "near")] == [2.0, 1.0]
+
+
+def test_an_override_of_a_part_of_a_default_block_keeps_the_rest():
+    edits = [("skills: {pack: 1.1}", "walk: 1 m/s"), ("stations:\n", "stations:\n  check: {at: door, tasks: [lift]}\n")]
+    edits += [("workers:\n", "defaults: {workers: {skills: {pack: 1.1, check: 1.0}}}\nworkers:\n")]
+    ana = with_override("workers.ana.skills.pack: 0.9", *edits).workers["ana"]
+    assert ana.skills == {"pack": 0.9, "check": 1.0}
+
+
 def test_who_is_like_a_worker_follows_his_overrides():
     assert with_override("workers.ana.walk: 1 m/s").workers["ben"].walk_m_per_s == 1.0
 
