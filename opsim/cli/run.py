@@ -53,6 +53,9 @@ def command(
     for name, result in results.items():
         for one in result.summary["precision"]:
             click.echo(_reached(name, one, result.summary["replications"]))
+    for name, result in results.items():
+        for warning in result.summary["warnings"]:
+            click.echo(f"warning: {name}: {warning}", err=True)
     for name, report in reports.items():
         click.echo(f"report {name}: {report}")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from opsim.kpi import Figure, figures, samples
+from opsim.kpi.locked import Locked, locked
 from opsim.log import EventLog, names_of
 from opsim.plan import Plan
 from opsim.study.pool import pooled
@@ -30,6 +31,7 @@ class Replicated:
     replication: int
     figures: list[Figure]
     samples: dict[tuple[str, str], np.ndarray]
+    locked: Locked | None = None
 
 
 def events_file(folder: Path, replication: int) -> Path:
@@ -80,7 +82,7 @@ def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "") -> 
         audit(log, plan)
         write_events(log, path, made_from)
     kept = {key: _thinned(values) for key, values in samples(log, plan).items()}
-    return Replicated(replication, figures(log, plan), kept)
+    return Replicated(replication, figures(log, plan), kept, locked(log, plan))
 
 
 def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> EventLog | None:

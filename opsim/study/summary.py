@@ -14,6 +14,7 @@ from opsim.study.interval import CONFIDENCE, t_interval
 from opsim.study.precision import Reached
 from opsim.study.replicate import Replicated
 from opsim.study.sources import task_sources
+from opsim.study.warnings import warnings_of
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40
@@ -45,6 +46,7 @@ def summary_of(
         "tasks": task_sources(loaded, plan),
         "assumptions": [{"topic": topic, "says": says} for topic, says in assumptions_of(loaded, plan, asked)],
         "checks": list(CHECKS),
+        "warnings": warnings_of(done),
     }
 
 
