@@ -13,10 +13,10 @@ KINDS = (
     *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost"),
 )
 WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, _SETUP, _DOWN = range(12)
-_REPAIR, _TRANSPORT, CREATE, _JOIN, _SPLIT, FINISH, _SCRAP, LOST = range(12, 20)
+_REPAIR, TRANSPORT, CREATE, _JOIN, _SPLIT, FINISH, _SCRAP, LOST = range(12, 20)
 WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, _REPAIR)
 """Kinds that are states of a worker, where the row names one."""
-JOB_KINDS = (QUEUE, WORK, _SETUP, _TRANSPORT, BLOCKED, HELD)
+JOB_KINDS = (QUEUE, WORK, _SETUP, TRANSPORT, BLOCKED, HELD)
 """Kinds that are states of a job, where the row names one."""
 
 CAUSES = ("", "idle", "blocked", "gate", "worker", "full")

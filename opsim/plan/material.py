@@ -22,13 +22,17 @@ Ways = tuple[tuple[float, int], ...]
 
 @dataclass(frozen=True, slots=True)
 class ProductPlan:
-    """share : of the mix, all sum to 1; route : its operations; start, onward : the first step, and from each step"""
+    """share : of the mix, all sum to 1; route : its operations; start, onward : the first step, and from each step
+
+    carried : who did the last task at a station carries it to the next
+    """
 
     name: str
     share: float
     route: tuple[Operation, ...]
     start: Ways
     onward: tuple[Ways, ...]
+    carried: bool = False
 
     def visits(self) -> list[float]:
         """How often a job comes to each step on average: the traffic equations v = start + P' v (Jackson 1957)."""
@@ -48,19 +52,20 @@ def plan_products(scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]
 
 def _product(name: str, product, share: float, stations: dict[str, int]) -> ProductPlan:
     if product.routing is not None:
-        return _network(name, product.routing, share, stations)
+        return _network(name, product, share, stations)
     route = tuple(_operation(step, stations) for step in product.route)
     steps = [*range(1, len(route)), -1]
-    return ProductPlan(name, share, route, ((1.0, 0),), tuple(((1.0, step),) for step in steps))
+    return ProductPlan(name, share, route, ((1.0, 0),), tuple(((1.0, step),) for step in steps), product.carried)
 
 
-def _network(name: str, routing, share: float, stations: dict[str, int]) -> ProductPlan:
+def _network(name: str, product, share: float, stations: dict[str, int]) -> ProductPlan:
     """A way drawn step by step: from ``start``, and from each station, to others or ``out``, with probabilities."""
+    routing = product.routing
     names = sorted((key for key in routing if key != "start"), key=natural_key)
     step_of = {**{key: step for step, key in enumerate(names)}, "out": -1}
     onward = tuple(_ways(routing[key], step_of) for key in names)
     route = tuple(_operation(key, stations) for key in names)
-    return ProductPlan(name, share, route, _ways(routing["start"], step_of), onward)
+    return ProductPlan(name, share, route, _ways(routing["start"], step_of), onward, product.carried)
 
 
 def _ways(ways: dict[str, float], step_of: dict[str, int]) -> Ways:

@@ -76,27 +76,46 @@ def _people(loaded, plan: Plan) -> Iterator[Assumption]:
         yield "walking", f"at t = 0 stand {_list(homeless)} (first of their stations by name)"
     yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
     if any(_differ(task) for task in plan.tasks):
-        yield "workers", "the same people work in every replication: a worker's own pace is drawn once for the study"
+        people = {
+            "fixed": "the same people work in every replication: a worker's own pace is drawn once for the study",
+            "redrawn": "other people work in each replication: every worker's own pace is drawn anew",
+        }
+        yield "workers", people[plan.staffing]
+
+
+_IDLE = {
+    "stay": "stay where they are",
+    "home": "walk home, and can be called again when they are there",
+    "patrol": "walk round their stations and serve only where they stand",
+}
 
 
 def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
-    yield "transport", "jobs pass between stations without time"
-    yield "stations", "no set-ups, breakdowns, scrap or rework"
+    carried = [product.name for product in plan.products if product.carried]
+    if carried:
+        yield (
+            "transport",
+            f"whoever did the last task at a station carries {_list(carried)} to the next at walking speed, unhampered "
+            "by the load, and waits with it while that is full; after an automatic task it passes without time",
+        )
+    if len(carried) < len(plan.products):
+        yield "transport", f"{'other jobs' if carried else 'jobs'} pass between stations without time"
+    comes_back = any(len(ways) > 1 for product in plan.products for ways in product.onward)
+    rework = ", and rework only as the routing says" if comes_back else " or rework"
+    yield "stations", f"no set-ups, breakdowns or scrap{rework}"
     if plan.workers:
         rule, blocked = plan.rule.replace("_", " "), plan.when_blocked
         chosen = "chosen" if "allocation.rule" in loaded.given else "default"
-        yield (
-            "allocation",
-            f"free workers go by {rule} ({chosen}); idle workers stay; with a blocked job a worker is {blocked}",
-        )
+        yield "allocation", f"free workers go by {rule} ({chosen}); with a blocked job a worker is {blocked}"
+        yield "allocation", f"idle workers {_IDLE[plan.idle]}"
     unlimited = [station.name for station in plan.stations if station.buffer == float("inf")]
     if unlimited:
         yield "buffers", f"unlimited in front of {_list(unlimited)}"
-    if plan.release.kind == "poisson":
-        yield (
-            "release",
-            f"jobs come at random (Poisson), one every {plan.release.every_s:g} s on average; none come in lots",
+    if plan.release.kind != "saturated":
+        how = (
+            "at random (Poisson)" if plan.release.kind == "poisson" else "with gaps of their own distribution (renewal)"
         )
+        yield "release", f"jobs come {how}, one every {plan.release.every_s:g} s on average; none come in lots"
 
 
 def _window(loaded, plan: Plan) -> Iterator[Assumption]:

@@ -5,14 +5,17 @@ from opsim.engine.simpy_engine.material import create, operation_done
 from opsim.engine.simpy_engine.release import ARRIVED
 from opsim.engine.simpy_engine.state import Job, Worker
 from opsim.engine.simpy_engine.station import AUTOMATIC_DONE, next_task, perform, task_done
+from opsim.engine.simpy_engine.transport import put_down
 from opsim.engine.simpy_engine.worker import STRETCH_DONE, hold, log_worker, set_free
-from opsim.log import WALK
+from opsim.log import TRANSPORT, WALK
 
 
 def _stretch_done(floor: Floor, worker: Worker) -> None:
     job = worker.job
     if job is None:
         set_free(floor, worker)
+    elif job.kind == TRANSPORT:
+        put_down(floor, job, worker)
     elif worker.kind == WALK:
         log_worker(floor, worker)
         perform(floor, job, worker)
@@ -27,7 +30,7 @@ def _stretch_done(floor: Floor, worker: Worker) -> None:
 
 def _station_done(floor: Floor, worker: Worker, job: Job) -> None:
     operation_done(floor, job)
-    if floor.plan.when_blocked == "held" and job.number in floor.jobs:
+    if (job.plan.carried or floor.plan.when_blocked == "held") and job.number in floor.jobs:
         hold(floor, worker, job)
     else:
         set_free(floor, worker)

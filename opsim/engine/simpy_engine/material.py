@@ -6,6 +6,7 @@ from opsim.engine.rules import shortest_queue
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Claim, Gate, Job, Station
 from opsim.engine.simpy_engine.station import seat
+from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
 from opsim.plan import Ways
@@ -120,14 +121,14 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
         floor.log_job(job)
     job.kind, job.cause, job.since_s = QUEUE, 0, floor.now
     station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
+    carrier = None
     if job.station is not None:
+        if job.plan.carried:
+            carrier, job.held_by = job.held_by, None
         _leave_station(floor, job)
     job.station = station
     station.n_inside += 1
-    if station.free_servers:
-        seat(floor, station, job)
-    else:
-        station.queue.append(job)
+    bring(floor, job, station, carrier)
 
 
 def _chosen(gate: Gate, job: Job) -> Station:

@@ -13,6 +13,14 @@ from opsim.log import HELD, NO_WORKER, WORK
 AUTOMATIC_DONE = "automatic task done"
 
 
+def arrive(floor: Floor, station: Station, job: Job) -> None:
+    """The job is at the station: on a server where one is free, else in the queue."""
+    if station.free_servers:
+        seat(floor, station, job)
+    else:
+        station.queue.append(job)
+
+
 def seat(floor: Floor, station: Station, job: Job) -> None:
     """The job takes a free server."""
     station.free_servers -= 1

@@ -57,6 +57,11 @@ class Product(Block):
         examples=["{start: cut, cut: {drill: 0.9, out: 0.1}, drill: out}"],
     )
 
+    carried: bool = Field(
+        False,
+        description="who did the last task at a station carries the job to the next, and waits while that is full",
+    )
+
     @model_validator(mode="after")
     def _one_way(self) -> Product:
         if self.route is None and self.routing is None:

@@ -1,0 +1,28 @@
+"""Jobs between stations: carried by the worker who did the last task."""
+
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.station import arrive
+from opsim.engine.simpy_engine.worker import log_worker, set_free, walk
+from opsim.log import QUEUE, TRANSPORT
+
+
+def bring(floor: Floor, job: Job, station: Station, carrier: Worker | None) -> None:
+    """The job has its place at the next station and comes there: carried, or at once."""
+    walk_s = 0.0 if carrier is None else carrier.walk_s[carrier.place][station.rank]
+    if carrier is None or walk_s == 0:
+        if carrier is not None:
+            carrier.place = station.place
+            set_free(floor, carrier)
+        arrive(floor, station, job)
+        return
+    log_worker(floor, carrier)
+    job.kind, carrier.station = TRANSPORT, station
+    walk(floor, carrier, station.place, walk_s)
+
+
+def put_down(floor: Floor, job: Job, carrier: Worker) -> None:
+    """The carrier has come to the station with the job and is free there."""
+    floor.job_now(job, QUEUE)
+    set_free(floor, carrier)
+    arrive(floor, job.station, job)  # type: ignore[arg-type]
