@@ -99,8 +99,14 @@ def _batch_means(series: np.ndarray, batch: int) -> np.ndarray:
 
 
 def _statistic(means: np.ndarray) -> np.ndarray:
-    """(batches - 4,) sum of squares about the mean of what is left, over its number squared; five batches are left."""
-    from_end = means[::-1] - means.mean()  # so that large values lose no digits
-    left = np.arange(1, means.size + 1)
-    squares = np.cumsum(from_end**2) - np.cumsum(from_end) ** 2 / left
-    return (np.maximum(squares, 0.0) / left**2)[: BATCH - 2 : -1]
+    """(batches - 4,) sum of squares about the mean of what is left, over its number squared; five batches are left.
+
+    Summed from the end by Welford's recursion (1962): a steady tail gives exactly 0, and large values lose nothing.
+    """
+    scores, mean, squares = [], 0.0, 0.0
+    for n, value in enumerate(means[::-1].tolist(), 1):
+        apart = value - mean
+        mean += apart / n
+        squares += apart * (value - mean)
+        scores.append(squares / n**2)
+    return np.array(scores[: BATCH - 2 : -1])
