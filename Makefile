@@ -1,12 +1,13 @@
-# make demo | test | test-fast | lint | known-answers | bench | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | test-fast | lint | known-answers | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
+PEERS := .venv-peers
 RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 MOTION ?= ../shared/data/motion
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test test-fast test-slow lint known-answers bench libraries lock wheel clean
+.PHONY: demo test test-fast test-slow lint known-answers bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -36,6 +37,17 @@ test-slow: $(READY)
 bench: $(READY)
 	$(RUN) -m pytest tests/bench -p no:xdist -q -s
 
+$(PEERS)/.ready: requirements.lock pyproject.toml tests/bench/peers_requirements.txt
+	@echo "Setting up $(PEERS) with the locked packages and other simulators (once) ..."
+	test -x $(PEERS)/bin/python || $(PYTHON) -m venv $(PEERS)
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check -r tests/bench/peers_requirements.txt
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+bench-peers: $(PEERS)/.ready
+	PYTHONPATH=tests $(PEERS)/bin/python -m bench.peers
+
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show
 
@@ -53,4 +65,4 @@ wheel: $(READY)
 	$(RUN) -m pip wheel --quiet --no-deps --no-build-isolation -w dist .
 
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(PEERS) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

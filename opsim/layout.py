@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
@@ -47,14 +48,19 @@ def ways(layout: Layout) -> Ways:
     if layout.distance == "paths":
         return _along_paths(layout)
     names = tuple(sorted(layout.places, key=natural_key))
-    measure = {"euclidean": _euclidean_m, "rectilinear": _rectilinear_m}[layout.distance]
-    points = [layout.places[name] for name in names]
-    return Ways(names, tuple(tuple(measure(a, b) for b in points) for a in points))
+    return Ways(names, _as_the_crow_flies(tuple(layout.places[name] for name in names), layout.distance))
 
 
 def distances_m(layout: Layout) -> Matrix:
     """(P, P) metres between places in natural order: straight, along the axes, or along paths (inf: none leads)."""
     return ways(layout).distance_m
+
+
+@lru_cache(maxsize=8)
+def _as_the_crow_flies(points: tuple[Point, ...], distance: str) -> Matrix:
+    """Found once for the variants of a file, which mostly share their places."""
+    measure = {"euclidean": _euclidean_m, "rectilinear": _rectilinear_m}[distance]
+    return tuple(tuple(measure(a, b) for b in points) for a in points)
 
 
 def _along_paths(layout: Layout) -> Ways:

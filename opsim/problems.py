@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
-from heapq import nsmallest
 from itertools import islice
 
 MOST_SHOWN = 50
@@ -92,16 +91,14 @@ def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known"
     near = nearest(word, known := list(known))
     if near is not None:
         return f"did you mean {shown(near)}?"
-    words = nsmallest(13, known)
-    if not words:
+    if not known or len(known) > MOST_COMPARED:
         return ""
+    words = sorted(known)
     return f"{otherwise}: {', '.join(words[:12])}{', ...' if len(words) > 12 else ''}"
 
 
 def _window(line: str, column: int) -> tuple[str, int]:
     """The part of a long line around a column, and the column in it; characters that do not print become '?'."""
-    printable = "".join(c if c.isprintable() else (" " if c == "\t" else "?") for c in line)
-    if len(printable) <= WIDEST_LINE:
-        return printable, column
-    start = max(0, column - WIDEST_LINE // 2)
-    return printable[start : start + WIDEST_LINE], column - start
+    start = 0 if len(line) <= WIDEST_LINE else max(0, column - WIDEST_LINE // 2)
+    seen = line[start : start + WIDEST_LINE]
+    return "".join(c if c.isprintable() else (" " if c == "\t" else "?") for c in seen), column - start

@@ -10,6 +10,8 @@ from opsim.clock import LONGEST_S
 from opsim.files import NotInside, inside
 from opsim.problems import did_you_mean, shown
 
+MOST_BYTES = 50_000_000
+
 
 class RecordedError(ValueError):
     """Recorded times that cannot be used: ``message`` and ``hint`` in plain words."""
@@ -37,19 +39,34 @@ def read_times(path: Path, column: str | None = None) -> list[float]:
     The first row is a heading unless all of it is numbers. ``column`` may be left out where there is one only.
     Raises RecordedError with the line of the first bad number.
     """
-    rows = _rows(path)
-    heading = [cell.strip() for cell in rows[0][1]]
-    has_heading = not all(_number(cell) is not None for cell in heading)
-    names = heading if has_heading else [str(number + 1) for number in range(len(heading))]
+    names, rows = _table(path)
     index = _column(names, column, path.name)
-    times = [_positive(cells, index, line, path.name) for line, cells in rows[int(has_heading) :]]
+    times = [_positive(cells, index, line, path.name) for line, cells in rows]
     if not times:
         raise RecordedError(f"{shown(path.name)} holds no times")
     return times
 
 
+def read_labels(path: Path, column: str) -> list[str]:
+    """The words of a column, in the file's order: one a row of ``read_times``. Raises RecordedError."""
+    names, rows = _table(path)
+    index = _column(names, column, path.name)
+    return [cells[index].strip() if index < len(cells) else "" for _, cells in rows]
+
+
+def _table(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """The names of the columns, and the rows below them with their line numbers."""
+    rows = _rows(path)
+    heading = [cell.strip() for cell in rows[0][1]]
+    if all(_number(cell) is not None for cell in heading):
+        return [str(number + 1) for number in range(len(heading))], rows
+    return heading, rows[1:]
+
+
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """The rows that are not blank, each with its line number from 1."""
+    if path.stat().st_size > MOST_BYTES:
+        raise RecordedError(f"{shown(path.name)} is larger than {MOST_BYTES / 1e6:.0f} MB")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError):

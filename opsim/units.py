@@ -89,6 +89,15 @@ def parse(value: object, kind: str) -> float:
     return _sum(_pieces(value, kind), value, kind)
 
 
+def pattern(kind: str) -> str:
+    """A regular expression (ECMA and Python) that every quantity of a kind matches, for editors and JSON Schema."""
+    known = "|".join(sorted(UNITS[kind], key=len, reverse=True))
+    number = _NUMBER if kind == "length" else _NUMBER.replace("[-+]?", r"\+?", 1)  # only a place can lie below 0
+    piece = rf"\s*{number}\s*(?:{known})\s*"
+    pieces = f"(?:{piece})+" if kind in ("time", "length") else piece
+    return rf"^(?:{pieces}|\s*{_CLOCK.pattern}\s*)$" if kind == "time" else f"^{pieces}$"
+
+
 def _pieces(text: str, kind: str) -> list[tuple[str, str]]:
     """The (number, unit) pairs of a text; every unit is known and of this kind."""
     if _DECIMAL_COMMA.match(text):

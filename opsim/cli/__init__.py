@@ -9,11 +9,15 @@ from opsim.cli.verbs import Verbs
 @click.group(
     cls=Verbs,
     verbs={
+        "init": "opsim.cli.init",
         "check": "opsim.cli.check",
         "run": "opsim.cli.run",
         "compare": "opsim.cli.compare",
         "warm-up": "opsim.cli.warm_up",
+        "fit": "opsim.cli.fit",
         "motion": "opsim.cli.motion",
+        "schema": "opsim.cli.schema",
+        "doctor": "opsim.cli.doctor",
     },
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )

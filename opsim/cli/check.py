@@ -8,6 +8,8 @@ import click
 
 from opsim.cli.verbs import mistakes
 
+MOST_ROWS = 60
+
 
 @click.command("check")
 @click.argument("file")
@@ -56,7 +58,15 @@ def _print_loads(variant: str, loads: list[Any]) -> None:
     from opsim.cli.console import print_table
 
     columns = ("station", "servers", "work a visit", "visits a job", "most per h", "arrivals per h", "load")
-    print_table(f"{variant}: load of the stations, from mean times", columns, [_cells(load) for load in loads])
+    shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_ROWS]
+    print_table(f"{variant}: load of the stations, from mean times", columns, [_cells(load) for load in shown])
+    if len(loads) > MOST_ROWS:
+        click.echo(f"{variant}: the {MOST_ROWS} busiest of {len(loads)} stations are shown; --json has them all\n")
+
+
+def _spare(load: Any) -> float:
+    """Small for the busiest: by load or, where release is saturated, by the jobs that can pass at most."""
+    return load.most_per_h / load.visits if load.visits else float("inf")
 
 
 def _cells(load: Any) -> tuple[str, ...]:

@@ -13,6 +13,8 @@ from opsim.clock import LONGEST_S, STEP_S
 from opsim.problems import shown
 
 _NAME = re.compile(r"[\w][\w \-]*")
+NAME_PATTERN = r"^[^\s!-/:-@\[-^`{-~][^!-,./:-@\[-^`{-~]*$"
+"""What a name may look like, for editors: as ``is_name``, with every letter outside ASCII allowed."""
 
 
 def plain_error(message: str, hint: str = "", *, on: str | int | None = None) -> PydanticCustomError:
@@ -48,10 +50,9 @@ def _quantity(
 
 
 def _as_text(kind: str) -> WithJsonSchema:
-    """In the file a quantity is text; editors should know."""
-    known = ", ".join(units.UNITS[kind])
+    """In the file a quantity is text; editors should know. ``quantity`` is read and taken out by ``json_schema``."""
     return WithJsonSchema(
-        {"type": "string", "description": f"a {kind} with its unit ({known})", "examples": [units.EXAMPLES[kind]]}
+        {"type": "string", "pattern": units.pattern(kind), "examples": [units.EXAMPLES[kind]], "quantity": kind}
     )
 
 

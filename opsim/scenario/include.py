@@ -11,7 +11,8 @@ from opsim.files import NotInside, inside
 from opsim.problems import Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.merging import laid_over
 from opsim.scenario.positions import Node, Part, Place, Source, child, entries, items, problem
-from opsim.scenario.yaml_nodes import Budget, read_bytes, read_tree
+from opsim.scenario.yaml_nodes import Budget, read_tree
+from opsim.scenario.yaml_text import read_bytes
 from opsim.shipped import shipped_folder
 
 MOST_INCLUDES = 100

@@ -82,6 +82,9 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         return f"expected a finite number, {found}", ""
     if kind in ("too_short", "too_long"):
         return _wrong_number(kind, ctx), ""
+    if kind in ("string_too_short", "string_too_long"):
+        words = "at least one character" if kind == "string_too_short" else f"at most {ctx['max_length']} characters"
+        return f"expected {words}, {found}", ""
     return f"cannot be read, {found}", ""
 
 

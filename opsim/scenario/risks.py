@@ -12,7 +12,7 @@ from opsim.scenario.schema import Scenario
 
 def risks_of(scenario: Scenario) -> list[str]:
     """Every warning in a sentence."""
-    return [*_locks(scenario), *_unused_patrols(scenario), *_unused_paths(scenario)]
+    return [*_locks(scenario), *_held(scenario), *_unused_patrols(scenario), *_unused_paths(scenario)]
 
 
 def _unused_paths(scenario: Scenario) -> Iterator[str]:
@@ -41,6 +41,32 @@ def _locks(scenario: Scenario) -> Iterator[str]:
         )
 
 
+def _held(scenario: Scenario) -> Iterator[str]:
+    """Workers who stay with a blocked job, all of them, in front of a full station that waits for one of them."""
+    if scenario.allocation.when_blocked != "held":
+        return
+    ways = _ways(scenario)
+    for name in sorted(scenario.stations, key=natural_key):
+        people = _workers_of(scenario, name)
+        feeders = [other for other in scenario.stations if name in ways.get(other, ()) and _workers_of(scenario, other)]
+        free = people - {worker for other in feeders for worker in _workers_of(scenario, other)}
+        n_held = sum(scenario.stations[other].servers for other in feeders)
+        if scenario.stations[name].buffer is not None and people and not free and n_held >= len(people):
+            who = _and(sorted(people, key=natural_key))
+            before = _and(sorted(feeders, key=natural_key))
+            yield (
+                f"with when_blocked: held, {who} can all be held at {before} while {name} is full and waits for one of "
+                f"them: then nothing moves any more; take 'when_blocked: free', or let somebody work at {name} alone"
+            )
+
+
+def _workers_of(scenario: Scenario, station: str) -> set[str]:
+    """Who can work at a station; nobody where everything there is automatic."""
+    if all(scenario.tasks[task].automatic for task in scenario.stations[station].tasks):
+        return set()
+    return {name for name, worker in scenario.workers.items() if station in worker.skills}
+
+
 def _ways(scenario: Scenario) -> dict[str, set[str]]:
     """Where jobs may go from each station."""
     ways: dict[str, set[str]] = {}
@@ -58,5 +84,7 @@ def _one_of(step: str | list[str]) -> list[str]:
 
 
 def _and(names: list[str]) -> str:
+    if len(names) == 1:
+        return names[0]
     listed = names if len(names) <= 6 else [*names[:5], f"{len(names) - 5} more"]
     return f"{', '.join(listed[:-1])} and {listed[-1]}"

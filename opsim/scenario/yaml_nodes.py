@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import yaml
@@ -17,10 +16,10 @@ import yaml
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario import yaml_words
 from opsim.scenario.positions import Node, Part, Place, Source, problem
+from opsim.scenario.yaml_text import decoded
 
 DEEPEST = 30
-MOST_NODES = 250_000
-MOST_BYTES = 8_000_000
+MOST_NODES = 200_000
 
 _Parser: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
@@ -55,18 +54,9 @@ class Budget:
     n_nodes: int = 0
 
 
-def read_bytes(file: Path) -> bytes:
-    """What stands in a file, as far as a scenario may be long. Raises ScenarioError where it cannot be read."""
-    try:
-        with file.open("rb") as opened:
-            return opened.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise ScenarioError([Problem(str(file), 0, 0, "", f"cannot be read: {error.strerror}")]) from None
-
-
 def read_tree(raw: bytes, file: str, budget: Budget | None = None) -> tuple[Node, list[Problem]]:
     """The tree of a file and what is wrong with its keys. Raises ScenarioError where no tree can be had at all."""
-    text = _decoded(raw, file)
+    text = decoded(raw, file)
     source = Source(file, tuple(text.splitlines()))
     parser = _Parser(text)
     try:
@@ -77,41 +67,6 @@ def read_tree(raw: bytes, file: str, budget: Budget | None = None) -> tuple[Node
         raise ScenarioError([Problem(file, 0, 0, "", "this is not YAML")]) from None
     finally:
         parser.dispose()
-
-
-def _decoded(raw: bytes, file: str) -> str:
-    """The file as text: UTF-8, or UTF-16 with its mark; anything else is refused with the place of the bad byte."""
-    if len(raw) > MOST_BYTES:
-        big = f"the file is larger than {MOST_BYTES / 1e6:.0f} MB, the most a scenario may have"
-        raise ScenarioError([Problem(file, 0, 0, "", big)])
-    utf16 = raw[:2] in (b"\xff\xfe", b"\xfe\xff")
-    try:
-        text = raw.decode("utf-16" if utf16 else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        if b"\0" in raw:
-            raise ScenarioError([_binary(file)]) from None
-        before = raw[: error.start].decode("utf-8-sig", "replace")
-        place = _place_at(before + "\N{REPLACEMENT CHARACTER}", len(before), file)
-        found = f"byte 0x{raw[error.start]:02x} is not UTF-8 text"
-        raise ScenarioError([problem(place, "", found, "save the file as UTF-8")]) from None
-    bad = yaml_words.NOT_PRINTABLE.search(text)
-    if bad is not None and bad[0] == "\0":
-        raise ScenarioError([_binary(file)])
-    if bad is not None:
-        found = f"a control character (U+{ord(bad[0]):04X}) stands here"
-        raise ScenarioError([problem(_place_at(text, bad.start(), file), "", found, "remove it")])
-    return text
-
-
-def _binary(file: str) -> Problem:
-    return Problem(file, 0, 0, "", "this is a binary file, not a scenario", "a scenario is a YAML text file")
-
-
-def _place_at(text: str, index: int, file: str) -> Place:
-    before = text[:index]
-    line = len((before + "x").splitlines()) - 1
-    last = (before + "x").splitlines()[-1]
-    return Place(Source(file, tuple(text.splitlines())), line, len(last) - 1)
 
 
 class _Builder:
@@ -145,7 +100,8 @@ class _Builder:
         self.count(1, place, path)
         value: Any
         if isinstance(event, yaml.ScalarEvent):
-            value = scalar(event.value) if event.implicit[0] and not event.style else self.clean(event.value, place)
+            text = self.clean(event.value, place)
+            value = scalar(text) if event.implicit[0] and not event.style else text
         elif len(path) >= DEEPEST:
             raise self.stop(place, path[:3], f"blocks inside blocks, more than {DEEPEST} deep", "")
         elif isinstance(event, yaml.SequenceStartEvent):

@@ -58,3 +58,9 @@ def test_any_bytes_are_times_or_a_recorded_error(tmp_path_factory, raw):
         assert min(read_times(path)) > 0
     except RecordedError as error:
         assert error.message
+
+
+def test_a_file_too_large_to_be_times_is_refused_unread(tmp_path, monkeypatch):
+    monkeypatch.setattr("opsim.recorded.MOST_BYTES", 10)
+    with pytest.raises(RecordedError, match=r"'times.csv' is larger than 0 MB"):
+        times(tmp_path, "duration_s\n1\n2\n")

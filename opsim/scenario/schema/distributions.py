@@ -22,7 +22,7 @@ def _cv(value: float) -> float:
 
 MEAN = Field(alias="mean", description="mean over all workers", examples=["20 s"])
 SHARE = Field(0.0, ge=0, le=1, description="share of the variance of log time, ln(1 + cv^2), between workers")
-Cv = Annotated[float, AfterValidator(_cv), Field(ge=0, le=10, description="sd / mean; 0: always the same time")]
+Cv = Annotated[float, Field(ge=0, le=10, description="sd / mean; 0: always the same time"), AfterValidator(_cv)]
 
 
 def between_words(between_share: float) -> str:

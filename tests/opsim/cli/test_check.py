@@ -1,4 +1,5 @@
 import json
+import time
 
 import pytest
 
@@ -57,3 +58,45 @@ def test_a_route_that_may_lock_is_warned_of(tmp_path):
     code, _, complaint = opsim("check", path)
     assert code == 0 and "warning: base: press and saw send jobs round in a circle" in complaint
     assert "send jobs round" in json.loads(opsim("check", path, "--json")[1])["warnings"]["base"][0]
+
+
+def many_stations(n):
+    """A scenario of some 8 n lines, one of its variants an override away."""
+    ranks = range(n)
+    return "\n".join(
+        [
+            "opsim: 1",
+            "name: Many stations",
+            "run: {horizon: 8 h}",
+            "layout:",
+            "  places:",
+            *(f"    p{i}: [{i} m, {i % 7} m]" for i in ranks),
+            "tasks:",
+            *(f"  t{i}: {{dist: lognormal, mean: {10 + i % 20} s, cv: 0.25, between_share: 0.5}}" for i in ranks),
+            "stations:",
+            *(f"  s{i}:\n    at: p{i}\n    tasks: [t{i}]\n    servers: 1\n    buffer: 3" for i in ranks),
+            "products:",
+            "  part: {route: [" + ", ".join(f"s{i}" for i in ranks) + "]}",
+            "release: {kind: poisson, every: 55 s}",
+            "workers:",
+            *(f"  w{i}: {{skills: {{s{i}: 1.0, s{(i + 1) % n}: 0.9}}}}" for i in ranks),
+            "overrides: {wider: {stations.s1.buffer: 9}}",
+            "scenarios: {base: [], wide: [wider]}",
+        ]
+    )
+
+
+def test_a_file_of_4000_lines_is_checked_before_it_costs_much(tmp_path):
+    text = many_stations(500)
+    assert len(text.splitlines()) > 4000
+    path = line(tmp_path, text)
+    start = time.process_time()
+    code, shown, _ = opsim("check", path)
+    assert time.process_time() - start < 5  # a square law would take minutes; the benchmark asks for 1 s
+    assert code == 0 and "no problems found in variants base, wide" in shown
+
+
+def test_of_many_stations_the_busiest_are_shown(tmp_path):
+    _, shown, _ = opsim("check", line(tmp_path, many_stations(80)))
+    assert "the 60 busiest of 80 stations are shown" in shown
+    assert " s19 " in shown and " s20 " not in shown

@@ -28,7 +28,7 @@ VERBS = dict(verbs())
 
 def test_the_verbs_are_these():
     assert set(VERBS) == {
-        *(("check",), ("run",), ("compare",), ("warm-up",)),
+        *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",), ("schema",), ("doctor",)),
         *(("motion", "fit"), ("motion", "sample"), ("motion", "show")),
     }
 
@@ -44,7 +44,9 @@ def test_every_verb_has_help_and_json(words):
     assert any("--json" in option.opts for option in VERBS[words].params)
 
 
-@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["check", "--help"], ["motion", "fit", "--help"]])
+@pytest.mark.parametrize(
+    "words", [["--help"], ["run", "--help"], ["init", "--help"], ["doctor", "--help"], ["motion", "fit", "--help"]]
+)
 def test_help_imports_nothing_heavy(words):
     look = (
         "import sys\nfrom opsim.cli import main\n"
@@ -65,7 +67,7 @@ def test_the_version_is_that_of_the_package():
     [
         (["rum"], "did you mean 'run'?"),
         (["motion", "sampel"], "did you mean 'sample'?"),
-        (["xyzzy"], "known: check, run, compare, warm-up, motion"),
+        (["xyzzy"], "known: init, check, run, compare, warm-up, fit, motion, schema, doctor"),
         (["run"], "Missing argument 'FILE'"),
         (["run", "x.yaml", "--replications", "0"], "--replications"),
         (["run", "x.yaml", "--seed", "-1"], "--seed"),

@@ -155,9 +155,9 @@ def test_a_mistake_in_an_included_file_is_said_in_that_file(folder):
         ),
         (
             {"line": "include: [a.yaml]\n" + GOOD, "a": "libraries: {moves: ../moves.npz}\n"},
-            "a.yaml:1:20: libraries.moves: cannot use '../moves.npz': the file must lie in the scenario's folder or below "
-            "it\n     1 | libraries: {moves: ../moves.npz}\n       |                    ^ copy the library there\n"
-            "1 problem in a.yaml",
+            "a.yaml:1:20: libraries.moves: cannot use '../moves.npz': the file must lie in the scenario's folder "
+            "or below it\n     1 | libraries: {moves: ../moves.npz}\n       |                    ^ copy the "
+            "library there\n1 problem in a.yaml",
         ),
     ],
     ids=["missing", "above", "absolute", "circle", "itself", "list", "broken", "library"],
@@ -175,7 +175,7 @@ MANY = {f"f{n}": f"include: [{', '.join(f'f{m}.yaml' for m in range(n))}]\n" for
 @pytest.mark.parametrize(
     ("files", "said"),
     [
-        ({"line": "include: [a.yaml, b.yaml, c.yaml]\n", "a": BOMB, "b": BOMB, "c": BOMB}, "more than 250,000 values"),
+        ({"line": "include: [a.yaml, b.yaml, c.yaml]\n", "a": BOMB, "b": BOMB, "c": BOMB}, "more than 200,000 values"),
         ({"line": "include: [f19.yaml]\n", "f0": "name: x\n", **MANY}, "more than 100 includes"),
         ({"line": f"include: [{', '.join(['a.yaml'] * 1000)}]\n", "a": "name: x\n"}, "more than 100 includes"),
     ],
@@ -183,6 +183,6 @@ MANY = {f"f{n}": f"include: [{', '.join(f'f{m}.yaml' for m in range(n))}]\n" for
 )
 def test_includes_without_end_are_refused_quickly(folder, files, said):
     file = folder(**files)
-    start = time.perf_counter()
+    start = time.process_time()
     assert said in refused(file)
-    assert time.perf_counter() - start < 2
+    assert time.process_time() - start < 5  # a square law would take minutes

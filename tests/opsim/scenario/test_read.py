@@ -9,13 +9,16 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from opsim import libraries
+from opsim.plan import compile_plan, station_loads
 from opsim.problems import ScenarioError
 from opsim.scenario import Scenario, read_scenarios
 from opsim.scenario.read import scenarios_in
+from opsim.scenario.risks import risks_of
 from opsim.tasks import Erlang, Lognormal, Recorded, task_model, time_model
 
 HERE = Path(__file__).parent
 GOOD = (HERE / "good.yaml").read_text(encoding="utf-8")
+EVERYTHING = (HERE / "everything.yaml").read_text(encoding="utf-8")
 TASKS = ("deep_squat", "side_lunge", "shoulder_scaption")
 
 
@@ -199,12 +202,12 @@ def test_a_file_of_4000_lines_is_checked_within_a_second():
     skills = ", ".join(f"s{i}: 1.0" for i in range(1000))
     text = GOOD.replace("stations:\n", f"stations:\n{stations}").replace("{pack: 1.1}", f"{{pack: 1.1, {skills}}}")
     for wrong in (text, text.replace("at: bench\n", "at: bensh\n")):
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             scenarios_in(wrong.encode(), Path("line.yaml"))
         except ScenarioError as error:
             assert error.problems
-        assert time.perf_counter() - start < 1
+        assert time.process_time() - start < 1  # 0.1 s on a machine of 2026
 
 
 def test_a_folder_is_not_a_scenario(tmp_path):
@@ -213,9 +216,10 @@ def test_a_folder_is_not_a_scenario(tmp_path):
 
 
 def read_or_refuse(raw):
-    """Reading ends in scenarios or in a ScenarioError that can be printed; anything else fails the test."""
+    """Reading ends in scenarios that can be planned, or in a ScenarioError that can be printed; else the test fails."""
     try:
-        assert scenarios_in(raw, Path("line.yaml"))
+        for loaded in scenarios_in(raw, Path("line.yaml")).values():
+            assert station_loads(compile_plan(loaded)) and risks_of(loaded.scenario) is not None
     except ScenarioError as error:
         assert error.problems and str(error).splitlines()[-1].split()[1].startswith("problem")
         assert all(problem.message for problem in error.problems)
@@ -255,15 +259,27 @@ def test_a_good_file_with_a_slip_of_the_pen_is_read_or_refused(at, length, piece
     read_or_refuse((GOOD[:at] + piece + GOOD[at + length :]).encode("utf-8", "replace"))
 
 
-@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow], deadline=None)
-@given(st.data())
-def test_a_good_file_with_any_value_replaced_is_read_or_refused(data):
-    tree = yaml.safe_load(GOOD)
+def test_every_word_of_the_language_is_read():
+    both = scenarios_in(EVERYTHING.encode(), Path("line.yaml"))["both"].scenario
+    assert len({type(task) for task in both.tasks.values()}) == 12
+    assert both.workers["cai"] == both.workers["ben"] and both.workers["ben"].skills["pack"] == 0.9
+    assert (both.workers["ana"].walk_m_per_s, both.workers["ana"].patrol) == (1.1, ["unload", "pack"])
+
+
+ODD_TEXTS = st.sampled_from(["0 s", "1e-6 s", "8589934592 s", "1e6 m", "0.01 m/s", "out", "start", "unlimited", "1/3"])
+ODD = st.none() | st.booleans() | st.integers() | st.floats() | ODD_TEXTS | st.text(max_size=5)
+
+
+@pytest.mark.parametrize("text", [GOOD, EVERYTHING], ids=["good", "everything"])
+@settings(max_examples=90, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(data=st.data())
+def test_a_good_file_with_any_value_replaced_is_read_or_refused(text, data):
+    tree = yaml.safe_load(text)
     block, key = tree, None
     while isinstance(block, dict | list) and block and (key is None or data.draw(st.booleans())):
         parent = block
         key = data.draw(st.sampled_from(sorted(block) if isinstance(block, dict) else list(range(len(block)))))
         block = parent[key]
-    odd = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5)
-    parent[key] = data.draw(odd | st.lists(odd, max_size=3) | st.dictionaries(st.text(max_size=5), odd, max_size=3))
+    lists, blocks = st.lists(ODD, max_size=3), st.dictionaries(st.text(max_size=5), ODD, max_size=3)
+    parent[key] = data.draw(ODD | lists | blocks)
     read_or_refuse(yaml.safe_dump(tree, allow_unicode=True).encode())

@@ -68,3 +68,29 @@ def test_rework_by_probability_through_a_finite_buffer_may_lock():
 def test_a_patrol_while_idle_workers_stay_is_said_to_mean_nothing():
     (risk,) = risks(("release:", "workers: {ana: {skills: {cut: 1}, patrol: [cut]}}\nrelease:"))
     assert risk == "ana has a patrol, which means nothing while idle workers stay"
+
+
+HELD = [
+    ("fixed: 3 s, automatic: true", "fixed: 3 s"),
+    ("release:", "allocation: {when_blocked: held}\nworkers: {ana: {skills: {cut: 1, drill: 1, out: 1}}}\nrelease:"),
+]
+
+
+def test_one_worker_held_between_two_stations_may_lock():
+    first, second = risks(*HELD)
+    assert first.startswith("with when_blocked: held, ana can all be held at cut while drill is full")
+    assert second.startswith("with when_blocked: held, ana can all be held at drill while out is full")
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [
+        ("when_blocked: held", "when_blocked: free"),
+        ("{ana: {", "{ben: {skills: {drill: 1}}, cai: {skills: {out: 1}}, ana: {"),
+        ("buffer: 2", "buffer: unlimited"),
+    ],
+    ids=["free", "others", "room"],
+)
+def test_nobody_is_held_for_ever(edit):
+    edits = [*HELD, edit] if edit[0] != "buffer: 2" else [*HELD, edit, ("kind: saturated", "kind: poisson, every: 9 s")]
+    assert risks(*edits) == []

@@ -1,0 +1,75 @@
+"""``opsim init``: a scenario to begin with, a copy of a shipped one, and the schema by which editors help with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from opsim.cli.verbs import Mistake, mistakes
+
+DEFAULT = "repack_cell"
+
+
+@click.command("init")
+@click.argument("template", required=False)
+@click.option("-o", "--out", type=click.Path(path_type=Path), help="File to write.  [default: the template's name]")
+@click.option("--list", "only_list", is_flag=True, help="Show the templates, write nothing.")
+@click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
+def command(template: str | None, out: Path | None, only_list: bool, as_json: bool) -> None:
+    """Begin a scenario from a TEMPLATE: one of the shipped scenarios.  [default: repack_cell]"""
+    from opsim.cli.console import print_json, print_table
+
+    templates = _templates()
+    if only_list:
+        rows = [(name, _first_words(text)) for name, text in templates.items()]
+        if as_json:
+            print_json({"templates": dict(rows)})
+        else:
+            print_table("templates", ("name", "what it is"), rows, words=2)
+        return
+    name = _known(DEFAULT if template is None else template.removesuffix(".yaml"), templates)
+    out = Path(f"{name}.yaml") if out is None else out
+    with mistakes(OSError):
+        schema = _write(out, templates[name])
+    if as_json:
+        print_json({"scenario": str(out), "template": name, "schema": str(schema)})
+        return
+    click.echo(f"scenario {out}, from {name}")
+    click.echo(f"schema {schema}, for editors")
+    click.echo(f"next: opsim check {out}")
+
+
+def _templates() -> dict[str, str]:
+    from opsim.shipped import shipped_folder, shipped_scenarios
+
+    return {name: (shipped_folder() / f"{name}.yaml").read_text(encoding="utf-8") for name in shipped_scenarios()}
+
+
+def _known(name: str, templates: dict[str, str]) -> str:
+    from opsim.problems import did_you_mean, shown
+
+    if name not in templates:
+        raise Mistake(f"no template {shown(name)}; {did_you_mean(name, templates, otherwise='templates')}")
+    return name
+
+
+def _write(out: Path, text: str) -> Path:
+    """The scenario with its schema beside it; a file that is there is never written over."""
+    from opsim.scenario.json_schema import FILE_NAME, schema_text
+    from opsim.whole import write_text
+
+    if out.exists():
+        raise Mistake(f"{out} is there already; name another file with -o, or remove it")
+    schema = out.parent / FILE_NAME
+    if not schema.exists():
+        write_text(schema, schema_text())
+    lines = [line for line in text.splitlines() if not line.startswith("# yaml-language-server:")]
+    write_text(out, "\n".join([f"# yaml-language-server: $schema=./{FILE_NAME}", *lines]) + "\n")
+    return schema
+
+
+def _first_words(text: str) -> str:
+    """What a template says of itself: its first comment."""
+    comments = (line.removeprefix("# ") for line in text.splitlines() if line.startswith("# "))
+    return next((line for line in comments if not line.startswith("yaml-language-server")), "")

@@ -1,0 +1,136 @@
+"""The schema for editors accepts what the reader accepts, and finds what can be found without looking names up.
+
+It was also tried with the jsonschema package and with yaml-language-server 1.25; neither is needed here.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from opsim import units
+from opsim.problems import ScenarioError
+from opsim.scenario.fields import NAME_PATTERN, is_name
+from opsim.scenario.json_schema import FILE_NAME, json_schema, schema_text
+from opsim.scenario.read import scenarios_in
+from opsim.shipped import shipped_folder
+from tests.json_schema import complaints
+
+HERE = Path(__file__).parent
+GOOD = (HERE / "good.yaml").read_text(encoding="utf-8")
+SCHEMA = json_schema()
+FILES = sorted(
+    [*shipped_folder().glob("*.yaml"), *(HERE.parents[1] / "known_answers").glob("*.yaml"), *HERE.glob("*.yaml")]
+)
+
+
+def wrong(text):
+    return list(complaints(yaml.safe_load(text), SCHEMA))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_scenarios_that_are_right_are_right_for_the_editor(file):
+    assert not wrong(file.read_text(encoding="utf-8"))
+
+
+def test_the_shipped_schema_is_this_one_and_the_shipped_scenarios_name_it():
+    assert (shipped_folder() / FILE_NAME).read_text(encoding="utf-8") == schema_text()
+    for file in shipped_folder().glob("*.yaml"):
+        first = file.read_text(encoding="utf-8").splitlines()[0]
+        assert first == f"# yaml-language-server: $schema=./{FILE_NAME}"
+
+
+def with_task(task):
+    return GOOD.replace("{fixed: 3 s, load: 6 kg}", f"{{{task}}}")
+
+
+RIGHT = [
+    with_task("dist: normal, mean: 3 s, sd: 1 s"),
+    with_task("dist: empirical, values: [3 s, 00:00:04]"),
+    GOOD.replace("{kind: poisson, every: 55 s}", "{kind: renewal, every: {dist: erlang, mean: 55 s, k: 2}}"),
+    GOOD.replace("route: [pack]", "routing: {start: pack, pack: {pack: 1/3, out: 2/3}}"),
+    GOOD.replace("route: [pack]", "route: [[pack, pack], pack]"),
+    GOOD.replace("buffer: 4", "buffer: unlimited"),
+    GOOD.replace(
+        "  places:", "  distance: paths\n  paths: [[door, bench], {from: door, to: bench, length: 3 m}]\n  places:"
+    ),
+    GOOD.replace("tasks:\n", "defaults: {tasks: {load: 3 kg}, workers: {walk: 1 m/s}}\ntasks:\n"),
+    "opsim: 1\ninclude: common.yaml\nworkers: {ana: {walk: 1 m/s}}\n",
+    GOOD.replace("[0 m, 0 m]", "[-2 m, 1 ft 3 in]"),
+]
+WRONG = [
+    (GOOD.replace("horizon: 8 h", "horizon: 8"), ".run.horizon: not a string"),
+    (GOOD.replace("horizon: 8 h", "horizon: 8 hours"), ".run.horizon: '8 hours' does not look right"),
+    (GOOD.replace("servers: 2", "server: 2"), ".stations.pack: unknown key server"),
+    (GOOD.replace("at: bench, ", ""), ".stations.pack: at is missing"),
+    (GOOD.replace("name: One bench\n", ""), ": name is missing"),
+    (GOOD.replace("walked_m", "walked"), ".outputs[0]: 'walked' is not among"),
+    (GOOD.replace("start: Mon 06:00", "start: '06:00'"), ".run.start: '06:00' does not look right"),
+    (GOOD.replace("{pack: 1.1}", "{pack: 11}"), ".workers.ana.skills.pack: 11 is beyond 10"),
+    (GOOD.replace("{route: [pack]}", "{share: 1}"), ".products.carton: none of 2 fits"),
+    (with_task("dist: lognormal, mean: 3 s"), ".tasks.lift: none of"),
+    (with_task("dist: lognormall, mean: 3 s, cv: 0.2"), ".tasks.lift: none of"),
+    (with_task("fixed: 3 kg"), ".tasks.lift: none of"),
+    (GOOD.replace("  ben:", "  'be.n':"), ".workers.be.n: 'be.n' does not look right"),
+]
+
+
+@pytest.mark.parametrize("text", RIGHT)
+def test_the_editor_accepts_every_form(text):
+    assert not wrong(text)
+
+
+@pytest.mark.parametrize(("text", "said"), WRONG, ids=[said for _, said in WRONG])
+def test_the_editor_finds_what_is_wrong(text, said):
+    assert any(one.startswith(said) for one in wrong(text)), wrong(text)
+
+
+def test_every_key_says_what_it_is():
+    keys = [
+        (name, key, one) for name, model in SCHEMA["definitions"].items() for key, one in model["properties"].items()
+    ]
+    keys += [("", key, one) for key, one in SCHEMA["properties"].items()]
+    assert not [(name, key) for name, key, one in keys if "description" not in one and key != "dist"]
+
+
+def test_examples_and_defaults_are_what_the_schema_allows():
+    for model in SCHEMA["definitions"].values():
+        for key, one in model["properties"].items():
+            for value in [*one.get("examples", []), *([one["default"]] if "default" in one else [])]:
+                told = {word: said for word, said in one.items() if word not in ("examples", "default")}
+                assert not list(complaints(value, told, SCHEMA)), (key, value)
+
+
+@given(st.sampled_from(sorted(units.UNITS)), st.text("0123456789.:+-eE smhind/kgft", max_size=12))
+def test_what_is_read_as_a_quantity_looks_like_one(kind, text):
+    try:
+        size = units.parse(text, kind)
+    except units.UnitError:
+        return
+    told = {"pattern": units.pattern(kind)}
+    assert fine(text, told) or (size <= 0 and kind != "length")
+
+
+@given(st.text(max_size=12))
+def test_what_can_be_a_name_looks_like_one(text):
+    assert fine(text, {"pattern": NAME_PATTERN}) or not is_name(text)
+
+
+def fine(value, schema):
+    return not list(complaints(value, schema))
+
+
+def test_the_reader_agrees_that_the_right_ones_are_right():
+    for text in RIGHT:
+        if "include" not in text:
+            scenarios_in(text.encode(), Path("line.yaml"))
+    for text, _ in WRONG:
+        with pytest.raises(ScenarioError):
+            scenarios_in(text.encode(), Path("line.yaml"))
+
+
+def test_the_schema_is_plain_json():
+    assert json.loads(schema_text()) == SCHEMA
