@@ -33,19 +33,18 @@ def _locks(scenario: Scenario) -> Iterator[str]:
     finite = {name for name, station in scenario.stations.items() if station.buffer is not None}
     onward = {name: ways.get(name, set()) & finite for name in finite}
     for names in sorted(sorted(ring, key=natural_key) for ring in rings(onward)):
-        who = f"{names[0]} sends" if len(names) == 1 else f"{_and(names)} send"
-        back = "back to itself" if len(names) == 1 else "round in a circle"
-        yield (
-            f"{who} jobs {back} through buffers with limits: when all are full, nothing moves any more; "
-            f"give one of them 'buffer: unlimited'"
-        )
+        if len(names) > 1:  # a job that comes back to its own station keeps its place there
+            yield (
+                f"{_and(names)} send jobs round in a circle through buffers with limits: when all are full, nothing "
+                f"moves any more; give one of them 'buffer: unlimited'"
+            )
 
 
 def _held(scenario: Scenario) -> Iterator[str]:
     """Workers who stay with a blocked job, all of them, in front of a full station that waits for one of them."""
-    if scenario.allocation.when_blocked != "held":
-        return
-    ways = _ways(scenario)
+    held = scenario.allocation.when_blocked == "held"
+    why, remedy = ("when_blocked: held", "'when_blocked: free'") if held else ("carried: true", "'carried: false'")
+    ways = _ways(scenario, only_carried=not held)
     for name in sorted(scenario.stations, key=natural_key):
         people = _workers_of(scenario, name)
         feeders = [other for other in scenario.stations if name in ways.get(other, ()) and _workers_of(scenario, other)]
@@ -55,8 +54,8 @@ def _held(scenario: Scenario) -> Iterator[str]:
             who = _and(sorted(people, key=natural_key))
             before = _and(sorted(feeders, key=natural_key))
             yield (
-                f"with when_blocked: held, {who} can all be held at {before} while {name} is full and waits for one of "
-                f"them: then nothing moves any more; take 'when_blocked: free', or let somebody work at {name} alone"
+                f"with {why}, {who} can all be held at {before} while {name} is full and waits for one of "
+                f"them: then nothing moves any more; take {remedy}, or let somebody work at {name} alone"
             )
 
 
@@ -67,10 +66,10 @@ def _workers_of(scenario: Scenario, station: str) -> set[str]:
     return {name for name, worker in scenario.workers.items() if station in worker.skills}
 
 
-def _ways(scenario: Scenario) -> dict[str, set[str]]:
+def _ways(scenario: Scenario, only_carried: bool = False) -> dict[str, set[str]]:
     """Where jobs may go from each station."""
     ways: dict[str, set[str]] = {}
-    for made in scenario.products.values():
+    for made in (made for made in scenario.products.values() if made.carried or not only_carried):
         for here, there in pairwise(made.route or ()):
             for a, b in product(_one_of(here), _one_of(there)):
                 ways.setdefault(a, set()).add(b)

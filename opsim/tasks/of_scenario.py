@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 def task_model(task: Any, loaded: Loaded) -> Any:
     """The TaskModel of a task of a scenario; an emulated one comes out of its library, ``cv: 0`` is a fixed time."""
-    from opsim.plugins import plugin_model
     from opsim.scenario import schema
 
     match task:
@@ -28,6 +27,8 @@ def task_model(task: Any, loaded: Loaded) -> Any:
             times = tuple(read_times(resolve_times(task.recorded, loaded.folder), task.column))
             return Empirical(times) if task.by == "smooth" else Recorded(times, by_index=task.by == "trace")
         case schema.Plugged():
+            from opsim.plugins import plugin_model
+
             return plugin_model(task.plugin, task.said)
         case _:
             return time_model(task)
