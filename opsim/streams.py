@@ -18,11 +18,33 @@ def stream(seed: int, replication: int, *name: str | int) -> np.random.Generator
     """The generator of one named thing, e.g. ``stream(7, 0, "duration", "lift", "ana", 0)``.
 
     Each part of the name enters the key as its 8-byte blake2b hash (two words of 32 bits).
-    Making one costs about 25 us: ask for a block, not for an item.
+    Making one costs about 10 us: ask for a block, not for an item.
     """
-    digest = b"".join(blake2b(str(part).encode(), digest_size=8).digest() for part in name)
-    words = np.frombuffer(digest, dtype="<u4").tolist()
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(replication, *words)))
+    return _generator(_key(seed, replication, name))
+
+
+def _generator(words: bytes) -> np.random.Generator:
+    """The generator of ``SeedSequence(seed, spawn_key=(replication, *hashes))``.
+
+    NOTE: numpy puts the words of a seed (with zeros, if there are fewer than four) and of a spawn key in one row.
+    Handed over as that row, they make the same generator in 40 % of the time.
+    """
+    row: Any = np.frombuffer(words, np.uint32)
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(row)))
+
+
+def _key(seed: int, replication: int, name: Sequence[str | int]) -> bytes:
+    return _words(seed, 4) + _words(replication, 1) + b"".join(map(_hashed, name))
+
+
+def _words(number: int, fewest: int) -> bytes:
+    """A whole number from 0 as words of 32 bits, the lowest first."""
+    n_words = max(fewest, -(-number.bit_length() // 32))
+    return np.frombuffer(number.to_bytes(4 * n_words, "little"), "<u4").astype(np.uint32).tobytes()
+
+
+def _hashed(part: str | int) -> bytes:
+    return np.frombuffer(blake2b(str(part).encode(), digest_size=8).digest(), "<u4").astype(np.uint32).tobytes()
 
 
 class Items:
@@ -31,7 +53,7 @@ class Items:
     ``draw(rng, block_number)`` computes block ``block_number`` whole and returns its 64 rows.
     """
 
-    __slots__ = ("_block", "_draw", "_first", "_name", "_replication", "_seed")
+    __slots__ = ("_block", "_draw", "_first", "_key")
 
     def __init__(
         self,
@@ -40,7 +62,8 @@ class Items:
         name: Sequence[str | int],
         draw: Callable[[np.random.Generator, int], Sequence[Any]],
     ):
-        self._seed, self._replication, self._name, self._draw = seed, replication, tuple(name), draw
+        self._draw = draw
+        self._key = _key(seed, replication, name)
         self._first = -BLOCK
         self._block: Sequence[Any] = ()
 
@@ -59,7 +82,7 @@ class Items:
 
     def block(self, number: int) -> Sequence[Any]:
         """The 64 items of one block."""
-        return self._draw(stream(self._seed, self._replication, *self._name, number), number)
+        return self._draw(_generator(self._key + _hashed(number)), number)
 
 
 class Scattered:

@@ -64,17 +64,8 @@ def day() -> str:
 def test_a_day_of_twenty_people_stays_below_500_mb(tmp_path):
     shutil.copy(LIBRARY, tmp_path)
     (tmp_path / "day.yaml").write_text(day())
-    run = [
-        sys.executable,
-        "-c",
-        "from opsim.cli import main; main()",
-        "run",
-        "day.yaml",
-        "-o",
-        "out",
-        "--processes",
-        "1",
-    ]
+    opsim = [sys.executable, "-c", "from opsim.cli import main; main()"]
+    run = [*opsim, "run", "day.yaml", "-o", "out", "--processes", "1"]
     call = [sys.executable, "-c", MEASURED, *run]
     printed = subprocess.run(call, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
     peak_mb, cpu_s, wall_s = json.loads(printed)

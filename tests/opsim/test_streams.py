@@ -1,3 +1,5 @@
+from hashlib import blake2b
+
 import numpy as np
 import pytest
 
@@ -35,3 +37,15 @@ def test_items_are_uniform_over_blocks():
     values = np.array([items[i] for i in range(64 * 100)])
     assert abs(values.mean() - 0.5) < 4 * np.sqrt(1 / 12 / values.size)
     assert abs(np.corrcoef(values[:-1], values[1:])[0, 1]) < 4 / np.sqrt(values.size)
+
+
+@pytest.mark.parametrize("seed", [0, 7, 2**32 - 1, 2**32, 2**100, 2**128, 2**200])
+@pytest.mark.parametrize("replication", [0, 3, 2**40])
+def test_a_stream_is_numpys_own_of_seed_and_spawn_key(seed, replication):
+    name = ("duration", "lift", 12)
+    hashed = b"".join(blake2b(str(part).encode(), digest_size=8).digest() for part in name)
+    sequence = np.random.SeedSequence(seed, spawn_key=(replication, *np.frombuffer(hashed, "<u4").tolist()))
+    wanted = np.random.default_rng(sequence).bit_generator.state
+    assert stream(seed, replication, *name).bit_generator.state == wanted
+    blocks = Items(seed, replication, name[:2], lambda rng, _: rng.bit_generator.state)
+    assert blocks.block(12) == wanted

@@ -23,9 +23,11 @@ def send_workers(floor: Floor) -> None:
 
 def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
     best = best_key = None
-    calling = floor.calling.items()
+    calling, calls = floor.calling.items(), floor.calls
     for worker in floor.free.values():
-        ratings = worker.plan.rating
+        if not worker.skills & calls:
+            continue
+        ratings = worker.rating
         for rank, station in calling:
             if ratings[rank] > 0 and (not patrols or _on_round(worker) == rank):
                 if best is None:
@@ -47,11 +49,13 @@ def _key(floor: Floor, worker: Worker, station: Station) -> tuple[float, ...]:
 
 
 def _send(floor: Floor, worker: Worker, station: Station) -> None:
-    log_worker(floor, worker)
+    if floor.now > worker.since_s:
+        log_worker(floor, worker)
     del floor.free[worker.rank]
     _since_s, _number, job = station.calling.pop(0)
     if not station.calling:
         del floor.calling[station.rank]
+        floor.calls ^= 1 << station.rank
     worker.job, worker.station = job, station
     walk_s = worker.walk_s[worker.place][station.rank]
     if walk_s > 0:

@@ -1,6 +1,5 @@
 """All luck of a replication, by name: durations, gaps between arrivals, product mix."""
 
-from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate
@@ -24,8 +23,8 @@ class Draws:
         release = plan.release
         gap = _exponential(release.every_s) if release.gap is None else _performed(release.gap, None)
         self._gaps = self._items(("interarrival", release.name), gap)
-        self._mix = self._items(("mix", release.name), _uniform)
-        self._cumulative = list(accumulate(product.share for product in plan.products))[:-1]
+        cumulative = list(accumulate(product.share for product in plan.products))[:-1]
+        self._mix = self._items(("mix", release.name), _ranks(cumulative)) if cumulative else None
         self._durations: dict[tuple[int, int], Items] = {}
         self._ways: dict[tuple[str, int], Scattered] = {}
 
@@ -56,9 +55,7 @@ class Draws:
 
     def product(self, n: int) -> int:
         """Rank of the product that the n-th job is."""
-        if not self._cumulative:
-            return 0
-        return bisect_right(self._cumulative, self._mix[n])
+        return 0 if self._mix is None else self._mix[n]
 
     def way(self, operation: str, visit: int, job: int) -> float:
         """A number in [0, 1) that decides where a job goes after an operation it leaves for the ``visit``-th time."""
@@ -90,6 +87,11 @@ def _performed(model, effect):
 @cache
 def _exponential(mean_s: float):
     return lambda rng, _block: rng.exponential(mean_s, BLOCK).tolist()
+
+
+def _ranks(cumulative: list[float]):
+    """How a block of ranks is drawn: rank i with probability cumulative[i] - cumulative[i - 1]."""
+    return lambda rng, _block: np.searchsorted(cumulative, rng.random(BLOCK), side="right").tolist()
 
 
 def _uniform(rng: np.random.Generator, _block: int) -> list[float]:

@@ -1,6 +1,7 @@
 """The floor: everything the processes share. Processes report; one settle step an instant does everything else."""
 
 from collections.abc import Callable, Mapping
+from heapq import heappush
 from math import nan
 from operator import itemgetter
 from typing import Any
@@ -10,7 +11,7 @@ import simpy
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.engine.simpy_engine.state import Gate, Job, Station, Worker
 from opsim.log import WORK, LogWriter, pack_row
-from opsim.plan import Plan
+from opsim.plan import Operation, Plan
 from opsim.plugins import dispatch_rule
 
 AFTER_EVERYTHING = 2
@@ -44,9 +45,10 @@ class Floor:
         self.workers = [_worker(env, plan, rank) for rank in range(len(plan.workers))]
         self.free = {worker.rank: worker for worker in self.workers}
         self.calling: dict[int, Station] = {}
+        self.calls = 0  # NOTE: bit r for calling[r], so that a worker who can serve none of them is passed over quickly
         self.gates = _gates(plan, self.stations)
         self.stirred: set[Gate] = set()
-        self.operation_rank = {name: rank for rank, name in enumerate(plan.operations)}
+        self.steps = _steps(plan, self.gates)
         self.rule = dispatch_rule(plan.rule)
         self.jobs: dict[int, Job] = {}
         self.n_released = 0
@@ -58,14 +60,16 @@ class Floor:
 
     def report(self, kind: int, rank: int, number: int, what: str, subject: Any) -> None:
         """Something happened now. It is applied in settle, in the order of (kind, natural rank, job number)."""
-        self._reports.append((kind, rank, number, what, subject))
-        if self._settle_pending:
-            return
-        if self.env.peek() > self.env.now:
+        env = self.env
+        queue = env._queue
+        if not self._settle_pending and (not queue or queue[0][0] > env._now):
             # NOTE: the instant has no other event, so this is its end already: saves an event in two.
-            self._settle()
-        else:
-            self.wake()
+            self.now = env._now
+            self._handlers[what](self, subject)
+            self._dispatch(self)
+            return
+        self._reports.append((kind, rank, number, what, subject))
+        self.wake()
 
     def wake(self) -> None:
         """Have this instant settled, once, after all its other events."""
@@ -78,10 +82,11 @@ class Floor:
         """``event`` happens after a delay.
 
         NOTE: what ``simpy.Timeout`` does, for an event that exists already: so a process waits for one event a stretch
-        instead of two (an order and a timeout).
+        instead of two (an order and a timeout). ``Environment.schedule`` is written out.
         """
         event._ok, event._value = True, None
-        self.env.schedule(event, priority, delay_s)  # type: ignore[arg-type]
+        env = self.env
+        heappush(env._queue, (env._now + delay_s, priority, next(env._eid), event))  # type: ignore[misc, arg-type]
         return event
 
     def _settle(self, _event: simpy.Event | None = None) -> None:
@@ -122,12 +127,11 @@ class Floor:
 
     def log_instant(self, kind: int, job: Job, cause: int = 0) -> None:
         """Write something that happened to a job at once."""
-        self.write(
-            pack_row(
-                *(kind, self.now, self.now, -1, -1, -1, -1, 0, job.number, job.product, job.operation_rank),
-                *(-1, -1, -1, nan, nan, nan, cause),
-            )
-        )
+        now = self.now
+        self.write(pack_row(
+            kind, now, now, -1, -1, -1, -1, 0, job.number, job.product, job.operation_rank,
+            -1, -1, -1, nan, nan, nan, cause,
+        ))  # fmt: skip
 
 
 def _station(plan: Plan, rank: int) -> Station:
@@ -141,7 +145,15 @@ def _worker(env: simpy.Environment, plan: Plan, rank: int) -> Worker:
     worker = plan.workers[rank]
     speed = worker.walk_m_per_s
     walk_s = tuple(tuple(row[station.place] / speed for station in plan.stations) for row in plan.distance_m)
-    return Worker(worker, rank, worker.place, simpy.Event(env), walk_s, {}, [0] * len(plan.tasks))
+    skills = sum(1 << rank for rank, rating in enumerate(worker.rating) if rating > 0)
+    event, next_k = simpy.Event(env), [0] * len(plan.tasks)
+    return Worker(worker, rank, worker.place, event, walk_s, worker.rating, skills, {}, next_k)
+
+
+def _steps(plan: Plan, gates: dict[tuple[int, ...], Gate]) -> list[list[tuple[Operation, int, Gate]]]:
+    """Of each product and step: the operation, its rank, and the gate in front of it."""
+    ranks = {name: rank for rank, name in enumerate(plan.operations)}
+    return [[(step, ranks[step.name], gates[step.stations]) for step in product.route] for product in plan.products]
 
 
 def _gates(plan: Plan, stations: list[Station]) -> dict[tuple[int, ...], Gate]:

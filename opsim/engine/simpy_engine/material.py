@@ -9,7 +9,7 @@ from opsim.engine.simpy_engine.station import seat
 from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
-from opsim.plan import Ways
+from opsim.plan import ProductPlan, Ways
 
 
 def create(floor: Floor) -> Job:
@@ -17,9 +17,8 @@ def create(floor: Floor) -> Job:
     number = floor.n_released
     rank = floor.draws.product(number)
     product = floor.plan.products[rank]
-    step = _first_step(floor, number)
-    first = product.route[step]
-    job = Job(number, rank, product, step, first, floor.operation_rank[first.name], HELD, GATE, floor.now)
+    step = _first_step(floor, number, product)
+    job = Job(number, rank, product, step, *floor.steps[rank][step], HELD, GATE, floor.now)
     floor.n_released += 1
     floor.next_gate = None
     floor.jobs[number] = job
@@ -30,14 +29,15 @@ def create(floor: Floor) -> Job:
 
 def operation_done(floor: Floor, job: Job) -> None:
     """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
-    step = _next_step(floor, job)
+    onward = job.plan.onward[job.step]
+    step = onward[0][1] if len(onward) == 1 else _drawn_step(floor, job, onward)
     if step < 0:
         _leave_station(floor, job)
         _leave_floor(floor, job, FINISH)
         return
     floor.job_now(job, BLOCKED)
-    job.step, job.operation = step, job.plan.route[step]
-    job.operation_rank = floor.operation_rank[job.operation.name]
+    job.step = step
+    job.operation, job.operation_rank, job.gate = floor.steps[job.product][step]
     _want_in(floor, job)
 
 
@@ -45,8 +45,9 @@ def admit(floor: Floor) -> None:
     """Let jobs in as long as a claim meets room; the oldest claim first."""
     while floor.stirred and (found := _first_claim(floor)) is not None:
         claim, gate = found
-        gate.claims.remove(claim)
-        if not gate.claims:
+        claims = gate.claims
+        claims.remove(claim)
+        if not claims:
             floor.stirred.discard(gate)
         _enter(floor, claim[2], gate)
 
@@ -69,24 +70,21 @@ def turn_away(floor: Floor) -> None:
 
 def _want_in(floor: Floor, job: Job) -> None:
     """The job claims a place at its next operation."""
-    gate = floor.gates[job.operation.stations]
+    gate = job.gate
     insort(gate.claims, (job.since_s, job.number, job))
     floor.stirred.add(gate)
 
 
-def _next_step(floor: Floor, job: Job) -> int:
+def _drawn_step(floor: Floor, job: Job, onward: Ways) -> int:
     """The step of the route that follows, -1 for the way out; drawn by job number and visit where there is a choice."""
-    onward = job.plan.onward[job.step]
-    if len(onward) == 1:
-        return onward[0][1]
     visits = job.visits = {} if job.visits is None else job.visits
     visit = visits[job.step] = visits.get(job.step, -1) + 1
     return _taken(onward, floor.draws.way(job.operation.name, visit, job.number))
 
 
-def _first_step(floor: Floor, number: int) -> int:
+def _first_step(floor: Floor, number: int, product: ProductPlan) -> int:
     """Where the job of this number begins, drawn where there is a choice."""
-    start = floor.plan.products[floor.draws.product(number)].start
+    start = product.start
     return start[0][1] if len(start) == 1 else _taken(start, floor.draws.way("start", 0, number))
 
 
@@ -96,6 +94,13 @@ def _taken(ways: Ways, point: float) -> int:
 
 def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
     """The oldest claim that can be met among the gates where something changed; gates without one come to rest."""
+    if len(floor.stirred) == 1:  # NOTE: most often
+        (only,) = floor.stirred
+        claim = only.next_claim()
+        if claim is not None:
+            return claim, only
+        floor.stirred.clear()
+        return None
     best: tuple[Claim, Gate] | None = None
     at_rest: list[Gate] = []
     for gate in floor.stirred:
@@ -111,16 +116,18 @@ def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
 def _next_has_room(floor: Floor) -> bool:
     gate = floor.next_gate
     if gate is None:
-        product = floor.plan.products[floor.draws.product(floor.n_released)]
-        gate = floor.next_gate = floor.gates[product.route[_first_step(floor, floor.n_released)].stations]
+        rank = floor.draws.product(floor.n_released)
+        step = _first_step(floor, floor.n_released, floor.plan.products[rank])
+        gate = floor.next_gate = floor.steps[rank][step][2]
     return not gate.claims and gate.has_room
 
 
 def _enter(floor: Floor, job: Job, gate: Gate) -> None:
-    if floor.now > job.since_s:
+    now, stations = floor.now, gate.stations
+    if now > job.since_s:
         floor.log_job(job)
-    job.kind, job.cause, job.since_s = QUEUE, 0, floor.now
-    station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
+    job.kind, job.cause, job.since_s = QUEUE, 0, now
+    station = stations[0] if len(stations) == 1 else _chosen(gate, job)
     carrier = None
     if job.station is not None:
         if job.plan.carried:

@@ -14,13 +14,16 @@ class EndlessInstant(RuntimeError):
 def dispatch(floor: Floor) -> None:
     """Move jobs, then send workers, until nothing changes."""
     release = floor.plan.release
+    saturated = release.kind == "saturated"
     for _ in range(MOST_ROUNDS):
-        admit(floor)
-        if release.kind == "saturated":
+        if floor.stirred:
+            admit(floor)
+        if saturated:
             release_saturated(floor)
         elif release.when_full == "lose":
             turn_away(floor)
-        send_workers(floor)
+        if floor.free:
+            send_workers(floor)
         if not floor.stirred:
             return
     names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)

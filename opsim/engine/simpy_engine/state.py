@@ -15,7 +15,8 @@ class Job:
     """One unit of a product.
 
     kind, since_s   : the state it is in, and since when
-    step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows
+    step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
+                      ``gate`` is in front of the operation
     task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
     worker .. duration_s : the performance under way, where ``kind`` is WORK; worker -1 where it is automatic
     visits          : how often each step was passed, where the way on is drawn
@@ -27,6 +28,7 @@ class Job:
     step: int
     operation: Operation
     operation_rank: int
+    gate: "Gate"
     kind: int
     cause: int
     since_s: float
@@ -80,7 +82,10 @@ class Gate:
     @property
     def has_room(self) -> bool:
         """A place at one of the stations."""
-        return any(station.n_inside < station.capacity for station in self.stations)
+        for station in self.stations:  # noqa: SIM110  NOTE: asked every settle step; any(...) takes four times as long
+            if station.n_inside < station.capacity:
+                return True
+        return False
 
     def next_claim(self) -> Claim | None:
         """The oldest claim that can be met. A job that comes back to its own station needs no other place there."""
@@ -98,6 +103,7 @@ class Worker:
     """``stretch_over``: the event its process waits for.
 
     walk_s   : (P, S) seconds from each place to each station
+    rating   : (S,) by station; skills : bit r set where rating[r] > 0
     luck     : by task, durations to come at rating 1
     next_k   : by task, how often it was done
     round    : where the worker is on the round he patrols
@@ -108,6 +114,8 @@ class Worker:
     place: int
     stretch_over: simpy.Event
     walk_s: tuple[tuple[float, ...], ...]
+    rating: tuple[float, ...]
+    skills: int
     luck: dict[int, Iterator[float]]
     next_k: list[int]
     kind: int = WAIT

@@ -37,6 +37,7 @@ def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
         floor.job_now(job, HELD, NO_WORKER)
         insort(station.calling, (floor.now, job.number, job))
         floor.calling[station.rank] = station
+        floor.calls |= 1 << station.rank
     else:
         perform(floor, job, worker)
 
@@ -60,7 +61,7 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
         luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
     k = worker.next_k[task]
     worker.next_k[task] = k + 1
-    duration_s = on_grid(next(luck) / worker.plan.rating[station.rank])
+    duration_s = on_grid(next(luck) / worker.rating[station.rank])
     _begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = WORK, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)
@@ -81,7 +82,10 @@ def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
 
 
 def _begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
-    floor.job_now(job, WORK)
+    now = floor.now
+    if now > job.since_s:
+        floor.log_job(job)
+    job.kind, job.cause, job.since_s = WORK, 0, now
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
     job.performance_id = floor.n_performances
     floor.n_performances += 1

@@ -9,30 +9,33 @@ from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Worker
-from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, pack_row
+from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, WORK, pack_row
 
 STRETCH_DONE = "stretch done"
 
 
 def working_life(floor: Floor, worker: Worker) -> Generator[simpy.Event, None, None]:
     """The SimPy process of a worker: spend the stretch of time he was given, report it, wait for the next."""
-    stretch_over = worker.stretch_over
+    env, report, rank = floor.env, floor.report, worker.rank
     while True:
-        yield stretch_over
-        stretch_over = worker.stretch_over = simpy.Event(floor.env)
-        floor.report(COMPLETION, worker.rank, 0, STRETCH_DONE, worker)
+        yield worker.stretch_over
+        worker.stretch_over = simpy.Event(env)
+        report(COMPLETION, rank, 0, STRETCH_DONE, worker)
 
 
 def set_free(floor: Floor, worker: Worker) -> None:
     """The worker is idle from now on and can be sent."""
-    _wait(floor, worker, IDLE)
+    if worker.kind != WORK:  # work is written with the job
+        log_worker(floor, worker)
+    worker.kind, worker.cause, worker.since_s = WAIT, IDLE, floor.now
     worker.job = worker.station = None
     floor.free[worker.rank] = worker
 
 
 def hold(floor: Floor, worker: Worker, job: Job) -> None:
     """The worker stays with a blocked job until it moves."""
-    _wait(floor, worker, JOB_BLOCKED)
+    log_worker(floor, worker)
+    worker.kind, worker.cause, worker.since_s = WAIT, JOB_BLOCKED, floor.now
     job.held_by = worker
 
 
@@ -50,16 +53,13 @@ def log_worker(floor: Floor, worker: Worker) -> None:
         return
     walking = kind == WALK
     job, station = worker.job, worker.station
-    which = (-1, -1, -1) if job is None else (job.number, job.product, job.operation_rank)
-    floor.write(
-        pack_row(
-            *(kind, worker.since_s, now, worker.rank, -1 if station is None else station.rank),
-            *(worker.walk_from if walking else worker.place, worker.place, -1 if job is None else 0, *which),
-            *(-1, -1, -1, nan, nan, nan, 0 if walking else worker.cause),
-        )
-    )
-
-
-def _wait(floor: Floor, worker: Worker, cause: int) -> None:
-    log_worker(floor, worker)
-    worker.kind, worker.cause, worker.since_s = WAIT, cause, floor.now
+    place_from, cause = (worker.walk_from, 0) if walking else (worker.place, worker.cause)
+    if job is None:
+        source = number = product = operation = -1
+    else:
+        source, number, product, operation = 0, job.number, job.product, job.operation_rank
+    floor.write(pack_row(
+        kind, worker.since_s, now, worker.rank, -1 if station is None else station.rank,
+        place_from, worker.place, source, number, product, operation,
+        -1, -1, -1, nan, nan, nan, cause,
+    ))  # fmt: skip
