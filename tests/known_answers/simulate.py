@@ -17,17 +17,16 @@ ASKED = ("throughput_per_h", "time_in_system_s", "work_in_progress")
 Runs = dict[tuple[str, str], dict[str, np.ndarray]]
 
 
-def simulate(
-    cases: Iterable[Case], replications: int | None = None, processes: int = 1, done: Callable | None = None
-) -> Runs:
-    """Figures by (file, variant) and name, (replications,) each; the files say how many where ``replications`` is None.
+def simulate(cases: Iterable[Case], *, few: bool = False, processes: int = 1, done: Callable | None = None) -> Runs:
+    """Figures by (file, variant) and name, (replications,) each: as many as the files say, or the cases' few.
 
     ``done(n, total)`` is called after each replication.
     """
+    variants = {(case.file, case.variant): case.few for case in cases}
     jobs = [
         (file, variant, replication)
-        for file, variant in dict.fromkeys((case.file, case.variant) for case in cases)
-        for replication in range(replications or _plan(file, variant)[1])
+        for (file, variant), n in variants.items()
+        for replication in range(n if few else _plan(file, variant)[1])
     ]
     found: dict[tuple[str, str], list[dict[str, float]]] = {}
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:

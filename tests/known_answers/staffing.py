@@ -9,7 +9,7 @@ from known_answers.cases import Case
 EXPECTED = {"none": (0.939, None), "quarter": (0.850, 0.082), "half": (0.808, 0.112)}
 """By variant: mean over workforces, and standard deviation over workforces where people differ."""
 ORACLE_ERROR = 0.004
-CASES = tuple(Case("staffing", variant, "throughput_per_h", ()) for variant in EXPECTED)
+CASES = tuple(Case("staffing", variant, "throughput_per_h", (), few=100) for variant in EXPECTED)
 
 
 def rates(runs, variant: str):

@@ -7,13 +7,11 @@ from known_answers.simulate import simulate
 
 from opsim.study.interval import t_interval
 
-REPLICATIONS = 16
-
 
 @pytest.fixture(scope="module")
 def runs():
     CASES[0].answer()
-    return simulate(CASES, REPLICATIONS, processes=2)
+    return simulate(CASES, few=True, processes=2)
 
 
 @pytest.mark.slow
@@ -29,7 +27,7 @@ def test_theory_is_within_four_standard_errors(case, runs):
 @pytest.mark.slow
 @pytest.mark.xdist_group("staffing")
 def test_variance_between_people_costs_a_line_what_the_recursion_says():
-    runs = simulate(staffing.CASES, 100)
+    runs = simulate(staffing.CASES, few=True)
     for variant, (mean, sd) in staffing.EXPECTED.items():
         rates = staffing.rates(runs, variant)
         spread = rates.std(ddof=1)
