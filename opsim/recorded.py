@@ -47,6 +47,11 @@ def read_times(path: Path, column: str | None = None) -> list[float]:
     return times
 
 
+def column_names(path: Path) -> tuple[str, ...]:
+    """The heading of a CSV file, empty where it has none. Raises RecordedError where it cannot be read."""
+    return tuple(_table(path)[0] or ())
+
+
 def read_labels(path: Path, column: str) -> list[str]:
     """The words of a column, in the file's order: one a row of ``read_times``. Raises RecordedError."""
     names, rows = _table(path)

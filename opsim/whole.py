@@ -1,5 +1,6 @@
 """Files that are either whole or not there: written under a temporary name, flushed to the disk, then renamed."""
 
+import errno
 import json
 import math
 import os
@@ -17,6 +18,8 @@ def whole_file(path: Path) -> Iterator[Path]:
 
     Raises OSError that names ``path``, never the temporary file.
     """
+    if not path.name:
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     _unfinished.add(temporary)
     try:
@@ -31,7 +34,8 @@ def whole_file(path: Path) -> Iterator[Path]:
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
         _unfinished.discard(temporary)
 
 

@@ -22,6 +22,10 @@ def command(file: Path, column: str | None, worker: str | None, as_json: bool) -
     """Fit distributions to the times in a CSV FILE: the best first, with its goodness of fit and its line of YAML."""
     from opsim.cli.console import print_json, print_table
 
+    if worker is not None and worker == column:
+        raise click.UsageError(
+            f"--column and --worker are both {column!r}; the times and their workers are two columns"
+        )
     with mistakes():
         found = _found(file, column, worker)
     if as_json:
@@ -41,6 +45,7 @@ def _found(file: Path, column: str | None, worker: str | None) -> dict[str, Any]
     from opsim.fitting import between_share, fitted
     from opsim.recorded import read_labels, read_times
 
+    column = column or _other_column(file, worker)
     times_s = np.array(read_times(file, column))
     share = None if worker is None else between_share(times_s, read_labels(file, worker))
     families = fitted(times_s)
@@ -59,6 +64,14 @@ def _found(file: Path, column: str | None, worker: str | None) -> dict[str, Any]
         "remarks": _remarks(named, best.p, share, after, times_s.size),
         "said": said,
     }
+
+
+def _other_column(file: Path, worker: str | None) -> str | None:
+    """The only column beside that of the workers; None where there is no such."""
+    from opsim.recorded import column_names
+
+    others = [] if worker is None else [name for name in column_names(file) if name != worker]
+    return others[0] if len(others) == 1 else None
 
 
 _SHOWN = ("mean_s", "cv", "aic", "distance", "p", "said")

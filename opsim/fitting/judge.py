@@ -68,12 +68,13 @@ def ks_distance(cdf: np.ndarray) -> float:
 def _chance(family: Family, model: Any, n: int, scaled: float, seed: int) -> float:
     """How often n times of the fitted family itself lie as far from what is fitted to them."""
     rng = stream(seed, 0, "fit", family.name, 0)
-    as_far = 0
+    distances = []
     for _ in range(N_BOOTSTRAP):
         drawn = np.sort(model.sample(n, rng).duration_s)
         again = family.fit(drawn)
-        as_far += again is None or ks_distance(family.cdf(again, drawn)) * _scale(n) >= scaled
-    return (1 + as_far) / (1 + N_BOOTSTRAP)
+        if again is not None:  # a sample the family refuses says nothing about how far others lie
+            distances.append(ks_distance(family.cdf(again, drawn)) * _scale(n))
+    return (1 + sum(distance >= scaled for distance in distances)) / (1 + len(distances)) if distances else 0.0
 
 
 def _scale(n: int) -> float:

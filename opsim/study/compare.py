@@ -142,6 +142,14 @@ def _check(results: Mapping[str, Result], base: str) -> None:
         )
     if len(results) < 2:
         raise NotComparable(f"only {base} is there: nothing to compare it with")
+    for what, of in (("scenario", "scenario"), ("window", "window_s")):
+        found = {name: result.summary.get(of) for name, result in results.items()}
+        other = next((name for name in found if found[name] != found[base]), None)
+        if other is not None:
+            raise NotComparable(
+                f"not one study: the {what} of {base} is {found[base]}, that of {other} is {found[other]}; "
+                f"run them with one file into one folder"
+            )
     seeds = {name: result.summary["seed"] for name, result in results.items()}
     if len(set(seeds.values())) > 1:
         said = ", ".join(f"{name} has seed {seed}" for name, seed in seeds.items())

@@ -16,6 +16,10 @@ MOST_OF_LEFT = 0.5
 """A truncation beyond this share of the series is not believed: the run is too short to tell."""
 
 
+FEWEST_JOBS = 20
+"""Where fewer jobs finish in all replications together, nothing can be said."""
+
+
 @dataclass(frozen=True, slots=True)
 class WarmUp:
     """The warm-up that one series suggests.
@@ -52,12 +56,15 @@ def suggested_warm_up(result: Result) -> list[WarmUp]:
     from opsim.log_store import read_events
 
     totals: dict[str, np.ndarray] = {}
+    n_finished = 0
     horizon_s, files = result.summary["window_s"][1], result.events_files
     for path in files:
         log = read_events(path)
+        n_finished += len(log.of(FINISH))
         for name, (_, of) in SERIES.items():
             totals[name] = totals.get(name, 0.0) + of(log, np.linspace(0, horizon_s, SLICES + 1))
-    return [_found(name, totals[name] / len(files), horizon_s / SLICES) for name in totals]
+    told = n_finished >= FEWEST_JOBS
+    return [_found(name, totals[name] / len(files), horizon_s / SLICES, told) for name in totals]
 
 
 def jobs_inside(log: EventLog, edges_s: np.ndarray) -> np.ndarray:
@@ -84,8 +91,8 @@ def _area(rows: EventLog, edges_s: np.ndarray) -> np.ndarray:
     return np.diff(until)
 
 
-def _found(name: str, series: np.ndarray, slice_s: float) -> WarmUp:
-    left_out = mser(series)
+def _found(name: str, series: np.ndarray, slice_s: float, told: bool) -> WarmUp:
+    left_out = mser(series) if told else None
     return WarmUp(name, SERIES[name][0], slice_s, series, None if left_out is None else left_out * slice_s)
 
 

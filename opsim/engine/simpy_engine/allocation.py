@@ -29,7 +29,7 @@ def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
             continue
         ratings = worker.rating
         for rank, station in calling:
-            if ratings[rank] > 0 and (not patrols or _on_round(worker) == rank):
+            if ratings[rank] > 0 and (not patrols or _on_round(worker, station)):
                 if best is None:
                     best = worker, station  # NOTE: most often the only pair, and its key is never asked for
                     continue
@@ -65,9 +65,10 @@ def _send(floor: Floor, worker: Worker, station: Station) -> None:
         perform(floor, job, worker)
 
 
-def _on_round(worker: Worker) -> int:
-    """The station of his round where the worker stands: the only one a patrolling worker serves."""
-    return worker.plan.patrol[worker.round] if worker.round >= 0 else -1
+def _on_round(worker: Worker, station: Station) -> bool:
+    """Whether this is the station of his round where the worker stands: the only one a patrolling worker serves."""
+    at, patrol = worker.round, worker.plan.patrol
+    return at >= 0 and patrol[at] == station.rank and worker.place == station.place
 
 
 def _go_home(floor: Floor) -> None:

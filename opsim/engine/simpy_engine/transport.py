@@ -13,6 +13,7 @@ def bring(floor: Floor, job: Job, station: Station, carrier: Worker | None) -> N
     if carrier is None or walk_s == 0:
         if carrier is not None:
             carrier.place = station.place
+            _stand_at(carrier, station)
             set_free(floor, carrier)
         arrive(floor, station, job)
         return
@@ -24,5 +25,12 @@ def bring(floor: Floor, job: Job, station: Station, carrier: Worker | None) -> N
 def put_down(floor: Floor, job: Job, carrier: Worker) -> None:
     """The carrier has come to the station with the job and is free there."""
     floor.job_now(job, QUEUE)
+    _stand_at(carrier, job.station)  # type: ignore[arg-type]
     set_free(floor, carrier)
     arrive(floor, job.station, job)  # type: ignore[arg-type]
+
+
+def _stand_at(carrier: Worker, station: Station) -> None:
+    """Where the station is on his round, he goes on from it; elsewhere he serves nobody and walks to his next stop."""
+    if station.rank in carrier.plan.patrol:
+        carrier.round = carrier.plan.patrol.index(station.rank)

@@ -12,6 +12,8 @@ from opsim.scenario.positions import Node, child, entries, items, problem, text
 def staffing_problems(tree: Node) -> Iterator[Problem]:
     """Stations on a route with a task for a worker, and no worker with the skill."""
     skilled = {station for worker in entries(tree, "workers").values() for station in entries(worker, "skills")}
+    patrols = text(tree, "allocation", "idle") == "patrol"
+    rounds = {stop.value for worker in entries(tree, "workers").values() for stop in items(worker, "patrol")}
     on_a_route = visited(tree)
     for name, station in entries(tree, "stations").items():
         manual = _manual_task(tree, station)
@@ -23,6 +25,9 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
                 f"add '{name}: 1.0' to the skills of {first} or another worker" if first else "add a section 'workers:'"
             )
             yield problem(station.name_place, ("stations", name), found, hint)
+        elif manual is not None and name in on_a_route and patrols and rounds and name not in rounds:
+            found = f"task {shown(manual)} needs a worker, and nobody goes round by {shown(name)}"
+            yield problem(station.name_place, ("stations", name), found, f"add {name} to the patrol of a worker")
 
 
 def patrol_problems(tree: Node) -> Iterator[Problem]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 
 from opsim.graph import Graph, reached, reverse
 from opsim.problems import Problem, shown
+from opsim.scenario.checks.ways import one_of, onward
 from opsim.scenario.positions import Node, child, entries, items, problem, text
+from opsim.scenario.schema.routing import OUT
 
 
 def walking_problems(tree: Node) -> Iterator[Problem]:
@@ -29,10 +31,12 @@ def walking_problems(tree: Node) -> Iterator[Problem]:
 def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph) -> Iterator[tuple[str, str]]:
     """(from, to) of what a worker must be able to walk and cannot; ways between all his stations, seen from the first.
 
-    He starts at his home, and needs to come back there only where idle workers go home.
+    His stations are those of his skills, and those he carries jobs to. He starts at his home, and needs to come back
+    there only where idle workers go home.
     """
     known = entries(tree, "layout", "places")
-    stations = [entries(tree, "stations").get(name) for name in entries(worker, "skills")]
+    skilled = entries(worker, "skills")
+    stations = [entries(tree, "stations").get(name) for name in (*skilled, *_carried_to(tree, skilled))]
     places = [place for station in stations if (place := text(station, "at")) in known and place is not None]
     if not places:
         return
@@ -46,6 +50,20 @@ def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph) -> Iterator[tu
             yield first, place
         if place not in here:
             yield place, first
+
+
+def _carried_to(tree: Node, skilled: Collection[str]) -> Iterator[str]:
+    """The stations that jobs are carried to from those where somebody works."""
+    for product in entries(tree, "products").values():
+        carried = child(product, "carried")
+        if carried is None or carried.value is not True:
+            continue
+        for here, there in pairwise(items(product, "route")):
+            if not set(one_of(here)).isdisjoint(skilled):
+                yield from one_of(there)
+        for here_name, row in entries(product, "routing").items():
+            if here_name in skilled:
+                yield from (name for name, _ in onward(row) if name != OUT)
 
 
 def _hint(graph: Graph, back: Graph, *places: str) -> str:

@@ -56,3 +56,26 @@ def test_a_wrong_call_is_answered_with_what_is_right(times, words, said):
 def test_a_file_that_is_not_there_is_a_mistake(tmp_path):
     code, _, complaint = opsim("fit", tmp_path / "no.csv")
     assert code == 2 and "no.csv" in complaint
+
+
+def test_the_column_beside_that_of_the_workers_need_not_be_named(tmp_path):
+    rng = np.random.default_rng(3)
+    rows = [f"w{i % 4},{value:.3f}" for i, value in enumerate(rng.lognormal(3, 0.3, 60))]
+    (tmp_path / "t.csv").write_text("\n".join(["who,seconds", *rows]) + "\n")
+    code, shown, _ = opsim("fit", tmp_path / "t.csv", "--worker", "who")
+    assert code == 0
+    assert "of the variance of log time lies between workers" in shown
+
+
+def test_times_and_workers_are_not_one_column(tmp_path):
+    (tmp_path / "t.csv").write_text("who,seconds\na,1\nb,2\n")
+    code, _, error = opsim("fit", tmp_path / "t.csv", "--worker", "who", "--column", "who")
+    assert code == 2
+    assert "two columns" in error
+
+
+def test_two_heaps_of_times_fit_no_family(tmp_path):
+    rng = np.random.default_rng(2)
+    times = np.where(np.arange(100) % 2, rng.normal(5, 0.5, 100), rng.normal(50, 2, 100))
+    (tmp_path / "t.csv").write_text("t\n" + "\n".join(f"{value:.3f}" for value in times) + "\n")
+    assert "by: smooth" in opsim("fit", tmp_path / "t.csv")[1]

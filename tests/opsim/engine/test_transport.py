@@ -62,3 +62,23 @@ def test_a_job_on_its_way_at_the_horizon_is_inside(horizon):
     log = run_plan(p)
     assert audit(log, p) == CHECKS
     assert len(log.of(TRANSPORT)) >= 1 and len(log.of(WORK)) >= 1
+
+
+ROUND = CARRIED.replace("skills: {sa: 1.0, sb: 1.0}", "patrol: [sa, sb], skills: {sa: 1.0, sb: 1.0}")
+
+
+def test_who_carries_on_his_round_serves_where_he_put_the_job_down():
+    p = plan(ROUND + "allocation: {idle: patrol}\n")
+    log = run_plan(p)
+    assert audit(log, p) == CHECKS
+    served = log.of(WORK).where(log.of(WORK)["worker"] == 0)
+    walks = log.of(WALK)
+    assert len(log.of(FINISH)) >= 2
+    assert not np.any(walks["task"] >= 0)
+    for job, station, start_s in zip(served["job"], served["station"], served["start_s"]):
+        came = walks.where(walks["end_s"] <= start_s)
+        place = int(came["place_to"][-1]) if len(came) else 0
+        assert place == p.stations[station].place, (job, station, start_s)
+    # nobody is sent to a call: all his walks are of the round, or with a job
+    sent = walks.where((walks["job"] >= 0) & ~np.isin(walks["start_s"], log.of(TRANSPORT)["start_s"]))
+    assert len(sent) == 0

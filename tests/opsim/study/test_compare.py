@@ -3,6 +3,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from plans import line, loaded
 
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
@@ -158,3 +159,12 @@ def test_results_that_are_no_numbers_are_refused_with_their_place(tmp_path):
     (tmp_path / "summary.json").write_text(json.dumps([1]))
     with pytest.raises(ValueError, match=r"summary.json: not the summary"):
         Result.load(tmp_path)
+
+
+def test_variants_of_another_scenario_or_window_are_not_compared(tmp_path):
+    folders = [
+        run_scenario(loaded(line(2, 1, horizon=horizon)), folder=tmp_path / horizon, processes=1, replications=2)
+        for horizon in ("1500 s", "2000 s")
+    ]
+    with pytest.raises(NotComparable, match="the window of base"):
+        compare(dict(zip(("base", "long"), folders)))
