@@ -263,7 +263,7 @@ def test_every_word_of_the_language_is_read():
     both = scenarios_in(EVERYTHING.encode(), Path("line.yaml"))["both"].scenario
     assert len({type(task) for task in both.tasks.values()}) == 12
     assert both.workers["cai"] == both.workers["ben"] and both.workers["ben"].skills["pack"] == 0.9
-    assert (both.workers["ana"].walk_m_per_s, both.workers["ana"].patrol) == (1.1, ["unload", "pack"])
+    assert (both.workers["ana"].walk_m_per_s, both.workers["ana"].patrol) == (1.1, ["unload", "pack", "pack2"])
 
 
 ODD_TEXTS = st.sampled_from(["0 s", "1e-6 s", "8589934592 s", "1e6 m", "0.01 m/s", "out", "start", "unlimited", "1/3"])
