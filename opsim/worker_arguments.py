@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from numbers import Integral, Real
 from typing import Any
 
 import simpy
@@ -19,7 +20,7 @@ def check_arguments(env: Any, name: Any, rating: Any, **whole: Any) -> None:
     if not isinstance(name, str) or not name.strip():
         raise TypeError(f"worker: expected a name as text, found {shown(name)}")
     for word, number in whole.items():
-        if isinstance(number, bool) or not isinstance(number, int) or number < 0:
+        if isinstance(number, bool) or not isinstance(number, Integral) or number < 0:
             raise ValueError(f"worker {name}: {word} must be a whole number from 0, found {shown(number)}")
     if isinstance(rating, bool) or not isinstance(rating, int | float) or not 0 < rating < math.inf:
         raise ValueError(f"worker {name}: rating must be a number above 0, found {shown(rating)}")
@@ -43,4 +44,19 @@ def known_body(name: str, body: Any) -> Any:
     for key in said:
         if key not in known:
             raise ValueError(f"worker {name}: body: no {shown(key)}; {did_you_mean(key, known)}")
+        _plausible(name, key, body[key] if isinstance(body, Mapping) else getattr(body, key))
     return body
+
+
+_BODIES = {"height_m": (0.5, 2.6), "mass_kg": (20.0, 400.0)}
+"""What people are; the same as a scenario allows."""
+
+
+def _plausible(name: str, key: str, value: Any) -> None:
+    low, high = _BODIES[key]
+    if value is None:
+        return
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"worker {name}: body: {key} must be a number, found {shown(value)}")
+    if not low <= float(value) <= high:
+        raise ValueError(f"worker {name}: body: {key} must lie between {low:g} and {high:g}, found {shown(value)}")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -38,8 +39,31 @@ class TimePerformances:
     positions_m = root_m = directions
 
 
+_TIME = ("a time in seconds above 0", lambda value: 0 < value < math.inf)
+_WANTED = {
+    **dict.fromkeys(("mean_s", "duration_s"), _TIME),
+    **dict.fromkeys(("low_s", "mode_s"), ("a time in seconds from 0", lambda value: 0 <= value < math.inf)),
+    "high_s": ("a time in seconds above 0", lambda value: value > 0),
+    "cv": ("a number from 0", lambda value: 0 <= value < math.inf),
+    "between_share": ("a share from 0 to 1", lambda value: 0 <= value <= 1),
+    "k": ("a whole number from 1", lambda value: value >= 1 and value == int(value)),
+}
+
+
 class TimeModel:
-    """No worker effect, and ``sample`` from the model's own draws."""
+    """No worker effect, and ``sample`` from the model's own draws.
+
+    Raises TypeError or ValueError where a parameter is no time, no spread, no share or no count.
+    """
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if name in _WANTED:
+                wanted, holds = _WANTED[name]
+                if isinstance(value, bool) or not isinstance(value, Real):
+                    raise TypeError(f"{type(self).__name__}: {name} must be {wanted}, found {value!r}")
+                if not holds(value):
+                    raise ValueError(f"{type(self).__name__}: {name} must be {wanted}, found {value!r}")
 
     def mean_duration_s(self, worker: Any = None) -> float:
         """The mean in seconds; of this worker, where workers differ."""

@@ -363,3 +363,9 @@ def test_workers_of_one_log_are_of_one_environment_and_replication_and_have_name
     ]:
         with pytest.raises(ValueError, match=said):
             Worker(*other[:3], replication=other[3], log=log)
+
+
+@pytest.mark.parametrize("body", [{"height_m": 170}, {"height_m": -1.0}, {"height_m": float("nan")}, {"mass_kg": 0}])
+def test_a_body_that_nobody_has_is_refused(body):
+    with pytest.raises(ValueError, match="must lie between"):
+        Worker(simpy.Environment(), "ana", {"t": Fixed(1.0)}, body=body)
