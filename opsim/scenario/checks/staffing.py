@@ -13,7 +13,8 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
     """Stations on a route with a task for a worker, and no worker with the skill."""
     skilled = {station for worker in entries(tree, "workers").values() for station in entries(worker, "skills")}
     patrols = text(tree, "allocation", "idle") == "patrol"
-    rounds = {stop.value for worker in entries(tree, "workers").values() for stop in items(worker, "patrol")}
+    stops = [stop.value for worker in entries(tree, "workers").values() for stop in items(worker, "patrol")]
+    rounds = {stop for stop in stops if isinstance(stop, str)}
     on_a_route = visited(tree)
     for name, station in entries(tree, "stations").items():
         manual = _manual_task(tree, station)

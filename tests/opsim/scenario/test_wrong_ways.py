@@ -40,3 +40,11 @@ def test_a_station_that_no_round_comes_by_is_refused():
     assert "task 't' needs a worker, and nobody goes round by 's2'" in said(text)
     mended = text.replace("patrol: [s1]", "patrol: [s1, s2]")
     assert set(scenarios_in(mended.encode(), Path("two.yaml"))) == {"base"}
+
+
+@pytest.mark.parametrize("stop", ["[]", "[s1]", "{s1: 1}", "null", "7"])
+def test_a_stop_of_a_round_that_is_no_name_is_refused(stop):
+    text = TWO.replace("[[a, c]]", "[[a, c, b]]").replace(
+        "{skills: {s1: 1}}", f"{{skills: {{s1: 1}}, patrol: [{stop}]}}"
+    )
+    assert "patrol" in said(text + "allocation: {idle: patrol}\n")
