@@ -91,14 +91,8 @@ class Scattered:
     __slots__ = ("_blocks", "_items")
     KEPT = 64
 
-    def __init__(
-        self,
-        seed: int,
-        replication: int,
-        name: Sequence[str | int],
-        draw: Callable[[np.random.Generator, int], Sequence[Any]],
-    ):
-        self._items = Items(seed, replication, name, draw)
+    def __init__(self, items: Items):
+        self._items = items
         self._blocks: dict[int, Sequence[Any]] = {}
 
     def __getitem__(self, item: int) -> Any:

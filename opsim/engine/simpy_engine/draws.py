@@ -62,7 +62,7 @@ class Draws:
         ways = self._ways.get((operation, visit))
         if ways is None:
             name = ("routing", operation, self._plan.release.name, visit)
-            ways = self._ways[operation, visit] = Scattered(self._plan.seed, self._replication, name, _uniform)
+            ways = self._ways[operation, visit] = Scattered(self._items(name, _uniform))
         return ways[job]
 
     def _of_worker(self, task: int, worker: int) -> Items:
