@@ -1,7 +1,7 @@
 """What theory says of the scenario files beside this one, and how to ask the simulation for the same figure.
 
-The expected numbers are those of ``known_answers.json`` (each with its formula and source); every one can be had anew
-from the closed form or the Markov chain named there.
+The expected numbers are those of ``known_answers.json`` (each with its formula and source; every one can be had anew
+from the closed form or the Markov chain named there), or come from the Markov chain of ``chains.py``.
 """
 
 import json
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from known_answers.chains import line_rate
 from recordings import reference
 
 HERE = Path(__file__).parent
@@ -16,7 +17,7 @@ HERE = Path(__file__).parent
 
 @dataclass(frozen=True)
 class Case:
-    """A figure ``kpi`` of a variant of a file; ``expected`` names the model and the path to its number.
+    """A figure ``kpi`` of a variant of a file; ``expected`` is theory's number, or names the model and the path to it.
 
     scale : figure = scale x number + shift (a rate per second is asked as a rate per hour; a wait as a stay)
     most_half_width : of the 95 % interval, relative, at the replications the file asks for
@@ -26,7 +27,7 @@ class Case:
     file: str
     variant: str
     kpi: str
-    expected: tuple[str, ...]
+    expected: tuple[str, ...] | float
     scale: float = 1.0
     shift: float = 0.0
     most_half_width: float = 0.01
@@ -38,10 +39,15 @@ class Case:
 
     def answer(self) -> float:
         """The number that theory gives."""
-        found = _reference()
-        for part in self.expected:
-            found = sum(found) if part == "sum" else found[part]
+        found = _looked_up(self.expected) if isinstance(self.expected, tuple) else self.expected
         return self.scale * found + self.shift
+
+
+def _looked_up(path: tuple[str, ...]) -> float:
+    found = _reference()
+    for part in path:
+        found = sum(found) if part == "sum" else found[part]
+    return found
 
 
 @cache
@@ -58,6 +64,10 @@ def _queue(file: str, variant: str, model: str, few: int = 12) -> list[Case]:
 
 def _rate(file: str, variant: str, *expected: str) -> Case:
     return Case(file, variant, "throughput_per_h", expected, scale=3600.0)
+
+
+def _chain(file: str, variant: str, mean_s: tuple[float, ...], phases: int = 1, room: int = 0) -> Case:
+    return Case(file, variant, "throughput_per_h", line_rate(mean_s, phases, room), scale=3600.0)
 
 
 _TWO = "two-station line, exponential, equal rates"
@@ -100,4 +110,8 @@ CASES = (
         for k, room in _ROOM.items()
         for b in room
     ),
+    _chain("line_of_three", "bowl", (1.1, 0.8, 1.1)),
+    _chain("line_of_three", "arch", (0.9, 1.2, 0.9)),
+    *(_chain(f"line_of_{word}", "erlang", (1.0,) * k, phases=2) for k, word in _WORD.items()),
+    *(_chain(f"line_of_{word}", "erlang_buffer_1", (1.0,) * k, phases=2, room=1) for k, word in _WORD.items()),
 )

@@ -3,6 +3,7 @@
 import pytest
 from known_answers import staffing
 from known_answers.cases import CASES
+from known_answers.chains import line_rate
 from known_answers.simulate import simulate
 
 from opsim.study.interval import t_interval
@@ -12,6 +13,20 @@ from opsim.study.interval import t_interval
 def runs():
     CASES[0].answer()
     return simulate(CASES, few=True, processes=2)
+
+
+@pytest.mark.parametrize(("mean_s", "phases", "rate"), [
+    ((1.0, 1.0), 1, 2 / 3),  # Hunt 1956
+    ((1.0, 1.0, 1.0), 1, 22 / 39),  # Hillier & Boling 1967
+    ((1.0, 1.0), 2, 8 / 11),  # 1 / E max(X1, X2)
+])  # fmt: skip
+def test_the_chain_gives_the_rates_of_the_books(mean_s, phases, rate):
+    assert line_rate(mean_s, phases) == pytest.approx(rate, rel=1e-12)
+
+
+def test_a_faster_station_in_the_middle_beats_a_balanced_line():
+    arch, balanced, bowl = (line_rate((1.5 - middle / 2, middle, 1.5 - middle / 2)) for middle in (1.2, 1.0, 0.8))
+    assert arch < balanced < bowl
 
 
 @pytest.mark.slow
