@@ -4,9 +4,12 @@ Anything that satisfies these Protocols is an emulator: ``emulator.MotionEmulato
 Letters: ``n`` performances, ``E`` marks, ``K`` coefficients, ``T`` times, ``B`` bones, ``J`` joints.
 """
 
-from typing import Any, Protocol
+from __future__ import annotations
 
-import numpy as np
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 class Performances(Protocol):

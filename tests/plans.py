@@ -85,3 +85,29 @@ workers:
 allocation: {rule: nearest, when_blocked: held}
 """
 """Everything the vocabulary has, in one small scenario."""
+
+
+def many_stations(n):
+    """A scenario of some 8 n lines, one of its variants an override away."""
+    ranks = range(n)
+    return "\n".join(
+        [
+            "opsim: 1",
+            "name: Many stations",
+            "run: {horizon: 8 h}",
+            "layout:",
+            "  places:",
+            *(f"    p{i}: [{i} m, {i % 7} m]" for i in ranks),
+            "tasks:",
+            *(f"  t{i}: {{dist: lognormal, mean: {10 + i % 20} s, cv: 0.25, between_share: 0.5}}" for i in ranks),
+            "stations:",
+            *(f"  s{i}:\n    at: p{i}\n    tasks: [t{i}]\n    servers: 1\n    buffer: 3" for i in ranks),
+            "products:",
+            "  part: {route: [" + ", ".join(f"s{i}" for i in ranks) + "]}",
+            "release: {kind: poisson, every: 55 s}",
+            "workers:",
+            *(f"  w{i}: {{skills: {{s{i}: 1.0, s{(i + 1) % n}: 0.9}}}}" for i in ranks),
+            "overrides: {wider: {stations.s1.buffer: 9}}",
+            "scenarios: {base: [], wide: [wider]}",
+        ]
+    )

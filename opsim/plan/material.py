@@ -1,9 +1,8 @@
 """Products and their routes."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import accumulate
-
-import numpy as np
 
 from opsim.names import natural_key
 
@@ -18,6 +17,7 @@ class Operation:
 
 Ways = tuple[tuple[float, int], ...]
 """(cumulative probability, step of the route) of each way on; -1 is the way out. One entry where it is sure."""
+_FIRST: Ways = ((1.0, 0),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +34,10 @@ class ProductPlan:
     onward: tuple[Ways, ...]
     carried: bool = False
 
-    def visits(self) -> list[float]:
-        """How often a job comes to each step on average: the traffic equations v = start + P' v (Jackson 1957)."""
-        n = len(self.route)
-        passing = np.array([_probabilities(ways, n) for ways in self.onward])
-        return np.linalg.solve(np.eye(n) - passing.T, _probabilities(self.start, n)).tolist()
+    def visits(self) -> tuple[float, ...]:
+        """How often a job comes to each step on average; in a route just once."""
+        in_a_row = self.start == _FIRST and self.onward == _one_by_one(len(self.route))
+        return (1.0,) * len(self.route) if in_a_row else _visits(self.start, self.onward)
 
 
 def plan_products(scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]:
@@ -54,8 +53,12 @@ def _product(name: str, product, share: float, stations: dict[str, int]) -> Prod
     if product.routing is not None:
         return _network(name, product, share, stations)
     route = tuple(_operation(step, stations) for step in product.route)
-    steps = [*range(1, len(route)), -1]
-    return ProductPlan(name, share, route, ((1.0, 0),), tuple(((1.0, step),) for step in steps), product.carried)
+    return ProductPlan(name, share, route, _FIRST, _one_by_one(len(route)), product.carried)
+
+
+def _one_by_one(n: int) -> tuple[Ways, ...]:
+    """From each of n steps to the next, from the last one out."""
+    return tuple(((1.0, step),) for step in [*range(1, n), -1])
 
 
 def _network(name: str, product, share: float, stations: dict[str, int]) -> ProductPlan:
@@ -75,8 +78,18 @@ def _ways(ways: dict[str, float], step_of: dict[str, int]) -> Ways:
     return tuple((point, step_of[way]) for point, (way, _) in zip(sums, chosen))
 
 
-def _probabilities(ways: Ways, n: int) -> np.ndarray:
-    row = np.zeros(n)
+@lru_cache(maxsize=8)
+def _visits(start: Ways, onward: tuple[Ways, ...]) -> tuple[float, ...]:
+    """The traffic equations v = start + P' v (Jackson 1957), solved once for the variants of a file."""
+    import numpy as np
+
+    n = len(onward)
+    passing = np.array([_probabilities(ways, n) for ways in onward])
+    return tuple(np.linalg.solve(np.eye(n) - passing.T, _probabilities(start, n)).tolist())
+
+
+def _probabilities(ways: Ways, n: int) -> list[float]:
+    row = [0.0] * n
     for (cumulative, step), before in zip(ways, (0.0, *(point for point, _ in ways))):
         if step >= 0:
             row[step] += cumulative - before

@@ -29,24 +29,31 @@ class WorkerPlan:
     patrol: tuple[int, ...] = ()
 
 
-def plan_workers(scenario, places: dict[str, int], station_names: tuple[str, ...]) -> tuple[WorkerPlan, ...]:
+def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tuple[WorkerPlan, ...]:
     """Workers in natural order. Who has no ``home`` starts at the first of his stations in natural order."""
     return tuple(
         WorkerPlan(
             name,
             places[start_place(worker, scenario)],
             worker.walk_m_per_s,
-            tuple(worker.skills.get(station, 0.0) for station in station_names),
+            _ratings(worker, ranks),
             Body(worker.height_m, worker.mass_kg),
-            tuple(station_names.index(name) for name in worker.patrol or ()),
+            tuple(ranks[name] for name in worker.patrol or ()),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )
+
+
+def _ratings(worker, ranks: dict[str, int]) -> tuple[float, ...]:
+    ratings = [0.0] * len(ranks)
+    for station, rating in worker.skills.items():
+        ratings[ranks[station]] = rating
+    return tuple(ratings)
 
 
 def start_place(worker, scenario) -> str:
     """The name of the place where a worker stands at the start."""
     if worker.home is not None:
         return worker.home
-    stations = sorted(worker.skills or scenario.stations, key=natural_key)
-    return scenario.stations[stations[0]].at
+    first = min(worker.skills or scenario.stations, key=natural_key)
+    return scenario.stations[first].at

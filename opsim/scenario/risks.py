@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise, product
 
-from opsim.graph import rings
+from opsim.graph import reverse, rings
 from opsim.names import natural_key
 from opsim.scenario.schema import Scenario
 
@@ -44,13 +44,13 @@ def _held(scenario: Scenario) -> Iterator[str]:
     """Workers who stay with a blocked job, all of them, in front of a full station that waits for one of them."""
     held = scenario.allocation.when_blocked == "held"
     why, remedy = ("when_blocked: held", "'when_blocked: free'") if held else ("carried: true", "'carried: false'")
-    ways = _ways(scenario, only_carried=not held)
-    for name in sorted(scenario.stations, key=natural_key):
-        people = _workers_of(scenario, name)
-        feeders = [other for other in scenario.stations if name in ways.get(other, ()) and _workers_of(scenario, other)]
-        free = people - {worker for other in feeders for worker in _workers_of(scenario, other)}
+    workers, back = _workers(scenario), reverse(_ways(scenario, only_carried=not held))
+    for name in sorted(workers, key=natural_key):
+        people = workers[name]
+        feeders = [other for other in back.get(name, ()) if other in workers]
+        free = people.difference(*(workers[other] for other in feeders))
         n_held = sum(scenario.stations[other].servers for other in feeders)
-        if scenario.stations[name].buffer is not None and people and not free and n_held >= len(people):
+        if scenario.stations[name].buffer is not None and not free and n_held >= len(people):
             who = _and(sorted(people, key=natural_key))
             before = _and(sorted(feeders, key=natural_key))
             yield (
@@ -59,11 +59,15 @@ def _held(scenario: Scenario) -> Iterator[str]:
             )
 
 
-def _workers_of(scenario: Scenario, station: str) -> set[str]:
-    """Who can work at a station; nobody where everything there is automatic."""
-    if all(scenario.tasks[task].automatic for task in scenario.stations[station].tasks):
-        return set()
-    return {name for name, worker in scenario.workers.items() if station in worker.skills}
+def _workers(scenario: Scenario) -> dict[str, set[str]]:
+    """Who can work at each station; no station where everything is automatic, or nobody can."""
+    by_hand = {task for task, block in scenario.tasks.items() if not block.automatic}
+    manned = {name for name, station in scenario.stations.items() if not by_hand.isdisjoint(station.tasks)}
+    able: dict[str, set[str]] = {}
+    for name, worker in scenario.workers.items():
+        for station in manned.intersection(worker.skills):
+            able.setdefault(station, set()).add(name)
+    return able
 
 
 def _ways(scenario: Scenario, only_carried: bool = False) -> dict[str, set[str]]:

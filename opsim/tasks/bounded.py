@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from opsim.tasks.model import SharedTime
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,7 @@ class Normal(SharedTime):
     low_s: float = 0.0
 
     def _within_s(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        import numpy as np
         from scipy.special import ndtr, ndtri
 
         a, sigma_s = self._cut()

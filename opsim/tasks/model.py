@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from opsim.variability import log_variance, within_cv
+
+if TYPE_CHECKING:
+    import numpy as np
 
 # A drawn time is never 0: the engine's clock has this as its smallest step.
 SMALLEST_S = 2.0**-20
@@ -27,10 +28,15 @@ class TimePerformances:
 
     @property
     def mark_s(self) -> np.ndarray:
-        return np.empty((self.duration_s.size, 0))
+        return self._nothing()
 
     @property
     def scores(self) -> np.ndarray:
+        return self._nothing()
+
+    def _nothing(self) -> np.ndarray:
+        import numpy as np
+
         return np.empty((self.duration_s.size, 0))
 
     def directions(self, *args: Any, **kwargs: Any) -> np.ndarray:
@@ -77,6 +83,8 @@ class TimeModel:
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
     ) -> TimePerformances:
         """n performances; the same generator gives the same n."""
+        import numpy as np
+
         if condition is not None:
             raise ValueError(f"{type(self).__name__}: a time without a body knows no condition, found {condition!r}")
         return TimePerformances(np.maximum(self._draw_s(n, rng, worker), SMALLEST_S))
@@ -119,6 +127,8 @@ class SharedTime(TimeModel):
         return float(rng.normal(0.0, math.sqrt(self._between))) if self.between_share else None
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: float | None) -> np.ndarray:
+        import numpy as np
+
         own_s = self._within_s(n, rng) if self.within_cv > 0 else np.full(n, self.mean_s)
         if not self.between_share:
             return own_s

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from opsim.tasks.model import TimeModel
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -23,9 +24,13 @@ class Recorded(TimeModel):
 
     def at(self, k: np.ndarray) -> np.ndarray:
         """The times of performances k of a trace; after the last the trace begins again."""
+        import numpy as np
+
         return np.asarray(self.times_s)[np.asarray(k) % len(self.times_s)]
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        import numpy as np
+
         return self.at(np.arange(n) if self.by_index else rng.integers(len(self.times_s), size=n))
 
 
@@ -42,6 +47,8 @@ class Empirical(TimeModel):
     _ordered_s: np.ndarray = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        import numpy as np
+
         object.__setattr__(self, "_ordered_s", np.sort(np.asarray(self.times_s, dtype=float)))
 
     def mean_duration_s(self, worker: Any = None) -> float:
@@ -49,6 +56,8 @@ class Empirical(TimeModel):
 
     def quantile_s(self, probability: np.ndarray) -> np.ndarray:
         """The time below which this share of the performances lies."""
+        import numpy as np
+
         n = self._ordered_s.size
         return np.interp(probability, (np.arange(n) + 0.5) / n, self._ordered_s)
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from opsim.tasks.model import SharedTime
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,8 @@ class Lognormal(SharedTime):
     """
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: float | None) -> np.ndarray:
+        import numpy as np
+
         within = 1.0 if worker is None else 1.0 - self.between_share
         centre = math.log(self.mean_s) - self.log_variance / 2 + (0.0 if worker is None else worker)
         return np.exp(centre + math.sqrt(within * self.log_variance) * rng.standard_normal(n))
@@ -50,6 +54,8 @@ class Hyperexponential(SharedTime):
     """
 
     def _within_s(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        import numpy as np
+
         p = balanced_probability(self.within_cv)
         short = rng.random(n) < p
         return rng.standard_exponential(n) * np.where(short, self.mean_s / (2 * p), self.mean_s / (2 * (1 - p)))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from opsim.tasks.model import TimeModel
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,8 @@ class Fixed(TimeModel):
         return self.duration_s
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        import numpy as np
+
         return np.full(n, self.duration_s)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from itertools import pairwise
 
-from opsim.graph import Graph, reached, reverse
+from opsim.graph import Graph, reached, reverse, rings
 from opsim.problems import Problem, shown
 from opsim.scenario.checks.ways import one_of, onward
 from opsim.scenario.positions import Node, child, entries, items, problem, text
@@ -19,20 +19,21 @@ def walking_problems(tree: Node) -> Iterator[Problem]:
         return
     graph = _graph(paths)
     back = reverse(graph)
+    ring_of = {place: ring for ring in rings(graph) for place in ring}
     said: set[tuple[str, str]] = set()
     for name, worker in entries(tree, "workers").items():
-        for start, end in _not_led(tree, worker, graph, back):
+        for start, end in _not_led(tree, worker, graph, back, ring_of):
             if (start, end) not in said:
                 said.add((start, end))
                 found = f"no path leads from {shown(start)} to {shown(end)}, and {name} has to walk there"
                 yield problem(paths.name_place, ("layout", "paths"), found, _hint(graph, back, start, end))
 
 
-def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph) -> Iterator[tuple[str, str]]:
+def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph, ring_of: Graph) -> Iterator[tuple[str, str]]:
     """(from, to) of what a worker must be able to walk and cannot; ways between all his stations, seen from the first.
 
     His stations are those of his skills, and those he carries jobs to. He starts at his home, and needs to come back
-    there only where idle workers go home.
+    there only where idle workers go home. ``ring_of`` : to each place, those with ways to it and back.
     """
     known = entries(tree, "layout", "places")
     skilled = entries(worker, "skills")
@@ -41,11 +42,12 @@ def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph) -> Iterator[tu
     if not places:
         return
     first, home = places[0], text(worker, "home")
+    wanted = [place for place in dict.fromkeys([*places, home]) if place is not None and place in known]
+    if set(wanted).issubset(ring_of.get(first, ())):  # NOTE: most often; to walk the graph for each worker is square
+        return
     there, here = reached(graph, [first]), reached(back, [first])
     goes_home = text(tree, "allocation", "idle") == "home"
-    for place in dict.fromkeys([*places, home]):
-        if place is None or place not in known:
-            continue
+    for place in wanted:
         if place not in there and (place in places or goes_home):
             yield first, place
         if place not in here:

@@ -2,6 +2,7 @@ import json
 import time
 
 import pytest
+from plans import many_stations
 
 from tests.opsim.cli.calls import LINE, line, opsim
 
@@ -58,32 +59,6 @@ def test_a_route_that_may_lock_is_warned_of(tmp_path):
     code, _, complaint = opsim("check", path)
     assert code == 0 and "warning: base: press and saw send jobs round in a circle" in complaint
     assert "send jobs round" in json.loads(opsim("check", path, "--json")[1])["warnings"]["base"][0]
-
-
-def many_stations(n):
-    """A scenario of some 8 n lines, one of its variants an override away."""
-    ranks = range(n)
-    return "\n".join(
-        [
-            "opsim: 1",
-            "name: Many stations",
-            "run: {horizon: 8 h}",
-            "layout:",
-            "  places:",
-            *(f"    p{i}: [{i} m, {i % 7} m]" for i in ranks),
-            "tasks:",
-            *(f"  t{i}: {{dist: lognormal, mean: {10 + i % 20} s, cv: 0.25, between_share: 0.5}}" for i in ranks),
-            "stations:",
-            *(f"  s{i}:\n    at: p{i}\n    tasks: [t{i}]\n    servers: 1\n    buffer: 3" for i in ranks),
-            "products:",
-            "  part: {route: [" + ", ".join(f"s{i}" for i in ranks) + "]}",
-            "release: {kind: poisson, every: 55 s}",
-            "workers:",
-            *(f"  w{i}: {{skills: {{s{i}: 1.0, s{(i + 1) % n}: 0.9}}}}" for i in ranks),
-            "overrides: {wider: {stations.s1.buffer: 9}}",
-            "scenarios: {base: [], wide: [wider]}",
-        ]
-    )
 
 
 def test_a_file_of_4000_lines_is_checked_before_it_costs_much(tmp_path):
