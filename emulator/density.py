@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
@@ -56,10 +57,12 @@ class LowRankNormal:
         return column
 
     def sample(self, n: int, rng: np.random.Generator) -> np.ndarray:
-        """n draws (n, K); first xi (n, R), then eta (n, K)."""
+        """n draws (n, K); first xi (n, R), then eta (n, K); no eta where rho is 0."""
         xi = rng.standard_normal((n, len(self.factor)))
+        if self.rho == 0:
+            return self.mean + xi @ self.factor
         eta = rng.standard_normal((n, len(self.mean)))
-        return self.mean + np.sqrt(1 - self.rho) * (xi @ self.factor) + np.sqrt(self.rho) * self.spread * eta
+        return self.mean + sqrt(1 - self.rho) * (xi @ self.factor) + sqrt(self.rho) * self.spread * eta
 
     def log_likelihood(self, scores: np.ndarray) -> np.ndarray:
         """Log density (...,) of scores (..., K) in the subspace where this Gaussian lives.

@@ -11,18 +11,14 @@ Nothing holds a warp near the identity: where postures vary in ways that look li
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from fractions import Fraction
-from functools import lru_cache
-from itertools import pairwise
-from math import gcd
-
 import numpy as np
 
-from emulator import sphere
+from emulator import geodesic, sphere
+from emulator.moves import STEEPEST, moves, tables
 
-STEEPEST = 7
-"""Moves are the coprime pairs up to this: 35 slopes from 1/7 to 7."""
+GENTLE = 2
+"""The three slopes of the first, rough path: it reaches 99 % of the optimum in 3 % of the time."""
+Energies = tuple[np.ndarray, np.ndarray]
 
 
 def tsrvf(directions: np.ndarray, reference: np.ndarray) -> np.ndarray:
@@ -31,6 +27,22 @@ def tsrvf(directions: np.ndarray, reference: np.ndarray) -> np.ndarray:
     Velocities are a unit of [0, 1]; where a posture stands still the field is 0. Source: [000] sec. 3.2.
     Raises ValueError where a posture is opposite to the next one or to the reference.
     """
+    from emulator.kernels.fields import root_speed, transported
+
+    *batch, n_times, n_bones, _ = np.shape(directions)
+    postures = np.ascontiguousarray(directions, dtype=float).reshape(-1, n_times, 3 * n_bones)
+    fields = np.empty((len(postures), n_times - 1, 3 * n_bones))
+    flat_reference = np.array(reference, dtype=float).ravel()
+    for sequence, field in zip(postures, fields):
+        if transported(sequence, flat_reference, geodesic.inverse_sine(), geodesic.LARGEST_CHORD_SQUARE, field):
+            field[:] = tsrvf_numpy(sequence.reshape(n_times, n_bones, 3), reference)
+        else:
+            root_speed(field)
+    return fields.reshape(*batch, n_times - 1, 3 * n_bones)
+
+
+def tsrvf_numpy(directions: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """The same as ``tsrvf`` without compiled code, for steps of any size."""
     directions = np.asarray(directions, float)
     cells = directions.shape[-3] - 1
     here = directions[..., :-1, :, :]
@@ -42,52 +54,35 @@ def tsrvf(directions: np.ndarray, reference: np.ndarray) -> np.ndarray:
     return field / np.sqrt(np.where(speed > 1e-12, speed, np.inf))
 
 
-@dataclass(frozen=True)
-class Moves:
-    """The moves of the dynamic programme and their taps: K[row, column] enters move s with ``tap_weight`` cells."""
-
-    rises: np.ndarray
-    runs: np.ndarray
-    tap_row: np.ndarray
-    tap_column: np.ndarray
-    tap_weight: np.ndarray
-    first: np.ndarray
-
-
-@lru_cache(maxsize=4)
-def moves(steepest: int = STEEPEST) -> Moves:
-    """Coprime moves (p, q) up to ``steepest``; (1, 1) comes first, so that a tie is resolved straight ahead."""
-    pairs = [(p, q) for p in range(1, steepest + 1) for q in range(1, steepest + 1) if gcd(p, q) == 1]
-    taps: list[tuple[int, int, float]] = []
-    first = [0]
-    for p, q in pairs:
-        edges = sorted({*map(Fraction, range(p + 1)), *(Fraction(j * p, q) for j in range(q + 1))})
-        for low, high in pairwise(edges):
-            middle = (low + high) / 2
-            taps.append((int(middle), int(middle * Fraction(q, p)), float(high - low) * np.sqrt(q / p)))
-        first.append(len(taps))
-    rows, columns, weights = zip(*taps)
-    as_int = [
-        np.array(part, dtype=np.int64) for part in ([p for p, _ in pairs], [q for _, q in pairs], rows, columns, first)
-    ]
-    return Moves(as_int[0], as_int[1], as_int[2], as_int[3], np.array(weights), as_int[4])
-
-
-def optimum(kernel: np.ndarray) -> tuple[float, np.ndarray]:
+def optimum(kernel: np.ndarray, energies: Energies | None = None) -> tuple[float, np.ndarray]:
     """The largest inner product over all warps, and the path's nodes (E, 2) in cells, for K = q1 q2' (N, M).
 
+    energies : squared norms of the rows of q1 (N,) and of q2 (M,). Given them, nodes that no best path can pass are
+               left out: what remains to be gained is at most |rest of q1| |rest of q2| (Cauchy-Schwarz), and the best
+               path with slopes of 1/2, 1 and 2 alone, found first, says what must be reached. The answer is the same.
     Raises ValueError where K is not finite or one side is more than ``STEEPEST`` times longer.
     """
-    from emulator.kernels.elastic import fill, way_back
-
     kernel = _checked(kernel)
+    tails = np.zeros(kernel.shape[0] + 1), np.zeros(kernel.shape[1] + 1)
+    bound = -np.inf
+    if energies is not None:
+        bound = _filled(kernel, GENTLE, tails, bound)[0]
+        for tail, energy in zip(tails, energies):
+            tail[:-1] = np.sqrt(np.cumsum(energy[::-1])[::-1])
+        bound -= 1e-9 * tails[0][0] * tails[1][0]
+    best, rows = _filled(kernel, STEEPEST, tails, bound)
+    from emulator.kernels.elastic import way_back
+
+    return best / len(kernel), way_back(kernel, *tables(STEEPEST), *rows)
+
+
+def _filled(kernel: np.ndarray, steepest: int, tails: Energies, bound: float) -> tuple[float, tuple[np.ndarray, ...]]:
+    """The optimum in cells, and the rows of the dynamic programme with the columns where they begin and end."""
+    from emulator.kernels.elastic import fill
+
     n, m = kernel.shape
-    step = moves()
-    value, move = np.empty((n + 1, m + 1)), np.zeros((n + 1, m + 1), dtype=np.uint8)
-    scratch = np.empty(m + 1), np.empty(m + 1), np.empty(m + 1, dtype=np.int64)
-    taps = step.tap_row, step.tap_column, step.tap_weight, step.first
-    best = fill(kernel, step.rises, step.runs, *taps, value, move, *scratch)
-    return float(best) / n, way_back(move, step.rises, step.runs)
+    rows = np.empty((n + 1, m + 1)), np.empty(n + 1, dtype=np.int64), np.empty(n + 1, dtype=np.int64)
+    return float(fill(kernel, *tables(steepest), tails, bound, *rows, np.empty(m + 1))), rows
 
 
 def optimum_numpy(kernel: np.ndarray) -> tuple[float, np.ndarray]:
@@ -99,7 +94,7 @@ def optimum_numpy(kernel: np.ndarray) -> tuple[float, np.ndarray]:
     pairs = list(zip(step.rises.tolist(), step.runs.tolist()))
     for s, (p, q) in enumerate(pairs):
         gain = np.zeros((max(n - p + 1, 0), max(m - q + 1, 0)))
-        for t in range(step.first[s], step.first[s + 1]):
+        for t in range(step.first[s], step.first[s + 1]) if gain.size else ():
             a, b = step.tap_row[t], step.tap_column[t]
             gain += step.tap_weight[t] * kernel[a : a + n - p + 1, b : b + m - q + 1]
         gains.append(gain)
@@ -123,15 +118,18 @@ def pair_warp(q1: np.ndarray, q2: np.ndarray) -> np.ndarray:
 
     Strictly increasing from 0 to 1. For its limits see the module.
     """
-    q1, q2 = np.asarray(q1, float), np.asarray(q2, float)
-    return best_warp(q1 @ q2.T)[0]
+    return best_warp(np.asarray(q1, float), np.asarray(q2, float))[0]
 
 
-def best_warp(kernel: np.ndarray) -> tuple[np.ndarray, float]:
-    """The best warp (N + 1,) for a ready matrix K = q1 q2' (N, M), and the inner product it reaches."""
-    n, m = kernel.shape
-    inner, nodes = optimum(kernel)
-    return np.interp(np.arange(n + 1), nodes[:, 0], nodes[:, 1]) / m, inner
+def best_warp(q1: np.ndarray, q2: np.ndarray) -> tuple[np.ndarray, float]:
+    """``pair_warp`` and the inner product it reaches."""
+    inner, nodes = optimum(q1 @ q2.T, (energy(q1), energy(q2)))
+    return np.interp(np.arange(len(q1) + 1), nodes[:, 0], nodes[:, 1]) / len(q2), inner
+
+
+def energy(q: np.ndarray) -> np.ndarray:
+    """Squared norms (N,) of the rows of q (N, D)."""
+    return np.asarray(np.einsum("nd,nd->n", q, q))
 
 
 def _checked(kernel: np.ndarray) -> np.ndarray:

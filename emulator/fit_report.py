@@ -6,6 +6,29 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
+
+@dataclass(frozen=True)
+class TimeFit:
+    """A time of as many draws of the same people beside the recordings' (not held out).
+
+    distance : of Kolmogorov and Smirnov, 0 to 1; median_error, p90_error : emulated over recorded, less 1
+    """
+
+    name: str
+    distance: float
+    median_error: float
+    p90_error: float
+
+    @classmethod
+    def of(cls, name: str, emulated: np.ndarray, recorded: np.ndarray) -> TimeFit:
+        """From emulated (n,) and recorded (N,) times in seconds."""
+        both = np.sort(np.concatenate([emulated, recorded]))
+        below = [np.searchsorted(np.sort(times), both, side="right") / len(times) for times in (emulated, recorded)]
+        errors = (np.quantile(emulated, q) / max(np.quantile(recorded, q), 1e-9) - 1 for q in (0.5, 0.9))
+        return cls(name, float(np.abs(below[0] - below[1]).max()), *(float(e) for e in errors))
+
 
 @dataclass(frozen=True)
 class FitReport:
@@ -14,9 +37,12 @@ class FitReport:
     explained_variance : share of the posture variance that the posture components carry
     reconstruction_deg : mean angle of a bone when repetitions not used for the components are projected on them
                          (five folds; registration and reference are those of all)
-    roughness_ratio    : mean second difference of posture in own time, emulated over recorded
-    novelty_ratio      : median distance of an emulated performance to the nearest recorded one (joint scores), over
-                         that among recorded ones; near 0 is a copy
+    roughness_ratio    : mean second difference of posture in own time, emulated (the same people) over recorded;
+                         roughness_new_ratio the same for new people
+    novelty_ratio      : median distance of an emulated performance to the nearest recorded one, over that of a
+                         recording left out; near 0 is a copy
+    disco_p            : permutation test of emulated against recorded postures; small says that they differ
+    times              : duration and marks, emulated beside recorded
     """
 
     task: str
@@ -42,6 +68,9 @@ class FitReport:
     command: str
     methods: dict[str, str]
     notes: tuple[str, ...] = ()
+    roughness_new_ratio: float = math.nan
+    disco_p: float = math.nan
+    times: tuple[TimeFit, ...] = ()
 
     def rows(self) -> list[tuple[str, str]]:
         """Label and text of each figure, in the order to print them."""
@@ -53,8 +82,10 @@ class FitReport:
             ("reconstruction, held out", _figure(self.reconstruction_deg, " deg a bone")),
             ("duration", f"{self.duration_mean_s:.3f} s, CV {self.duration_cv:.3f}, {self.duration_margin}"),
             ("ICC of log duration", icc),
-            ("roughness, emulated / recorded", _figure(self.roughness_ratio)),
+            ("roughness, emulated / recorded", f"{_figure(self.roughness_ratio)} {_new(self.roughness_new_ratio)}"),
             ("novelty, emulated / recorded", _figure(self.novelty_ratio)),
+            ("DISCO, emulated against recorded", f"p = {_figure(self.disco_p)}"),
+            *((f"{fit.name}, emulated / recorded", _time(fit)) for fit in self.times),
         ]
 
     def as_dict(self) -> dict[str, Any]:
@@ -66,12 +97,21 @@ class FitReport:
     def of_dict(cls, plain: dict[str, Any]) -> FitReport:
         """The way back from ``as_dict``. Raises KeyError, TypeError or ValueError for what is no report."""
         values: dict[str, Any] = dict(plain)
+        values["times"] = tuple(TimeFit(**time) for time in plain.get("times", ()))
         for name, kind in cls.__annotations__.items():
-            if kind == "float":
+            if kind == "float" and name in values:
                 values[name] = math.nan if values[name] is None else float(values[name])
             elif kind == "tuple[str, ...]":
                 values[name] = tuple(str(item) for item in values[name])
         return cls(**values)
+
+
+def _new(ratio: float) -> str:
+    return "" if math.isnan(ratio) else f"(new people {ratio:.2f})"
+
+
+def _time(fit: TimeFit) -> str:
+    return f"median {100 * fit.median_error:+.1f} %, P90 {100 * fit.p90_error:+.1f} %, KS distance {fit.distance:.2f}"
 
 
 def _figure(value: float, unit: str = "") -> str:

@@ -35,9 +35,7 @@ class SIEM:
 
         Raises ValueError where a bone points opposite to its reference.
         """
-        tangent = sphere.log(np.broadcast_to(self.reference, directions.shape), directions)
-        plane = sphere.basis(self.reference)
-        return np.einsum("...bc,bkc->...bk", tangent, plane).reshape(*directions.shape[:-2], self.n_channels)
+        return sphere.log_coordinates(self.reference, directions).reshape(*directions.shape[:-2], self.n_channels)
 
     def inverse(self, coordinates: np.ndarray) -> np.ndarray:
         """Tangent coordinates (..., 2B) -> directions (..., B, 3)."""

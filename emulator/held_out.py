@@ -43,13 +43,29 @@ def split_within_workers(motions: MotionSet, seed: int) -> tuple[MotionSet, Moti
 def held_out_rows(motions: MotionSet, seed: int = 0, n_each: int = 400) -> list[HeldOutRow]:
     """Fit one half, draw ``n_each`` for each held-out one of the same worker; compare duration and marks."""
     fitted, held = split_within_workers(motions, seed)
-    emulator = MotionEmulator.fit(fitted, seed=seed)
-    rng = np.random.default_rng(seed)
+    return emulated_rows(MotionEmulator.fit(fitted, seed=seed), len(fitted), held, np.random.default_rng(seed), n_each)
+
+
+def emulated_rows(
+    emulator: MotionEmulator, n_fit: int, held: MotionSet, rng: np.random.Generator, n_each: int = 400
+) -> list[HeldOutRow]:
+    """Duration and marks that the emulator draws for the same workers, beside those of the held-out motions."""
     drawn = [emulator.sample(n_each, rng, worker=m.worker) for m in held.motions]
-    times = {"duration": (np.concatenate([p.duration_s for p in drawn]), held.duration_s)}
-    for e, mark in enumerate(motions.mark_names):
-        times[mark] = np.concatenate([p.mark_s[:, e] for p in drawn]), held.mark_s[:, e]
-    return [_row(motions.task, name, len(fitted), *pair) for name, pair in times.items()]
+    mark_s = np.concatenate([p.mark_s for p in drawn])
+    return _rows(held, n_fit, np.concatenate([p.duration_s for p in drawn]), mark_s)
+
+
+def resampled_rows(fitted: MotionSet, held: MotionSet, rng: np.random.Generator, n_each: int = 400) -> list[HeldOutRow]:
+    """The control: duration and marks of the same workers' fitted repetitions, drawn again with replacement."""
+    names = np.array([m.worker for m in fitted.motions])
+    again = np.concatenate([rng.choice(np.flatnonzero(names == m.worker), n_each) for m in held.motions])
+    return _rows(held, len(fitted), fitted.duration_s[again], fitted.mark_s[again])
+
+
+def _rows(held: MotionSet, n_fit: int, duration_s: np.ndarray, mark_s: np.ndarray) -> list[HeldOutRow]:
+    marks = [(name, mark_s[:, e], held.mark_s[:, e]) for e, name in enumerate(held.mark_names)]
+    pairs = [("duration", duration_s, held.duration_s), *marks]
+    return [_row(held.task, name, n_fit, emulated, seen) for name, emulated, seen in pairs]
 
 
 def _row(task: str, quantity: str, n_fit: int, emulated: np.ndarray, seen: np.ndarray) -> HeldOutRow:

@@ -1,12 +1,14 @@
-"""The joint vector: posture, way, pace, duration, marks and bones side by side, each coordinate at unit spread."""
+"""The joint vector: posture, way, pace, duration, marks, bones and dwells side by side, each at unit spread."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
 
 import numpy as np
 
-BLOCKS = ("posture", "root", "pace", "duration", "marks", "bones")
+BLOCKS = ("posture", "root", "pace", "duration", "marks", "bones", "dwells")
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,8 @@ class JointScale:
 
     @classmethod
     def fit(cls, parts: dict[str, np.ndarray]) -> tuple[JointScale, np.ndarray]:
-        """From raw parts {block: (N, k)} to the scale and z (N, K)."""
+        """From raw parts {block: (N, k)} to the scale and z (N, K); a task without pauses gives no "dwells"."""
+        parts = {"dwells": np.zeros((len(parts["duration"]), 0))} | parts
         raw = np.concatenate([parts[name] for name in BLOCKS], axis=1)
         spread = raw.std(axis=0, ddof=1)
         scale = cls(
@@ -33,9 +36,12 @@ class JointScale:
 
     def block(self, name: str) -> slice:
         """Where a block lies."""
-        at = BLOCKS.index(name)
-        start = sum(self.sizes[:at])
-        return slice(start, start + self.sizes[at])
+        return self._blocks[name]
+
+    @cached_property
+    def _blocks(self) -> dict[str, slice]:
+        ends = list(accumulate(self.sizes))
+        return {name: slice(end - size, end) for name, end, size in zip(BLOCKS, ends, self.sizes)}
 
     def raw(self, z: np.ndarray, name: str) -> np.ndarray:
         """The raw coordinates (n, k) of one block of z (n, K)."""

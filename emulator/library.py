@@ -13,7 +13,8 @@ import numpy as np
 
 from emulator.archive import LibraryError, read_archive, read_header, write_archive
 from emulator.model import MotionEmulator
-from emulator.packing import pack, unpack
+from emulator.packing import pack
+from emulator.unpacking import unpack
 
 __all__ = ["LibraryError", "MotionLibrary", "file_sha256", "read_header"]
 

@@ -35,15 +35,19 @@ class Margin:
         """z (...,) -> values (...,)."""
         return _line(z, self.z, self.value, self.slope)
 
+    def moments_s(self, mean: np.ndarray, spread: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """First and second moment (M,) of exp(inverse(Z)), seconds, for Z normal with ``mean``, ``spread`` (M,)."""
+        duration_s = np.exp(self.inverse(mean[:, None] + spread[:, None] * _GRID))
+        return duration_s @ _WEIGHTS, duration_s**2 @ _WEIGHTS
+
     def mean_duration_s(self, mean: float, spread: float) -> float:
         """Mean of exp(inverse(Z)), seconds, for Z normal with this mean and standard deviation."""
-        return float(np.exp(self.inverse(mean + spread * _GRID)) @ _WEIGHTS)
+        return float(self.moments_s(np.array([mean]), np.array([spread]))[0][0])
 
     def cv(self, mean: float, spread: float) -> float:
         """Coefficient of variation of exp(inverse(Z)), Z as in ``mean_duration_s``."""
-        duration_s = np.exp(self.inverse(mean + spread * _GRID))
-        first = duration_s @ _WEIGHTS
-        return float(np.sqrt(max(duration_s**2 @ _WEIGHTS - first**2, 0.0)) / first)
+        first, second = self.moments_s(np.array([mean]), np.array([spread]))
+        return float(np.sqrt(max(second[0] - first[0] ** 2, 0.0)) / first[0])
 
 
 def fit_margin(values: np.ndarray, tested: np.ndarray, n_knots: int, level: float = 0.01) -> Margin:
@@ -62,7 +66,10 @@ def fit_margin(values: np.ndarray, tested: np.ndarray, n_knots: int, level: floa
 
 def inverse_all(margins: tuple[Margin, ...], z: np.ndarray) -> np.ndarray:
     """Column by column the values of z (n, E)."""
-    return np.stack([m.inverse(z[:, e]) for e, m in enumerate(margins)], axis=1) if margins else z
+    values = np.empty(z.shape)
+    for e, margin in enumerate(margins):
+        values[:, e] = margin.inverse(z[:, e])
+    return values
 
 
 def within_worker(values: np.ndarray, worker_index: np.ndarray) -> np.ndarray:
@@ -92,6 +99,8 @@ def _normal_scores(values: np.ndarray, n_knots: int, spread: float) -> Margin:
 
 
 def _line(x: np.ndarray, x_knots: np.ndarray, y_knots: np.ndarray, slope: float) -> np.ndarray:
+    if len(x_knots) == 1:
+        return np.asarray(y_knots[0] + slope * (x - x_knots[0]))
     inside = np.interp(x, x_knots, y_knots)
     below, above = np.minimum(x - x_knots[0], 0.0), np.maximum(x - x_knots[-1], 0.0)
     return inside + slope * (below + above)

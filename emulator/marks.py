@@ -21,6 +21,8 @@ def clock_to_coordinates(mark_clock: np.ndarray) -> np.ndarray:
 
 def coordinates_to_clock(coordinates: np.ndarray) -> np.ndarray:
     """The way back: (N, E) -> (N, E), increasing along E and strictly inside (0, 1)."""
-    bounded = np.clip(coordinates, -12.0, 12.0)  # beyond, a gap is lost to rounding
-    gaps = np.concatenate([np.exp(bounded), np.ones((len(bounded), 1))], axis=1)
-    return np.cumsum(gaps, axis=1)[:, :-1] / gaps.sum(axis=1, keepdims=True)
+    edges = np.ones((len(coordinates), coordinates.shape[1] + 1))
+    np.exp(np.minimum(np.maximum(coordinates, -12.0), 12.0), out=edges[:, :-1])  # beyond, a gap is lost to rounding
+    for e in range(1, edges.shape[1]):  # running sums of the gaps: a few columns are quicker one by one
+        edges[:, e] += edges[:, e - 1]
+    return np.asarray(edges[:, :-1] / edges[:, -1:])

@@ -10,9 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from emulator import dwell_given, dwell_times
+from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
 from emulator.joint import JointScale
+from emulator.law import Law
 from emulator.margin import Margin, inverse_all
 from emulator.marks import coordinates_to_clock
 from emulator.motion import MotionSet
@@ -20,10 +23,11 @@ from emulator.performances import MotionPerformances
 from emulator.reduce import JointPCA
 from emulator.root import RootChannel
 from emulator.skeleton import Skeleton
-from emulator.warp import evaluate, from_clr
+from emulator.warp import from_clr, from_clr_at
 from emulator.workforce import WorkerEffect, Workforce
 
-SCHEME = "SIEM/JointPCA/MVG"
+SCHEME = "SIEM/JointPCA/Smoothed"
+SCHEMES = (SCHEME, "SIEM/JointPCA/MVG")
 CONDITIONS = ("duration_s", "log_duration_shift")
 _CROWN_AND_SOLE_M = 0.20
 """Ankle above the floor and crown above the head joint, in a body whose height is asked for."""
@@ -34,7 +38,8 @@ class MotionEmulator:
     """A task's model: the steps from recordings to joint coordinates z, each with its way back, and the Gaussians of z.
 
     posture, root, pace, bones : JointPCA of tangent postures (T * 2B), side channel (T * 4), pace (Q), log bones (B)
-    margin, mark_margins : of log duration, and of each mark's coordinate
+    margin, mark_margins : of log moving duration (the whole duration, if nothing pauses), of each mark's coordinate
+    dwells : sites of pauses and the law of each dwell; whole duration = moving duration + dwells
     """
 
     task: str
@@ -51,6 +56,7 @@ class MotionEmulator:
     scale: JointScale
     workforce: Workforce
     report: FitReport
+    dwells: Dwells = NONE
 
     @classmethod
     def fit(
@@ -61,60 +67,76 @@ class MotionEmulator:
         n_components: int | float | None = None,
         n_times: int = 101,
         n_knots: int = 20,
+        landmarks: float = 0.0,
         progress: Callable[[int, int, str], None] | None = None,
         seed: int = 0,
         command: str = "",
     ) -> MotionEmulator:
         """Align, flatten, reduce and model the repetitions of one task.
 
-        n_components : posture components: a number, a share of variance in (0, 1), or None for 0.98
+        n_components : posture components: a number, a share of variance in (0, 1), or None: see ``posture_size``
+        landmarks    : strength that brings marks together in the registration (see ``landmarks``; 0.01 is strong)
         n_times      : points of the common clock; n_knots : cells of the pace, 2 to n_times - 1
         progress     : called with (done, total, label); seed decides nothing but the figures of the report
         Raises ValueError for an unknown scheme, fewer than three repetitions, or settings out of range.
         """
+        from emulator.fit_settings import FitSettings
         from emulator.fitting import fit
 
-        return fit(motions, scheme, n_components, n_times, n_knots, progress, seed, command)
+        return fit(motions, FitSettings(scheme, n_components, n_times, n_knots, landmarks, seed, command), progress)
 
     def sample(
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
     ) -> MotionPerformances:
-        """n performances in one joint draw: within-worker numbers first, then (worker=None) the between-worker ones.
+        """n performances in one joint draw (see ``law``): within-worker numbers first, then the between-worker ones.
 
         worker    : an effect of ``draw_worker`` or ``known_worker``, a known worker's name, or None: each performance
                     by another worker of the population
-        condition : None, or {"duration_s": x} (number or (n,)): Gaussian conditional of z given the duration;
+        condition : None, or {"duration_s": x} (number or (n,)): the conditional law of z given the duration;
                     {"log_duration_shift": d}: the same noise, log duration moved by d, posture after it by regression
         Raises ValueError for an unknown worker or condition.
         """
         effect = self._effect(worker)
-        z = self.workforce.within.sample(n, rng)
-        z = z + (effect.z if effect is not None else self.workforce.between.sample(n, rng))
-        if condition:
-            z = self._conditioned(z, effect, condition)
+        law = self.workforce.law(effect)
+        z = self._given(law, n, rng, effect, condition) if condition else law.sample(n, rng)
         return self.performances(z, 1.0 if effect is None else effect.scale)
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
         """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand."""
-        duration_s = np.exp(self.margin.inverse(self.scale.raw(scores, "duration")[:, 0]))
+        duration_s = self.moving_s(scores) if len(self.dwells) == 0 else dwell_times.whole_s(self, scores)
         return MotionPerformances(self, scores, duration_s, np.broadcast_to(body_scale, duration_s.shape))
+
+    def moving_s(self, scores: np.ndarray) -> np.ndarray:
+        """(n,) seconds of movement: the duration without its pauses."""
+        return np.asarray(np.exp(self.margin.inverse(self.scale.raw(scores, "duration")[:, 0])))
+
+    def dwell_s(self, scores: np.ndarray) -> np.ndarray:
+        """(n, S) seconds of pause at each site of ``dwells``; 0 where a performance does not pause."""
+        return self.dwells.seconds(self.scale.raw(scores, "dwells"))
 
     def mark_share(self, scores: np.ndarray) -> np.ndarray:
         """(n, E) the share of its own duration at which each mark of a performance falls."""
         clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        return evaluate(self.warps(scores), clock)
+        share = from_clr_at(self._slopes(scores), clock, self.n_times)
+        return share if len(self.dwells) == 0 else dwell_times.mark_share(self, scores, share)
 
     def mean_duration_s(self, worker: Any = None) -> float:
         """Mean duration in seconds of the model: of a worker with this effect, or over the population."""
-        return self.margin.mean_duration_s(*self._duration_normal(self._effect(worker)))
+        if len(self.dwells):
+            return dwell_times.moments_s(self, self._effect(worker))[0]
+        return self._moments_s(self._effect(worker))[0]
 
     def duration_cv(self, worker: Any = None) -> float:
         """Coefficient of variation of the model's duration, of one worker or over the population."""
-        return self.margin.cv(*self._duration_normal(self._effect(worker)))
+        if len(self.dwells):
+            mean_s, spread_s = dwell_times.moments_s(self, self._effect(worker))
+        else:
+            mean_s, spread_s = self._moments_s(self._effect(worker))
+        return spread_s / mean_s
 
     @property
     def between_share(self) -> float:
-        """Share of the variance of the duration coordinate (log duration) that lies between workers."""
+        """Share of the variance of the duration coordinate (log moving duration) that lies between workers."""
         at = self.scale.block("duration").start
         between, within = self.workforce.between.spread[at] ** 2, self.workforce.within.spread[at] ** 2
         return float(between / (between + within)) if between + within > 0 else 0.0
@@ -146,7 +168,11 @@ class MotionEmulator:
 
     def warps(self, scores: np.ndarray) -> np.ndarray:
         """Own unit time on the common clock, (n, T), strictly increasing from 0 to 1."""
-        return from_clr(np.clip(self.pace.inverse(self.scale.raw(scores, "pace")), -8.0, 8.0), self.n_times)
+        return from_clr(self._slopes(scores), self.n_times)
+
+    def _slopes(self, scores: np.ndarray) -> np.ndarray:
+        """(n, Q) centred log ratios of the warps."""
+        return np.minimum(np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), -8.0), 8.0)
 
     def aligned_directions(self, scores: np.ndarray) -> np.ndarray:
         """Postures on the common clock, (n, T, B, 3)."""
@@ -184,32 +210,49 @@ class MotionEmulator:
             raise ValueError(f"{self.task}: this worker's effect was not drawn from this emulator")
         return effect
 
-    def _duration_normal(self, effect: WorkerEffect | None) -> tuple[float, float]:
-        """Mean and standard deviation of the margin's coordinate."""
-        at = self.scale.block("duration").start
-        between, within = self.workforce.between, self.workforce.within
-        mean = between.mean[at] if effect is None else effect.z[at]
-        variance = within.spread[at] ** 2 + (between.spread[at] ** 2 if effect is None else 0.0)
-        spread = self.scale.spread[at]
-        return float(self.scale.centre[at] + spread * mean), float(spread * np.sqrt(variance))
+    def _moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
+        """Mean and standard deviation of the duration, over the components of its law."""
+        block, law = self.scale.block("duration"), self.workforce.law(effect)
+        mean, covariance = law.coordinates(np.array([block.start]))
+        raw = self.scale.centre[block] + self.scale.spread[block] * mean
+        spread = self.scale.spread[block] * np.sqrt(covariance[:, 0])
+        first, second = self.margin.moments_s(raw[:, 0], spread[:, 0])
+        mean_s = float(law.weight @ first)
+        return mean_s, float(np.sqrt(max(law.weight @ second - mean_s**2, 0.0)))
 
-    def _conditioned(self, z: np.ndarray, effect: WorkerEffect | None, condition: Mapping[str, Any]) -> np.ndarray:
-        """z moved along its regression on the duration coordinate, noise kept (Matheron's rule)."""
+    def covariance_with(self, at: int, effect: WorkerEffect | None) -> np.ndarray:
+        """(K,) covariance of z with its coordinate ``at``: of one worker, or over the population."""
+        column = self.workforce.within.covariance_with(at)
+        return column if effect is not None else column + self.workforce.between.covariance_with(at)
+
+    def _given(
+        self, law: Law, n: int, rng: np.random.Generator, effect: WorkerEffect | None, condition: Mapping[str, Any]
+    ) -> np.ndarray:
+        """z under a condition: drawn given the duration, then moved along its regression on the duration."""
         for name in condition:
             if name not in CONDITIONS:
                 raise ValueError(f"condition: no {name!r}; known: {', '.join(CONDITIONS)}")
+        if len(self.dwells):
+            return dwell_given.conditioned(self, law, n, rng, effect, condition)
         at = self.scale.block("duration").start
-        column = self.workforce.within.covariance_with(at)
-        if effect is None:
-            column = column + self.workforce.between.covariance_with(at)
-        log_duration = self.margin.inverse(self.scale.raw(z, "duration")[:, 0])
         if "duration_s" in condition:
-            log_duration = np.log(np.broadcast_to(condition["duration_s"], len(z)))
-        log_duration = log_duration + np.asarray(condition.get("log_duration_shift", 0.0))
-        target = (self.margin.forward(log_duration) - self.scale.centre[at]) / self.scale.spread[at]
+            log_duration = np.log(np.broadcast_to(condition["duration_s"], n))
+            z = law.sample(n, rng, given=(at, self._duration_z(log_duration)))
+        else:
+            z = law.sample(n, rng)
+        return self._shifted(z, at, self.covariance_with(at, effect), condition.get("log_duration_shift", 0.0))
+
+    def _shifted(self, z: np.ndarray, at: int, column: np.ndarray, shift: float | np.ndarray) -> np.ndarray:
+        """z with log duration moved by ``shift``, the rest after it by its regression ``column`` (K,) on duration."""
+        log_duration = self.margin.inverse(self.scale.raw(z, "duration")[:, 0])
         slope = column / column[at] if column[at] > 0 else np.zeros_like(column)
         slope[at] = 1.0
-        return z + (target - z[:, at])[:, None] * slope
+        return z + (self._duration_z(log_duration + np.asarray(shift)) - z[:, at])[:, None] * slope
+
+    def _duration_z(self, log_duration: np.ndarray) -> np.ndarray:
+        """The coordinate of z at which the log duration is this."""
+        at = self.scale.block("duration").start
+        return np.asarray((self.margin.forward(log_duration) - self.scale.centre[at]) / self.scale.spread[at])
 
     def _chain_m(self, z: np.ndarray) -> float:
         """Length of the chain ankle, knee, hip, pelvis to head: the height without sole and crown."""

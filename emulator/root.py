@@ -51,12 +51,36 @@ class RootChannel:
 
         The path begins at x = y = 0, and no joint is ever below the floor.
         """
+        from emulator.kernels.body import ride_all
+
+        n_times, n_bones = directions.shape[-3:-1]
+        root_m = np.empty((*channel.shape[:-1], 3))
+        ride_all(
+            np.ascontiguousarray(directions, dtype=float).reshape(-1, n_times, 3 * n_bones),
+            np.asarray(bone_length_m, dtype=float).reshape(-1, n_bones),
+            self.skeleton.chain,
+            np.array(self._feet, dtype=np.int64),
+            SOFT_M,
+            channel.reshape(-1, n_times, 4),
+            self.leg_m(np.asarray(bone_length_m)).reshape(-1),
+            root_m.reshape(-1, n_times, 3),
+        )
+        return root_m, channel[..., 3]
+
+    def inverse_numpy(
+        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The same as ``inverse`` without compiled code."""
         yaw = channel[..., 3]
         way, floor = self._ride(directions, bone_length_m, yaw)
         left = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
         level = way + left[..., :2]
         height = np.maximum(floor + left[..., 2], -self._hanging(directions, bone_length_m)[..., 2].min(-1))
         return np.concatenate([level - level[..., :1, :], height[..., None]], axis=-1), yaw
+
+    @property
+    def _feet(self) -> list[int]:
+        return [self.skeleton.names.index(name) for name in _FEET if name in self.skeleton.names]
 
     def _hanging(self, directions: np.ndarray, bone_length_m: np.ndarray) -> np.ndarray:
         """Joints (..., T, J, 3) with the root at the origin."""
@@ -67,7 +91,7 @@ class RootChannel:
         self, directions: np.ndarray, bone_length_m: np.ndarray, yaw_rad: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The horizontal way (..., T, 2) on planted feet, and the height (..., T) with the lowest foot at 0."""
-        feet = [self.skeleton.names.index(name) for name in _FEET if name in self.skeleton.names]
+        feet = self._feet
         if not feet:
             return np.zeros((*yaw_rad.shape, 2)), np.zeros(yaw_rad.shape)
         hanging = turn(self._hanging(directions, bone_length_m)[..., feet, :], yaw_rad[..., None])

@@ -165,6 +165,12 @@ class Skeleton:
         return tuple((self.parents[j], j) for j in self.bones)
 
     @cached_property
+    def chain(self) -> np.ndarray:
+        """(B, 3) bone, parent joint and child joint, from the root outwards: a parent comes before its children."""
+        outwards = sorted(range(self.n_bones), key=lambda bone: len(self._path(self.bones[bone])))
+        return np.array([(bone, *self.edges[bone]) for bone in outwards], dtype=np.int64)
+
+    @cached_property
     def _reach(self) -> np.ndarray:
         """(J, B) 1 where the bone lies between the root and the joint."""
         reach = np.zeros((self.n_joints, self.n_bones))

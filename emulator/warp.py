@@ -6,6 +6,8 @@ in two coordinate systems: the Hilbert sphere of sqrt(gamma') for the mean, the 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 
@@ -74,6 +76,44 @@ def from_clr(x: np.ndarray, n_times: int = 101) -> np.ndarray:
     return _monotone_cubic(rise, np.linspace(0.0, 1.0, n_times))
 
 
+def from_clr_at(x: np.ndarray, at: np.ndarray, n_times: int = 101) -> np.ndarray:
+    """``evaluate(from_clr(x, n_times), at)`` for x (n, K) and at (n, E) in [0, 1]: (n, E), without whole warps."""
+    n, n_knots = x.shape
+    place = at * (n_times - 1)
+    low = np.minimum(place.astype(int), n_times - 2)
+    point = np.concatenate([low, low + 1], axis=1)
+    cell, weight, sums = _cubic_table(n_knots, n_times)
+    inner = np.exp(x)
+    level = inner @ sums  # NOTE: five times faster than cumsum along short rows
+    rise = np.empty((n, n_knots + 2))
+    rise[:, 1:-1], rise[:, 0], rise[:, -1] = inner, inner[:, 0], inner[:, -1]
+    where = cell.take(point) + np.arange(0, n * (n_knots + 2), n_knots + 2)[:, None]
+    before, here, after = rise.take(where), rise.take(where + 1), rise.take(where + 2)
+    start, stop = before * here / (before + here), here * after / (here + after)
+    value = level.take(where) + here * weight[0].take(point)
+    value += start * weight[1].take(point)
+    value += stop * weight[2].take(point)
+    value /= level[:, -2:-1]
+    left, right = value[:, : at.shape[1]], value[:, at.shape[1] :]
+    return np.asarray(left + (right - left) * (place - low))
+
+
+@lru_cache(maxsize=16)
+def _cubic_table(n_knots: int, n_times: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Cells (T,) of the points of the clock, weights (3, T) of the rise there and of half the slopes about it, and the
+    matrix (K, K + 2) that adds up rises before each knot; its last column is empty."""
+    cell, u = _cells(np.linspace(0.0, 1.0, n_times), n_knots)
+    weight = np.stack([u * u * (3.0 - 2.0 * u), 2.0 * u * (1.0 - u) ** 2, 2.0 * u * u * (u - 1.0)])
+    sums = np.triu(np.ones((n_knots, n_knots + 2)), 1)
+    sums[:, -1] = 0.0
+    return cell, weight, sums
+
+
+def _cells(at: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+    cell = np.minimum((at * n).astype(int), n - 1)
+    return cell, at * n - cell
+
+
 def _monotone_cubic(rise: np.ndarray, at: np.ndarray) -> np.ndarray:
     """The monotone cubic through the running sums of rise (..., K) on K equal cells of [0, 1], at (S,): (..., S)."""
     n = rise.shape[-1]
@@ -81,8 +121,7 @@ def _monotone_cubic(rise: np.ndarray, at: np.ndarray) -> np.ndarray:
     level = np.concatenate([zero, np.cumsum(rise, axis=-1)], axis=-1)
     inner = 2.0 * rise[..., :-1] * rise[..., 1:] / (rise[..., :-1] + rise[..., 1:])
     slope = np.concatenate([rise[..., :1], inner, rise[..., -1:]], axis=-1)
-    cell = np.minimum((at * n).astype(int), n - 1)
-    u = at * n - cell
+    cell, u = _cells(at, n)
     h1 = u * u * (3.0 - 2.0 * u)
     h2, h3 = u * (1.0 - u) ** 2, u * u * (u - 1.0)
     return (level[..., cell] + rise[..., cell] * h1 + slope[..., cell] * h2 + slope[..., cell + 1] * h3) / level[

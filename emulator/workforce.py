@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from emulator.density import LowRankNormal
+from emulator.law import Law
 from emulator.margin import within_worker
+from emulator.smoothed import SmoothedScores
 
 BETWEEN_METHOD = (
     "variances by ANOVA (a negative one is 0); correlations of people's means, shrunk to 0 by rho = {rho}; "
@@ -41,12 +44,14 @@ class Workforce:
 
     between, within : LowRankNormal over K coordinates (within has mean 0)
     names : W worker names; effects : (W, K) their shrunk means
+    smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
     """
 
     between: LowRankNormal
     within: LowRankNormal
     names: tuple[str, ...]
     effects: np.ndarray
+    smoothed: SmoothedScores | None = None
 
     @classmethod
     def fit(
@@ -67,6 +72,21 @@ class Workforce:
     @property
     def has_worker_effect(self) -> bool:
         return len(self.names) > 1
+
+    def law(self, effect: WorkerEffect | None) -> Law:
+        """The law of z of the worker with this effect, or (None) of a new worker each time."""
+        people = self.between if effect is None else None
+        mean = np.zeros_like(self.between.mean) if effect is None else effect.z
+        if self.smoothed is None:
+            return Law(np.ones(1), np.zeros((1, len(mean))), np.ones(1), self.within, mean, people)
+        if effect is not None and effect.name in self.names:
+            return self._known_laws[self.names.index(effect.name)]
+        return self.smoothed.anyone(mean, people)
+
+    @cached_property
+    def _known_laws(self) -> tuple[Law, ...]:
+        assert self.smoothed is not None
+        return tuple(self.smoothed.known(w, effect) for w, effect in enumerate(self.effects))
 
 
 @dataclass(frozen=True)

@@ -64,6 +64,45 @@ def test_the_objective_never_rises_and_the_last_round_is_the_best(seed):
     assert centred < 1.05 * alignment.history[-1]
 
 
+SIX = ("sit_to_stand", "deep_squat", "side_lunge", "inline_lunge", "shoulder_abduction", "shoulder_scaption")
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_on_recordings_the_objective_never_rises_and_settles_and_centring_costs_at_most_1_5_percent(name):
+    motions = read_motions(recording(f"uiprmd_{name}"), where="cov_correct==1")
+    alignment = align([motion.directions for motion in motions.motions])
+    history = alignment.history
+    assert 2 <= len(history) < 20 and history[-1] == min(history)
+    assert all(later <= earlier * (1 + 1e-12) for earlier, later in pairwise(history))
+    assert history[-2] - history[-1] < 1e-3 * history[-2]
+    assert 0 <= alignment.centred / history[-1] - 1 < 0.015
+    assert np.abs(warp.mean(alignment.warps) - CLOCK).max() < 5e-3
+
+
+@pytest.mark.parametrize("name", ["deep_squat", "shoulder_scaption"])
+def test_going_on_beyond_the_tolerance_moves_no_warp_worth_speaking_of(name):
+    motions = read_motions(recording(f"uiprmd_{name}"), where="cov_correct==1")
+    directions = [motion.directions for motion in motions.motions]
+    usual, long = align(directions), align(directions, tolerance=0.0, max_iterations=15)
+    assert len(long.history) > len(usual.history)
+    assert 1 - long.history[-1] / usual.history[-1] < 2e-3
+    assert np.abs(long.warps - usual.warps).mean() * 100 < 0.1
+
+
+def test_where_it_starts_decides_little():
+    motions = read_motions(recording("uiprmd_side_lunge"), where="cov_correct==1")
+    directions = [motion.directions for motion in motions.motions]
+    one = align(directions)
+    other = align([*directions[20:], *directions[:20], directions[3]])  # one more: another start, another mean
+    assert np.abs(other.warps[len(directions) - 20 : -1] - one.warps[:20]).mean() * 100 < 0.5
+
+
+def test_centring_costs_nothing_where_nothing_is_to_centre():
+    sequences, _, _ = made_sequences(1, 60, seed=3)
+    alignment = align([sequences[0], sequences[0]])
+    assert alignment.centred == alignment.before == 0.0
+
+
 def test_warps_are_warps_and_centred(made):
     *_, alignment = made
     warp.check(alignment.warps)

@@ -53,6 +53,51 @@ def test_the_compiled_rows_are_the_numpy_rows(n_cells):
     assert np.array_equal(fast_path, plain_path)
 
 
+def energies(q1, q2):
+    return elastic.energy(q1), elastic.energy(q2)
+
+
+@pytest.mark.parametrize("n_cells", [20, 57, 100])
+@pytest.mark.parametrize("likeness", [0.0, 0.7, 0.99])
+def test_leaving_out_what_cannot_be_best_changes_nothing(n_cells, likeness):
+    q1, noise = fields(n_cells, seed=n_cells)
+    q2 = likeness * q1 + (1 - likeness) * noise
+    whole, whole_path = elastic.optimum(q1 @ q2.T)
+    pruned, path = elastic.optimum(q1 @ q2.T, energies(q1, q2))
+    assert pruned == whole and np.array_equal(path, whole_path)
+
+
+def test_what_cannot_be_best_is_left_out(monkeypatch):
+    sequences, _, base = made_sequences(2, 101, seed=1)
+    q1, q2 = elastic.tsrvf(sequences, base)
+    filled, kept = elastic._filled, []
+
+    def watched(*arguments):
+        best, rows = filled(*arguments)
+        kept.append(np.maximum(rows[2] - rows[1] + 1, 0).sum() / rows[0].size)
+        return best, rows
+
+    monkeypatch.setattr(elastic, "_filled", watched)
+    elastic.optimum(q1 @ q2.T, energies(q1, q2))
+    elastic.optimum(q1 @ q2.T)
+    assert kept[1] < 0.4 and kept[2] == pytest.approx(0.75, abs=0.02)
+
+
+def test_pruning_keeps_every_path_of_two_still_sequences_and_of_opposite_ones():
+    still = np.zeros((40, 6))
+    assert np.allclose(elastic.pair_warp(still, still), np.linspace(0, 1, 41))
+    q, _ = fields(40)
+    assert elastic.best_warp(q, -q)[1] == elastic.optimum(-q @ q.T)[0]
+
+
+def test_sequences_of_unequal_length_are_pruned_alike():
+    q1, q2 = fields(90, seed=4)
+    for short in (14, 30, 60):
+        whole, path = elastic.optimum(q1[:short] @ q2.T)
+        assert elastic.optimum(q1[:short] @ q2.T, energies(q1[:short], q2))[0] == whole
+        assert tuple(path[0]) == (0, 0) and tuple(path[-1]) == (short, 90)
+
+
 def test_the_optimum_is_worth_its_own_path():
     q1, q2 = fields(60, seed=3)
     inner, path = elastic.optimum(q1 @ q2.T)
@@ -63,6 +108,19 @@ def test_the_optimum_is_worth_its_own_path():
 def test_tsrvf_is_the_naive_tsrvf():
     sequences, _, base = made_sequences(1, 25, n_bones=3, seed=2)
     assert np.allclose(elastic.tsrvf(sequences[0], base), naive_tsrvf(sequences[0], base), atol=1e-10)
+
+
+@pytest.mark.parametrize("n_times", [12, 60])  # steps beyond the series, and within
+def test_the_compiled_field_is_the_numpy_field(n_times):
+    sequences, _, base = made_sequences(3, n_times, n_bones=5, seed=6)
+    assert np.abs(elastic.tsrvf(sequences, base) - elastic.tsrvf_numpy(sequences, base)).max() < 1e-12
+    assert np.array_equal(elastic.tsrvf(sequences[1], base), elastic.tsrvf(sequences, base)[1])
+
+
+def test_a_posture_opposite_to_the_reference_is_refused():
+    sequences, _, base = made_sequences(1, 30, n_bones=3)
+    with pytest.raises(ValueError, match="opposite"):
+        elastic.tsrvf(np.concatenate([-base[None], sequences[0]]), base)
 
 
 def test_standing_still_gives_a_zero_field():

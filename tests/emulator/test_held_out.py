@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.held_out import held_out_rows, holm, split_within_workers, table_text
+from emulator.held_out import held_out_rows, holm, resampled_rows, split_within_workers, table_text
 from tests.emulator.fitted import made, recorded
 
 CLASSES = ("deep_squat", "sit_to_stand", "side_lunge", "shoulder_abduction", "shoulder_scaption")
@@ -20,6 +20,15 @@ def test_each_worker_is_split_in_halves():
     for half in (first, second):
         assert np.bincount(half.worker_index).tolist() == [4] * 5
     assert not {m.name for m in first.motions} & {m.name for m in second.motions}
+
+
+def test_resampled_durations_are_those_of_the_same_workers():
+    """Fitted on itself the control has the law of what it is compared with."""
+    motions = made("lift")[0]
+    rows = resampled_rows(motions, motions, np.random.default_rng(0))
+    assert [row.quantity for row in rows] == ["duration", "grasp", "set_down"]
+    assert max(row.distance for row in rows) < 0.03
+    assert np.abs([row.quantile_error_percent for row in rows]).max() < 5
 
 
 def test_a_wrong_model_would_be_seen():

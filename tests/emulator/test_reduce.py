@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.reduce import JointPCA
+from emulator.reduce import JointPCA, SequentialPCA
 
 
 def sequences(n=12, p=40, rank=5):
@@ -45,3 +45,59 @@ def test_sequences_without_variance_need_no_component():
 def test_a_number_of_components_that_cannot_be_had_is_refused(wish):
     with pytest.raises(ValueError, match="n_components"):
         JointPCA.fit(sequences(), wish)
+
+
+def courses(n=9, t=14, c=6, rank=4):
+    """n sequences (n, T, C) whose postures span ``rank`` directions."""
+    rng = np.random.default_rng(1)
+    return 2 + rng.normal(size=(n, t, rank)) * np.arange(rank, 0, -1) @ rng.normal(size=(rank, c))
+
+
+def test_sequential_components_are_those_of_both_covariances():
+    """[000] sec. 4.2, step by step: covariance of all postures, then of each spatial score over time."""
+    x = courses()
+    pca = SequentialPCA.fit(x, 3, 2)
+    postures = x.reshape(-1, 6)
+    spatial = np.linalg.eigh(np.cov(postures.T, bias=True))[1][:, ::-1][:, :3].T
+    assert np.allclose(np.abs(pca.spatial @ spatial.T), np.eye(3), atol=1e-8)
+    for i, scores in enumerate(np.moveaxis((x - postures.mean(0)) @ pca.spatial.T, -1, 0)):
+        temporal = np.linalg.eigh(np.cov(scores.T, bias=True))[1][:, ::-1][:, :2].T
+        assert np.allclose(np.abs(pca.temporal[i] @ temporal.T), np.eye(2), atol=1e-6)
+    assert pca.n_components == 6
+
+
+def test_all_sequential_components_give_the_sequences_back():
+    x = courses()
+    pca = SequentialPCA.fit(x, 4, 8)
+    assert np.abs(pca.inverse(pca.forward(x)) - x).max() < 1e-9
+
+
+def test_sequential_coefficients_come_back_from_their_sequence():
+    pca = SequentialPCA.fit(courses(), 2, 3)
+    a = np.random.default_rng(2).normal(size=(5, 6))
+    assert np.allclose(pca.forward(pca.inverse(a)), a)
+    assert np.allclose(pca.forward(pca.inverse(a[0])), a[0])
+
+
+def test_more_sequential_components_lose_less_of_what_they_were_fitted_to():
+    x = courses()
+    fits = [[SequentialPCA.fit(x, d1, d2) for d2 in (1, 3, 5)] for d1 in (1, 2, 4)]
+    error = [[np.sum((pca.inverse(pca.forward(x)) - x) ** 2) for pca in row] for row in fits]
+    assert np.all(np.diff(error, axis=0) < 0) and np.all(np.diff(error, axis=1) < 0)
+
+
+def test_shares_take_the_fewest_components_that_reach_them():
+    x = courses()
+    values = np.linalg.eigvalsh(np.cov(x.reshape(-1, 6).T))[::-1]
+    share = np.cumsum(values) / values.sum()
+    pca = SequentialPCA.fit(x, float(share[1]) - 1e-6, 0.5)
+    assert len(pca.spatial) == 2
+    for scores in np.moveaxis((x - pca.mean) @ pca.spatial.T, -1, 0):
+        of_time = np.linalg.svd(scores - scores.mean(0), compute_uv=False) ** 2
+        assert of_time[: pca.temporal.shape[1]].sum() >= 0.5 * of_time.sum()
+
+
+@pytest.mark.parametrize(("d1", "d2", "name"), [(0, 2, "d1"), (5, 2, "d1"), (2, 9, "d2"), (2, 1.5, "d2")])
+def test_a_number_of_sequential_components_that_cannot_be_had_is_refused(d1, d2, name):
+    with pytest.raises(ValueError, match=f"{name}: found"):
+        SequentialPCA.fit(courses(), d1, d2)

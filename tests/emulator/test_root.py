@@ -25,6 +25,19 @@ def test_path_and_heading_come_back():
         assert np.abs(yaw - motion.yaw_rad).max() < 1e-12
 
 
+def test_the_compiled_way_is_the_numpy_way():
+    rng = np.random.default_rng(1)
+    for name in ("walk", "lift"):
+        motions = made(name)[0].motions[:4]
+        channel = RootChannel(motions[0].skeleton)
+        n_times = min(len(motion.directions) for motion in motions)
+        directions = np.stack([motion.directions[:n_times] for motion in motions])
+        lengths = np.stack([motion.bone_length_m for motion in motions])
+        side = rng.normal(0, 0.2, (4, n_times, 4))
+        ours, plain = channel.inverse(side, directions, lengths), channel.inverse_numpy(side, directions, lengths)
+        assert np.abs(ours[0] - plain[0]).max() < 1e-12 and np.array_equal(ours[1], plain[1])
+
+
 def test_feet_explain_nearly_all_of_a_walk():
     motion = made("walk")[0].motions[0]
     slip = split(motion, RootChannel(motion.skeleton))[:, :2]

@@ -115,3 +115,16 @@ def test_index_takes_aliases_and_says_what_there_is():
     assert BODY.names[BODY.index("lknee")] == "left_knee"
     with pytest.raises(ValueError, match="no joint 'left_heel'; it has pelvis"):
         BODY.index("left_heel")
+
+
+def test_in_the_chain_a_parent_comes_before_its_children():
+    order = np.random.default_rng(5).permutation(len(BODY.names)).tolist()
+    shuffled = Skeleton(
+        tuple(BODY.names[j] for j in order),
+        tuple(order.index(p) if p >= 0 else -1 for p in (BODY.parents[j] for j in order)),
+    )
+    placed = {shuffled.root}
+    for bone, parent, child in shuffled.chain.tolist():
+        assert parent in placed and shuffled.edges[bone] == (parent, child)
+        placed.add(child)
+    assert len(placed) == shuffled.n_joints

@@ -68,6 +68,14 @@ def test_log_is_tangent_and_as_long_as_the_angle():
     assert np.allclose(np.linalg.norm(v, axis=-1), sphere.angle(P, Q), atol=1e-13)
 
 
+def test_log_coordinates_are_those_of_the_log():
+    want = np.einsum("...c,...kc->...k", sphere.log(P, Q), sphere.basis(P))
+    assert np.abs(sphere.log_coordinates(P, Q) - want).max() < 1e-13
+    assert np.abs(sphere.log_coordinates(P, P)).max() < 1e-15
+    with pytest.raises(ValueError, match=r"log.*opposite at index \(1, 0\)"):
+        sphere.log_coordinates(P[:3], np.stack([P[0], -P[1], P[2]]))
+
+
 def test_transport_keeps_inner_products_and_returns():
     u, v = sphere.log(P, Q), sphere.log(P, R)
     moved_u, moved_v = sphere.transport(P, Q, u), sphere.transport(P, Q, v)
@@ -79,6 +87,21 @@ def test_transport_keeps_inner_products_and_returns():
 def test_mean_is_where_the_logs_cancel():
     points = sphere.exp(P[:1], 0.7 * sphere.log(P[:1], Q))
     assert np.abs(sphere.log(sphere.mean(points), points).mean(0)).max() < 1e-11
+
+
+def test_mean_of_points_all_over_a_half_sphere_is_where_the_logs_cancel():
+    points = P[P[..., 2] > -0.2].reshape(-1, 1, 3)
+    centre = sphere.mean(points)
+    assert np.abs(sphere.log(centre, points).mean(0)).max() < 1e-11
+
+
+def test_mean_is_the_least_of_the_squared_arcs_around():
+    points = sphere.exp(P[:1], 0.9 * sphere.log(P[:1], Q))
+    centre = sphere.mean(points)
+    spread = np.mean(sphere.angle(centre, points) ** 2, axis=0)
+    for axis in np.moveaxis(sphere.basis(centre), -2, 0):
+        for step in (-1e-3, 1e-3):
+            assert np.all(np.mean(sphere.angle(sphere.exp(centre, step * axis), points) ** 2, axis=0) > spread)
 
 
 def test_mean_turns_with_the_points():

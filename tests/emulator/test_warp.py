@@ -41,6 +41,18 @@ def test_from_clr_is_a_warp_and_exact_at_the_knots():
     assert np.abs(back - WARPS).max() < 5e-3
 
 
+@pytest.mark.parametrize(("n_knots", "n_times"), [(20, 101), (20, 301), (15, 64), (5, 11), (2, 3), (10, 11)])
+def test_a_few_moments_of_from_clr_are_those_of_the_whole_warps(n_knots, n_times):
+    x, at = RNG.normal(size=(50, n_knots)), np.sort(RNG.uniform(size=(50, 6)), axis=1)
+    at[:, 0], at[:, -1], at[:, 3] = 0.0, 1.0, np.round(at[:, 3] * (n_times - 1)) / (n_times - 1)
+    want = warp.evaluate(warp.from_clr(x, n_times), at)
+    assert np.abs(warp.from_clr_at(x, at, n_times) - want).max() < 1e-12
+
+
+def test_no_moment_asked_for_is_no_moment_told():
+    assert warp.from_clr_at(np.zeros((4, 20)), np.zeros((4, 0))).shape == (4, 0)
+
+
 def test_from_clr_has_no_jump_of_speed():
     slope = np.diff(warp.from_clr(RNG.normal(size=20), 20 * 400 + 1)) * 20 * 400
     assert np.abs(np.diff(slope)).max() < 0.02 * slope.max()

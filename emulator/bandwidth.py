@@ -1,0 +1,112 @@
+"""How much to blur: so much that a draw is as far from the nearest recording as a repetition that was left out.
+
+The distance to the nearest other repetition is what tells a copy from a movement of its own. It is known of every
+recording by leaving it out, and the noise is made as large as it may be without going beyond it at any quartile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from emulator.density import compressed
+from emulator.margin import within_worker
+from emulator.smoothed import SmoothedScores
+
+QUARTILES = (0.25, 0.5, 0.75)
+NEARER = 0.875
+"""Draws may be an eighth nearer to a recording than a left-out repetition is: noise is paid for in roughness."""
+STIFF = 2.0
+"""How much smoother than the recordings the noise is."""
+N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 12, 2.0, 3, 2.0
+
+
+def smoothed(
+    z: np.ndarray,
+    owner: np.ndarray,
+    spread: np.ndarray,
+    posture: slice,
+    size: np.ndarray,
+    gram: np.ndarray,
+    bend: np.ndarray,
+) -> SmoothedScores:
+    """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
+
+    spread  : (K,) within-worker standard deviations that draws are to have
+    posture : where the P posture coordinates lie in z; size : (P,) their raw standard deviations, largest first
+    bend    : (P, P) products of the second differences of the posture components
+    gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
+    """
+    square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
+    other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
+    nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
+    whole = SmoothedScores(z, owner, _reach(nearest), _noise(z, owner, posture, size, bend), spread)
+    recorded = z[:, posture] * size
+    cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
+
+    def too_far(h: float) -> bool:
+        draws = _drawn(_blurred(whole, h))[:, posture] * size
+        reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
+        return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
+
+    asked = NEARER * np.quantile(nearest[:, 0], QUARTILES)
+    h = _largest_not(too_far)
+    blurred = _blurred(whole, h)
+    return replace(blurred, factor=compressed(blurred.factor))
+
+
+def _blurred(whole: SmoothedScores, h: float) -> SmoothedScores:
+    """With bandwidth h; where noise alone would vary a coordinate more than it is to vary, it is made less."""
+    noise = h * whole.noise.spread * np.sqrt(np.mean(whole.reach**2))
+    return replace(whole, factor=h * whole.factor * np.minimum(1.0, whole.spread / np.maximum(noise, 1e-12)))
+
+
+def _largest_not(too_far: Callable[[float], bool]) -> float:
+    """The largest h up to ``LARGEST`` that is not too far, by bisection."""
+    low, high = 0.0, LARGEST
+    for _ in range(N_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if too_far(middle) else (middle, high)
+    return low
+
+
+def _drawn(blurred: SmoothedScores) -> np.ndarray:
+    """(N_TRIED, K) draws about the recordings in turn, always with the same random numbers."""
+    rng = np.random.default_rng(0)
+    at = np.arange(N_TRIED) % len(blurred.scores)
+    centre = blurred.means[blurred.owner] + blurred.deviations
+    return np.asarray(centre[at] + blurred.reach[at, None] * blurred.noise.sample(N_TRIED, rng))
+
+
+def _nearest(drawn: np.ndarray, recorded: np.ndarray, cut_off: np.ndarray) -> np.ndarray:
+    """(n,) distance of raw scores (n, P) to the nearest whole sequence; ``cut_off`` (N,) is what scores leave out."""
+    square = np.sum(drawn**2, axis=1)[:, None] + np.sum(recorded**2, axis=1) - 2 * drawn @ recorded.T
+    return np.asarray(np.sqrt(np.maximum(square + cut_off, 0.0).min(axis=1)))
+
+
+def _reach(nearest: np.ndarray) -> np.ndarray:
+    """(N,) distance to the nearest few over its geometric mean, at most twice or half of it."""
+    far = np.maximum(np.sqrt(np.mean(nearest**2, axis=1)), 1e-12)
+    reach = np.clip(far / np.exp(np.log(far).mean()), 1.0 / MOST_REACH, MOST_REACH)
+    return reach / np.sqrt(np.mean(reach**2))
+
+
+def _noise(z: np.ndarray, owner: np.ndarray, posture: slice, size: np.ndarray, bend: np.ndarray) -> np.ndarray:
+    """(N, K) rows of the within-worker covariance, strange repetitions drawn in to the median size (Huber 1964).
+
+    Postures are smoothed by (I + (lambda bend)^2)^-1, so that noise moves a recording without making it rough (after
+    Silverman 1996, smoothed principal components); lambda is STIFF times the variance over the bending of the rows.
+    """
+    rows = within_worker(z, owner)
+    raw = rows[:, posture] * size
+    length = np.linalg.norm(raw, axis=1)
+    inside = np.minimum(1.0, np.median(length) / np.maximum(length, 1e-12))[:, None]
+    raw = raw * inside
+    rows = rows * inside
+    bending = np.sum((raw @ bend) * raw, axis=1)
+    weight = STIFF * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
+    stiff = np.eye(len(size)) + weight**2 * bend @ bend
+    rows[:, posture] = np.linalg.solve(stiff, raw.T).T / size
+    return rows / np.sqrt(max(len(z) - len(np.unique(owner)), 1))

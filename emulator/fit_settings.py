@@ -1,0 +1,32 @@
+"""What a user may ask of a fit, in one frozen bundle that is checked once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from emulator.model import SCHEMES
+
+Progress = Callable[[int, int, str], None] | None
+
+
+@dataclass(frozen=True)
+class FitSettings:
+    """See ``MotionEmulator.fit``. Raises ValueError for an unknown scheme or numbers out of range."""
+
+    scheme: str
+    n_components: int | float | None
+    n_times: int
+    n_knots: int
+    landmarks: float
+    seed: int
+    command: str
+
+    def __post_init__(self) -> None:
+        if self.scheme not in SCHEMES:
+            near = get_close_matches(self.scheme, SCHEMES, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(SCHEMES)}"
+            raise ValueError(f"scheme: no {self.scheme!r}; {hint}")
+        if self.n_times < 10 or not 2 <= self.n_knots < self.n_times:
+            raise ValueError(f"n_times {self.n_times} must be 10 or more and n_knots {self.n_knots} from 2 to below it")

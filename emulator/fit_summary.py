@@ -1,0 +1,148 @@
+"""What a fit says of itself: where the recordings come from, which methods were used, and how the draws compare."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from emulator.align import resample
+from emulator.dwell_fit import HOLDS_METHOD, said
+from emulator.dwells import NONE
+from emulator.fit_judge import reconstruction_deg
+from emulator.fit_parts import Parts
+from emulator.fit_report import FitReport, TimeFit
+from emulator.fit_settings import FitSettings
+from emulator.judge.disco import disco
+from emulator.judge.distance import distances
+from emulator.judge.energy import pooled
+from emulator.judge.novelty import novelty
+from emulator.judge.roughness import roughness
+from emulator.model import SCHEME, SCHEMES, MotionEmulator
+from emulator.performances import MotionPerformances
+from emulator.registered import Registered
+from emulator.workforce import BETWEEN_METHOD, Workforce, intraclass_correlation
+
+ROUGH, N_NEW, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 199, 101
+GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
+SMOOTHED = (
+    "the recordings' own coordinates, each blurred by low-rank noise that makes a draw seven eighths as far from the "
+    "nearest recording as a left-out recording is; known workers from their own repetitions"
+)
+POSTURE_SIZE = "as many as held-out repetitions need (ten folds)"
+ROUGH_NOTE = (
+    "draws of new people are much rougher than the recordings: the people differ in kind (for example in the leading "
+    "leg), and one between two kinds moves like neither; draw known workers, or fit the kinds apart"
+)
+TWINS_NOTE = (
+    "half of the repetitions or more are copies of another one, so novelty cannot be estimated and the draws vary too "
+    "little; is one recording in the file several times?"
+)
+ALIKE_NOTE = (
+    "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
+    "is one recording in the file several times?"
+)
+
+
+def summary(made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings) -> FitReport:
+    """The report before the draws are judged."""
+    whole = made.whole
+    duration_s, nan = whole.duration_s, float("nan")
+    icc = intraclass_correlation(np.log(duration_s), whole.worker_index)
+    return FitReport(
+        task=whole.task,
+        scheme=SCHEME if workforce.smoothed else SCHEMES[1],
+        n_sequences=len(whole),
+        n_workers=len(whole.workers),
+        n_components=parts.posture.n_components,
+        n_coordinates=len(parts.scale.centre),
+        explained_variance=parts.posture.explained_variance,
+        duration_mean_s=float(duration_s.mean()),
+        duration_cv=float(duration_s.std(ddof=1) / duration_s.mean()),
+        duration_margin=f"log duration {parts.margin.name}" if len(parts.margin.z) > 1 else "lognormal",
+        icc=icc[0],
+        icc_low=icc[1],
+        icc_high=icc[2],
+        reconstruction_deg=nan,
+        roughness_ratio=nan,
+        novelty_ratio=nan,
+        mark_names=tuple(whole.mark_names),
+        source=whole.source,
+        licence=whole.licence,
+        where=whole.selection,
+        command=settings.command,
+        methods=_methods(made, parts, workforce, settings),
+        notes=(*whole.notes, *said(parts.dwells, made.holds)),
+    )
+
+
+def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> FitReport:
+    """The report with the draws of the same people beside their recordings, and of new people for roughness."""
+    rng = np.random.default_rng(settings.seed)
+    alike = _alike(model, made, rng)
+    new = model.sample(N_NEW, rng)
+    own = np.stack([resample(m.directions, np.linspace(0, 1, model.n_times)) for m in made.moving.motions])
+    rough, rough_new = (_over(_roughness(model, drawn), roughness(own)) for drawn in (alike, new))
+    new_to_recorded, p = _postures(model.aligned_directions(alike.scores), made.directions, rng)
+    twins = (ALIKE_NOTE if model.posture.n_components == 0 else TWINS_NOTE,) if math.isnan(new_to_recorded) else ()
+    return replace(
+        model.report,
+        reconstruction_deg=reconstruction_deg(model.flatten, made.directions, model.posture.n_components),
+        roughness_ratio=rough,
+        roughness_new_ratio=rough_new,
+        novelty_ratio=new_to_recorded,
+        disco_p=p,
+        times=_times(alike, made),
+        notes=model.report.notes + twins + ((ROUGH_NOTE,) if rough_new > ROUGH else ()),
+    )
+
+
+def _alike(model: MotionEmulator, made: Registered, rng: np.random.Generator) -> MotionPerformances:
+    """One performance for each recording, by its worker."""
+    index = made.moving.worker_index
+    drawn = [model.sample(int(np.sum(index == w)), rng, worker=name).scores for w, name in enumerate(model.workers)]
+    return model.performances(np.concatenate(drawn))
+
+
+def _roughness(model: MotionEmulator, drawn: MotionPerformances) -> float:
+    """In own time, without pauses (a pause would look rough)."""
+    moving = replace(model, dwells=NONE).performances(drawn.scores)
+    return roughness(moving.directions(n_times=model.n_times))
+
+
+def _over(emulated: float, recorded: float) -> float:
+    return emulated / recorded if recorded > 1e-12 else float("nan")
+
+
+def _postures(drawn: np.ndarray, recorded: np.ndarray, rng: np.random.Generator) -> tuple[float, float]:
+    """Novelty of drawn postures (n, T, B, 3) against left-out recordings (N, T, B, 3), and DISCO's p."""
+    step = -(-recorded.shape[1] // MOST_TIMES)
+    drawn, recorded = drawn[:, ::step], recorded[:, ::step]
+    among, across = distances(recorded), distances(drawn, recorded)
+    left_out = among + np.diag(np.full(len(among), np.inf))
+    left_out = np.where(left_out < 1e-5, 0.0, left_out)  # twins lie within the rounding of float32
+    test = disco(pooled(across, distances(drawn), among), len(drawn), rng, N_PERMUTATIONS)
+    return novelty(across, left_out), test.p
+
+
+def _times(drawn: MotionPerformances, made: Registered) -> tuple[TimeFit, ...]:
+    emulated = [drawn.duration_s, *drawn.mark_s.T]
+    recorded = [made.whole.duration_s, *made.whole.mark_s.T]
+    return tuple(TimeFit.of(*row) for row in zip(("duration", *made.whole.mark_names), emulated, recorded))
+
+
+def _methods(made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings) -> dict[str, str]:
+    methods = {
+        "registration": "S-TSRVF, dynamic programming, group template, warps centred",
+        "pace": "centred log ratio of the warps, monotone cubic between knots, PCA",
+        "components": POSTURE_SIZE if settings.n_components is None else "as asked for",
+        "density": GAUSSIAN.format(rho=f"{workforce.within.rho:.3f}") if workforce.smoothed is None else SMOOTHED,
+        "workers": BETWEEN_METHOD.format(rho=f"{workforce.between.rho:.3f}"),
+        "marks": "; ".join(f"{n}: {m.name}" for n, m in zip(made.whole.mark_names, parts.mark_margins)),
+        "icc": "Shrout & Fleiss ICC(1,1) of log duration, exact F interval, 95 %",
+        "root": "rides on the feet; slip, clearance and heading modelled",
+    }
+    holds = {"holds": HOLDS_METHOD} if len(parts.dwells) else {}
+    marks = {"landmarks": f"marks drawn together with strength {settings.landmarks:g}"} if settings.landmarks else {}
+    return methods | holds | marks

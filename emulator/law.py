@@ -1,0 +1,73 @@
+"""The law of the joint coordinates z of one worker, or of the population: a mixture of Gaussians of low rank."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.density import LowRankNormal
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """z = centre + mean of one of M components + its reach * noise, and people in place of the centre.
+
+    weight : (M,) adds to 1; mean : (M, K); reach : (M,) factor on the noise; centre : (K,)
+    noise  : what varies about a component, mean 0; people : how workers differ, or None for one worker
+    One component is the plain Gaussian (MVG of Chen, Park & Srivastava sec. 4.3.1).
+    """
+
+    weight: np.ndarray
+    mean: np.ndarray
+    reach: np.ndarray
+    noise: LowRankNormal
+    centre: np.ndarray
+    people: LowRankNormal | None = None
+
+    def sample(self, n: int, rng: np.random.Generator, given: tuple[int, np.ndarray] | None = None) -> np.ndarray:
+        """n draws (n, K): first the component (if there are several), then the noise, then the people.
+
+        given : (coordinate, its values (n,)): draws from the conditional law, by Bayes' rule for the component and
+                Matheron's rule (noise kept, moved along the regression) within it.
+        """
+        u = rng.random(n) if len(self.weight) > 1 else np.zeros(n)
+        noise = self.noise.sample(n, rng)
+        people = self.centre if self.people is None else self.people.sample(n, rng)
+        at = chosen(self.weight if given is None else self.weight_given(*given), u)
+        z = self.mean[at] + self.reach[at, None] * noise + people
+        return z if given is None else self._moved(z, at, *given)
+
+    def weight_given(self, coordinate: int, value: np.ndarray) -> np.ndarray:
+        """(n, M) weights of the components once a coordinate of z is known to be ``value`` (n,)."""
+        mean, covariance = self.coordinates(np.array([coordinate]))
+        variance = np.maximum(covariance[:, 0, 0], 1e-12)
+        square = (value[:, None] - mean[:, 0]) ** 2 / variance
+        log_weight = np.log(self.weight) - 0.5 * (square + np.log(variance))
+        likely = np.exp(log_weight - log_weight.max(axis=1, keepdims=True))
+        return np.asarray(likely / likely.sum(axis=1, keepdims=True))
+
+    def covariance_with(self, coordinate: int) -> np.ndarray:
+        """(M, K) covariance of z with one coordinate within each component."""
+        column = self.reach[:, None] ** 2 * self.noise.covariance_with(coordinate)
+        return column if self.people is None else column + self.people.covariance_with(coordinate)
+
+    def coordinates(self, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Means (M, A) and covariances (M, A, A) of the coordinates ``at`` (A,) in each component."""
+        mean = self.mean[:, at] + (self.centre if self.people is None else self.people.mean)[at]
+        return mean, np.stack([self.covariance_with(int(i))[:, at] for i in at], axis=1)
+
+    def _moved(self, z: np.ndarray, component: np.ndarray, coordinate: int, value: np.ndarray) -> np.ndarray:
+        column = self.covariance_with(coordinate)
+        own = column[:, coordinate : coordinate + 1]
+        slope = np.where(own > 0, column / np.where(own > 0, own, 1.0), 0.0)
+        slope[:, coordinate] = 1.0
+        return np.asarray(z + (value - z[:, coordinate])[:, None] * slope[component])
+
+
+def chosen(weight: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """The components (n,) that uniform numbers u (n,) fall on; ``weight`` (M,) or, one row a draw, (n, M)."""
+    edges = np.cumsum(weight, axis=-1)
+    if weight.ndim == 1:
+        return np.minimum(np.searchsorted(edges, u * edges[-1], side="right"), len(weight) - 1)
+    return np.minimum((edges <= u[:, None] * edges[:, -1:]).sum(axis=1), weight.shape[1] - 1)

@@ -1,0 +1,173 @@
+"""The way back from ``packing``: a MotionEmulator out of plain values and arrays, every one of them doubted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from emulator.density import LowRankNormal
+from emulator.dwells import NONE, Dwells
+from emulator.fit_report import FitReport
+from emulator.flatten import SIEM
+from emulator.joint import BLOCKS, JointScale
+from emulator.margin import Margin
+from emulator.model import MotionEmulator
+from emulator.packing import PCA, SMOOTHED
+from emulator.reduce import JointPCA
+from emulator.skeleton import Skeleton
+from emulator.smoothed import SmoothedScores
+from emulator.storage import decode
+from emulator.workforce import Workforce
+
+
+def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> MotionEmulator:
+    """The model; ``arrays`` are named task/name. Raises KeyError, TypeError or ValueError for what is no model."""
+    parts = _Parts(task, plain, arrays)
+    skeleton = Skeleton(tuple(plain["skeleton"]["names"]), tuple(plain["skeleton"]["parents"]))
+    n_times, size = parts.n_times, dict(zip(BLOCKS, parts.sizes))
+    mark_names = tuple(str(name) for name in plain["mark_names"])
+    if (size["duration"], size["marks"]) != (1, len(mark_names)):
+        raise ValueError(f"{task}: {size['marks']} mark coordinates for {len(mark_names)} marks")
+    return MotionEmulator(
+        task,
+        skeleton,
+        mark_names,
+        n_times,
+        SIEM(parts.reference(skeleton.n_bones)),
+        parts.long_pca("posture", size["posture"], 2 * skeleton.n_bones),
+        parts.long_pca("root", size["root"], 4),
+        parts.short_pca("pace", size["pace"], -1),
+        parts.short_pca("bones", size["bones"], skeleton.n_bones),
+        parts.margin("margin", 0),
+        tuple(parts.margin("margin", 1 + e) for e in range(len(mark_names))),
+        JointScale(parts.sizes, parts.array("centre", parts.k), parts.spread()),
+        parts.workforce(),
+        FitReport.of_dict(plain["report"]),
+        parts.dwells(size["dwells"], len(mark_names)),
+    )
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """What a file says of one task. Each part raises ValueError where it makes no sense."""
+
+    task: str
+    plain: Mapping[str, Any]
+    arrays: Mapping[str, np.ndarray]
+
+    @property
+    def n_times(self) -> int:
+        n_times = int(self.plain["n_times"])
+        if n_times < 2:
+            raise ValueError(f"{self.task}: n_times {n_times} makes no sense")
+        return n_times
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """Of the blocks of z; where nothing pauses, the file has no block of dwells."""
+        sizes = tuple(int(size) for size in self.plain["sizes"])
+        sizes += (0,) * (len(sizes) == len(BLOCKS) - 1)
+        if len(sizes) != len(BLOCKS) or min(sizes) < 0:
+            raise ValueError(f"{self.task}: sizes {sizes} make no sense")
+        return sizes
+
+    @property
+    def k(self) -> int:
+        return sum(self.sizes)
+
+    def array(self, name: str, *shape: int) -> np.ndarray:
+        """The array of this name; -1 in shape takes any length."""
+        found = self.arrays[f"{self.task}/{name}"]
+        if found.ndim != len(shape) or any(want not in (-1, have) for want, have in zip(shape, found.shape)):
+            raise ValueError(f"{self.task}/{name} has shape {found.shape}, expected {shape}")
+        return found
+
+    def reference(self, n_bones: int) -> np.ndarray:
+        reference = self.array("reference", n_bones, 3)
+        if not np.allclose(np.linalg.norm(reference, axis=-1), 1.0, atol=1e-6):
+            raise ValueError(f"{self.task}/reference: found vectors of another length than 1")
+        return reference
+
+    def spread(self) -> np.ndarray:
+        spread = self.array("spread", self.k)
+        if np.any(spread <= 0):
+            raise ValueError(f"{self.task}: a spread is not positive")
+        return spread
+
+    def long_pca(self, name: str, size: int, channels: int) -> JointPCA:
+        whole = self.array(f"{name}_whole", size + 1, self.n_times, channels)
+        rows = decode(_sums(whole), self.array(f"{name}_exponent", size + 1))
+        return JointPCA(rows[0], rows[1:], self._share(name))
+
+    def short_pca(self, name: str, size: int, length: int) -> JointPCA:
+        mean = self.array(f"{name}_mean", length)
+        return JointPCA(mean, self.array(f"{name}_basis", size, len(mean)), self._share(name))
+
+    def margin(self, kind: str, number: int) -> Margin:
+        z = self.array(f"{kind}{number}_z", -1)
+        value, slope = self.array(f"{kind}{number}_value", len(z)), _number(self.plain[f"{kind}_slopes"][number])
+        if len(z) == 0 or slope <= 0 or np.any(np.diff(z) <= 0) or np.any(np.diff(value) <= 0):
+            raise ValueError(f"{self.task}: {kind} {number} does not increase")
+        return Margin(z, value, slope)
+
+    def dwells(self, n_sites: int, n_marks: int) -> Dwells:
+        if n_sites == 0:
+            return NONE
+        clock, zero = self._shares("dwell_clock", n_sites), self._shares("dwell_zero_share", n_sites)
+        mark = self._shares("dwell_mark_share", n_marks, n_sites)
+        if np.any(zero == 1) or np.any(np.diff(clock) <= 0):
+            raise ValueError(f"{self.task}: its sites of pauses make no sense")
+        return Dwells(clock, zero, tuple(self.margin("dwell", j) for j in range(n_sites)), mark)
+
+    def workforce(self) -> Workforce:
+        names = tuple(str(name) for name in self.plain["workers"])
+        effects = self.array("effects", len(names), self.k)
+        smoothed = self._smoothed(len(names)) if f"{self.task}/smoothed_scores" in self.arrays else None
+        return Workforce(self._normal("between"), self._normal("within"), names, effects, smoothed)
+
+    def _normal(self, name: str) -> LowRankNormal:
+        factor, spread = self.array(f"{name}_factor", -1, self.k), self.array(f"{name}_spread", self.k)
+        rho = _number(self.plain["rho"][name])
+        if not 0 <= rho <= 1:
+            raise ValueError(f"{self.task}: rho {rho} is not a share")
+        if not np.allclose(np.sum(factor**2, axis=0), spread**2, rtol=1e-6, atol=1e-12):
+            rows = f"the squares of its {len(factor)} rows do not add to the spread's"
+            raise ValueError(f"{self.task}/{name}_factor: {rows}")
+        return LowRankNormal(self.array(f"{name}_mean", self.k), factor, spread, rho)
+
+    def _smoothed(self, n_workers: int) -> SmoothedScores:
+        n = len(self.array("smoothed_scores", -1, self.k))
+        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,))))
+        found = SmoothedScores(**{name: self.array(f"smoothed_{name}", *shape) for name, shape in shapes.items()})
+        if found.owner.dtype.kind != "i" or set(found.owner.tolist()) != set(range(n_workers)):
+            raise ValueError(f"{self.task}/smoothed_owner: expected numbers of all {n_workers} workers")
+        if np.any(found.reach < 0) or np.any(found.spread < 0):
+            raise ValueError(f"{self.task}: a reach or a spread of the smoothed scores is negative")
+        return found
+
+    def _shares(self, name: str, *shape: int) -> np.ndarray:
+        found = self.array(name, *shape)
+        if np.any((found < 0) | (found > 1)):
+            raise ValueError(f"{self.task}/{name}: found a value outside 0 to 1")
+        return found
+
+    def _share(self, name: str) -> float:
+        assert name in PCA
+        return _number(self.plain["explained_variance"][name])
+
+
+def _number(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f"found {value!r}, expected a number")
+    return float(value)
+
+
+def _sums(steps: np.ndarray) -> np.ndarray:
+    """The way back from steps along time: (R, T, C) -> (R, T * C)."""
+    if steps.dtype not in (np.int16, np.int32):
+        raise ValueError(f"steps are {steps.dtype}, expected int16 or int32")
+    return np.cumsum(steps, axis=1, dtype=steps.dtype).reshape(len(steps), -1)

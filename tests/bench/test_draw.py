@@ -1,0 +1,143 @@
+"""Drawing, decoding and fitting: the answer is asserted first, then what it costs. Run by ``make bench``."""
+
+import subprocess
+import sys
+from functools import cache, partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bench.cpu import best_s
+
+from emulator import decode
+from emulator.align import align
+from emulator.clean import turn
+from emulator.model import MotionEmulator
+from emulator.performances import _linear
+from emulator.synthetic import make
+
+N, N_TIMES = 1000, 301
+
+
+@cache
+def emulator():
+    """A lift by five people, 301 points, 20 bones."""
+    return MotionEmulator.fit(make("lift", 5, 8, seed=4)[0], n_times=N_TIMES)
+
+
+def plain_directions(model, rng):
+    """Draw and decode in plain numpy, all at once."""
+    drawn = model.sample(N, rng)
+    own, cells = np.linspace(0, 1, N_TIMES), np.arange(float(N_TIMES))
+    place = np.stack([np.interp(own, warp, cells) for warp in model.warps(drawn.scores)])
+    return decode.directions_numpy(model.posture, model.flatten, model.scale.raw(drawn.scores, "posture"), place)
+
+
+def our_directions(model, rng, dtype):
+    return model.sample(N, rng).directions(n_times=N_TIMES, dtype=dtype)
+
+
+@pytest.mark.parametrize(("dtype", "error", "at_least"), [(np.float32, 1e-5, 25), (np.float64, 1e-10, 12)])
+def test_a_thousand_sequences_are_drawn_and_decoded(dtype, error, at_least):
+    model = emulator()
+    assert model.skeleton.n_bones == 20
+    ours, plain = (f(model, np.random.default_rng(1)) for f in (partial(our_directions, dtype=dtype), plain_directions))
+    assert ours.shape == (N, N_TIMES, 20, 3) and np.abs(ours - plain).max() < error
+    del ours, plain
+    plain_s, ours_s = best_s(
+        lambda: plain_directions(model, np.random.default_rng(1)),
+        lambda: our_directions(model, np.random.default_rng(1), dtype),
+    )
+    ratio = plain_s / ours_s
+    each = ours_s / N / N_TIMES / 20 * 1e9
+    print(
+        f"\n1,000 x 301 x 20 directions, {np.dtype(dtype)}: {each:.1f} ns a bone, plain numpy in float64 x {ratio:.0f}"
+    )
+    assert ratio > at_least
+
+
+def plain_positions(model, rng):
+    """Draw, decode and stand in plain numpy, all at once."""
+    drawn = model.sample(N, rng)
+    own, cells = np.linspace(0, 1, N_TIMES), np.arange(float(N_TIMES))
+    place = np.stack([np.interp(own, warp, cells) for warp in model.warps(drawn.scores)])
+    coefficients = model.scale.raw(drawn.scores, "posture")
+    between = decode.directions_numpy(model.posture, model.flatten, coefficients, place)
+    aligned = model.aligned_directions(drawn.scores)
+    way = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
+    root, yaw = (_linear(course, place) for course in way)
+    return model.skeleton.positions(turn(between, yaw[..., None]), drawn.bone_length_m[:, None], root)
+
+
+def test_a_thousand_bodies_are_drawn_and_stand():
+    model = emulator()
+    ours = model.sample(N, np.random.default_rng(1)).positions_m(n_times=N_TIMES)
+    assert np.abs(ours - plain_positions(model, np.random.default_rng(1))).max() < 1e-10
+    del ours
+    plain_s, ours_s = best_s(
+        lambda: plain_positions(model, np.random.default_rng(1)),
+        lambda: model.sample(N, np.random.default_rng(1)).positions_m(n_times=N_TIMES),
+        rounds=3,
+    )
+    each = ours_s / N / N_TIMES * 1e6
+    print(f"\n1,000 x 301 bodies of 21 joints on the floor: {each:.2f} us a body, plain numpy x {plain_s / ours_s:.0f}")
+    assert plain_s / ours_s > 8
+
+
+@pytest.mark.parametrize(("block", "at_most_us"), [(64, 3.0), (4096, 2.0)])
+def test_durations_and_marks_are_drawn_in_two_microseconds(block, at_most_us):
+    model = emulator()
+    blocks = 4096 // block
+    effect = model.draw_worker(np.random.default_rng(0))
+
+    def times(worker, rng):
+        for _ in range(blocks):
+            drawn = model.sample(block, rng, worker=worker)
+            assert drawn.mark_s.shape == (block, 2)
+
+    few = model.sample(block, np.random.default_rng(2))
+    whole = model.warps(few.scores)
+    by_hand = [np.interp(few.mark_s[i] / few.duration_s[i], whole[i], np.linspace(0, 1, N_TIMES)) for i in range(block)]
+    clock = np.stack([np.interp(at, np.linspace(0, 1, N_TIMES), warp) for at, warp in zip(by_hand, whole)])
+    assert np.abs(clock * few.duration_s[:, None] - few.mark_s).max() < 1e-10
+    known, any_one = best_s(
+        lambda: times(effect, np.random.default_rng(3)), lambda: times(None, np.random.default_rng(3)), rounds=40
+    )
+    print(
+        f"\nduration and two marks, blocks of {block}: {known / 4096 * 1e6:.2f} us a draw of a worker, "
+        f"{any_one / 4096 * 1e6:.2f} us each by another worker (target 2)"
+    )
+    assert known / 4096 * 1e6 < at_most_us  # small blocks are mostly calls: 1.9 us on a quiet machine
+
+
+def test_a_fit_of_80_sequences_costs_three_times_its_alignment():
+    motions, _ = make("lift", 8, 10, seed=4)
+    directions = [motion.directions for motion in motions.motions]
+    align_s, fit_s = best_s(
+        lambda: align(directions, n_times=N_TIMES), lambda: MotionEmulator.fit(motions, n_times=N_TIMES), rounds=2
+    )
+    print(f"\nfit of 80 sequences at 301 points: {fit_s / align_s:.2f} x its alignment (target 3)")
+    assert fit_s < 3 * align_s
+
+
+PEAK = """
+import re
+import numpy as np
+from emulator.model import MotionEmulator
+from emulator.synthetic import make
+def peak():
+    return re.search(r"VmHWM:\\s*(\\d+) kB", open("/proc/self/status").read())[1]
+model = MotionEmulator.fit(make("lift", 30, 10, seed=4)[0], n_times=301)
+fitted = peak()
+positions = model.sample(300, np.random.default_rng(0)).positions_m(n_times=301)
+assert positions.shape == (300, 301, 21, 3)
+print(fitted, peak())
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not tell the peak of memory")
+def test_300_sequences_are_fitted_and_decoded_in_a_gigabyte():
+    done = subprocess.run([sys.executable, "-c", PEAK], capture_output=True, text=True, check=True)
+    fitted, decoded = (int(word) / 1024 for word in done.stdout.split())
+    print(f"\n300 x 301 x 20: peak {fitted:.0f} MB after the fit, {decoded:.0f} MB after decoding 300 (target 1,000)")
+    assert decoded < 1000

@@ -1,0 +1,55 @@
+"""Judges against plain numpy, one thread: the answer is asserted first, then the ratio."""
+
+from functools import partial
+
+import numpy as np
+from bench.cpu import best_s
+
+from emulator.judge import disco, distances, energy_v
+from emulator.judge.distance import distances_numpy
+from tests.made import made_sequences
+
+
+def test_distances_of_two_hundred_sequences():
+    sequences = made_sequences(200, 301)[0]
+    ours, plain = partial(distances, sequences), partial(arccos_distances, sequences)
+    off = ~np.eye(200, dtype=bool)
+    error = np.abs(ours()[:20] / distances_numpy(sequences[:20], sequences) - 1)[off[:20]]
+    assert error.max() < 1e-6
+    assert np.allclose(ours()[off], plain()[off], rtol=1e-6)
+    plain_s, ours_s = best_s(plain, ours, rounds=3)
+    print(f"\ndistances 200 x 200, T 301, B 20: numpy {plain_s:.2f} s, ours x {plain_s / ours_s:.0f}")
+    assert plain_s / ours_s > 12
+
+
+def arccos_distances(sequences):
+    """What one would write: a row of pairs at a time, each pair once, in float64."""
+    n = len(sequences)
+    found = np.zeros((n, n))
+    for i in range(n - 1):
+        cosine = np.einsum("mtbc,tbc->mtb", sequences[i + 1 :], sequences[i])
+        found[i, i + 1 :] = np.arccos(np.clip(cosine, -1, 1)).sum(axis=2).mean(axis=1)
+    return found + found.T
+
+
+def test_a_permutation_test_of_a_hundred_and_twenty():
+    points = np.random.default_rng(0).normal(size=(120, 50))
+    points[60:] += 0.25
+    apart = np.linalg.norm(points[:, None] - points, axis=-1)
+    ours, loop = (partial(test, apart, 60, np.random.default_rng(1)) for test in (disco, looped))
+    assert np.isclose(ours().energy, loop()[0]) and abs(ours().p - loop()[1]) < 0.03
+    loop_s, ours_s = best_s(loop, ours, rounds=3)
+    print(f"\nDISCO, n 120, 999 permutations: loop {loop_s * 1e3:.0f} ms, ours x {loop_s / ours_s:.0f}")
+    assert loop_s / ours_s > 5
+
+
+def looped(apart, n_first, rng, n_permutations=999):
+    """Energy and p, one permutation after the other."""
+
+    def energy(order):
+        a, b = order[:n_first], order[n_first:]
+        return energy_v(apart[np.ix_(a, b)], apart[np.ix_(a, a)], apart[np.ix_(b, b)])
+
+    first = energy(np.arange(len(apart)))
+    reached = sum(energy(rng.permutation(len(apart))) >= first - 1e-12 for _ in range(n_permutations))
+    return first, (1 + reached) / (1 + n_permutations)

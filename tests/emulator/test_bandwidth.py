@@ -1,0 +1,79 @@
+import numpy as np
+import pytest
+
+from emulator.bandwidth import NEARER, smoothed
+
+OWNERS = 5
+
+
+def made(n_each=8, kinds=0.0, k=6, seed=0, bend=None):
+    """Smoothed scores of made people, their posture scores being all of z but the last coordinate (a duration)."""
+    rng = np.random.default_rng(seed)
+    owner = np.repeat(np.arange(OWNERS), n_each)
+    size = np.array([3.0, 2.0, 1.5, 1.0, 0.5, 0.25])[:k]
+    raw = (rng.normal(size=(OWNERS, k))[owner] + 0.7 * rng.normal(size=(len(owner), k))) * size
+    raw[::2, 0] += kinds
+    size = raw.std(0, ddof=1)
+    z = np.column_stack([(raw - raw.mean(0)) / size, raw[:, 0] / 3 + 0.3 * rng.normal(size=len(raw))])
+    means = np.stack([z[owner == w].mean(0) for w in range(OWNERS)])[owner]
+    spread = np.sqrt(np.sum((z - means) ** 2, axis=0) / (len(z) - OWNERS))
+    centred = raw - raw.mean(0)
+    bend = np.zeros((k, k)) if bend is None else bend
+    return smoothed(z, owner, spread, slice(0, k), size, centred @ centred.T, bend), centred, size
+
+
+def nearest(draws, recorded):
+    return np.sqrt(((draws[:, None] - recorded[None]) ** 2).sum(-1)).min(1)
+
+
+def drawn_alike(blurred, size, n=4000):
+    rng = np.random.default_rng(5)
+    at = rng.integers(len(blurred.scores), size=n)
+    centre = blurred.means[blurred.owner] + blurred.deviations
+    z = centre[at] + blurred.reach[at, None] * blurred.noise.sample(n, rng)
+    return z[:, : len(size)] * size
+
+
+@pytest.mark.parametrize("kinds", [0.0, 8.0])
+def test_draws_are_nearly_as_far_from_recordings_as_a_left_out_recording_is(kinds):
+    blurred, recorded, size = made(n_each=20, kinds=kinds)
+    among = np.sqrt(((recorded[:, None] - recorded[None]) ** 2).sum(-1)) + np.diag(np.full(len(recorded), np.inf))
+    quartiles = (0.25, 0.5, 0.75)
+    ratio = np.quantile(nearest(drawn_alike(blurred, size), recorded), quartiles) / np.quantile(among.min(1), quartiles)
+    assert np.exp(np.log(ratio).mean()) == pytest.approx(NEARER, rel=0.08)
+    assert ratio.max() < 1.15
+
+
+def test_twins_get_no_noise():
+    blurred, _, _ = made()
+    z = np.repeat(blurred.scores, 2, axis=0)
+    raw = z[:, :6]
+    twins = smoothed(
+        z, np.repeat(blurred.owner, 2), blurred.spread, slice(0, 6), np.ones(6), raw @ raw.T, np.zeros((6, 6))
+    )
+    assert np.abs(twins.factor).max(initial=0.0) < 1e-2
+
+
+def test_noise_bends_less_than_the_recordings():
+    bend = np.diag([0.01, 0.01, 0.01, 1.0, 50.0, 200.0])
+    stiff, _, _ = made(bend=bend)
+    free, _, _ = made()
+    share = [np.linalg.norm(b.factor[:, 4:6]) / np.linalg.norm(b.factor[:, :3]) for b in (stiff, free)]
+    assert share[0] < 0.2 * share[1]
+
+
+def test_a_strange_repetition_does_not_set_the_noise():
+    def noise(strange):
+        blurred, _, size = made(n_each=8)
+        z = blurred.scores.copy()
+        z[3, :6] += strange * np.array([0, 0, 0, 0, 0, 8.0])
+        raw = (z[:, :6]) * size
+        owner = blurred.owner
+        return smoothed(z, owner, blurred.spread, slice(0, 6), size, raw @ raw.T, np.zeros((6, 6))).factor
+
+    plain, shaken = (np.linalg.norm(noise(s)[:, 5]) / np.linalg.norm(noise(s)[:, 0]) for s in (0, 20))
+    assert shaken < 10 * plain
+
+
+def test_the_same_recordings_give_the_same_bytes():
+    assert made()[0].factor.tobytes() == made()[0].factor.tobytes()

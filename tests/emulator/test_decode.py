@@ -1,0 +1,102 @@
+import numpy as np
+import pytest
+
+from emulator import decode, sphere
+from emulator.flatten import SIEM
+from emulator.kernels.decode import PITCH
+from emulator.reduce import JointPCA
+from tests.made import random_warp
+
+RNG = np.random.default_rng(5)
+
+
+def posture_model(n_times=40, n_bones=7, size=0.02, offset=0.4, n_components=6):
+    """A smooth made posture model: components are waves of ``size`` radians about a mean ``offset`` away."""
+    clock = np.linspace(0, np.pi, n_times)
+    waves = np.stack([np.sin((k + 1) * clock) for k in range(n_components)])
+    basis = size * waves[:, :, None] * RNG.normal(size=(n_components, 1, 2 * n_bones))
+    mean = offset * np.cos(clock)[:, None] * RNG.normal(size=2 * n_bones)
+    flatten = SIEM(sphere.normalise(RNG.normal(size=(n_bones, 3))))
+    return JointPCA(mean.ravel(), basis.reshape(n_components, -1), 1.0), flatten
+
+
+def some_places(n, n_times=40, n_places=33):
+    return RNG.uniform(0, n_times - 1, (n, n_places))
+
+
+@pytest.mark.parametrize("n_bones", [1, 3, 16, 20, 33])
+def test_the_kernel_is_the_numpy_twin(n_bones):
+    posture, flatten = posture_model(n_bones=n_bones)
+    coefficients, place = RNG.normal(size=(5, 6)), some_places(5)
+    want = decode.directions_numpy(posture, flatten, coefficients, place)
+    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-12
+    single = decode.directions(posture, flatten, coefficients, place, np.float32)
+    assert single.dtype == np.float32 and np.abs(single - want).max() < 1e-5
+
+
+def test_the_twin_is_exp_then_the_geodesic_between_neighbours():
+    posture, flatten = posture_model(n_bones=2)
+    coefficients = RNG.normal(size=(1, 6))
+    tangent = posture.inverse(coefficients).reshape(40, 2, 2)
+    axes = sphere.basis(flatten.reference)
+    for at in (0.0, 7.25, 39.0):
+        low = min(int(at), 38)
+        for bone in range(2):
+            p, q = (sphere.exp(flatten.reference[bone], tangent[t, bone] @ axes[bone]) for t in (low, low + 1))
+            want = sphere.exp(p, (at - low) * sphere.log(p, q))
+            got = decode.directions_numpy(posture, flatten, coefficients, np.array([[at]]))[0, 0, bone]
+            assert np.abs(got - want).max() < 1e-14
+
+
+@pytest.mark.parametrize(("size", "offset"), [(3.0, 0.4), (0.05, 3.5), (0.9, 1.2)])
+def test_bones_beyond_the_series_are_decoded_all_the_same(size, offset):
+    posture, flatten = posture_model(size=size, offset=offset)
+    coefficients, place = RNG.normal(size=(9, 6)), some_places(9)
+    got = decode.directions(posture, flatten, coefficients, place)
+    assert np.abs(got - decode.directions_numpy(posture, flatten, coefficients, place)).max() < 1e-12
+
+
+def test_at_the_limits_of_the_series_the_digits_hold():
+    flatten = SIEM(sphere.normalise(RNG.normal(size=(1, 3))))
+    far, step = decode.LARGEST_TURN_RAD - 1e-6, decode.LARGEST_STEP_RAD - 1e-6
+    mean = np.array([[far, 0.0], [far - step, 0.0], [0.0, 0.0], [0.0, 0.0]])
+    posture = JointPCA(mean[:2].ravel(), np.zeros((0, 4)), 1.0)
+    place = np.linspace(0, 1, 21)[None]
+    got, want = (f(posture, flatten, np.zeros((1, 0)), place) for f in (decode.directions, decode.directions_numpy))
+    assert np.abs(got - want).max() < 2e-13
+
+
+@pytest.mark.parametrize("block_bytes", [1, 40_000, 10**9])
+def test_the_size_of_a_block_changes_nothing(monkeypatch, block_bytes):
+    posture, flatten = posture_model()
+    coefficients, place = RNG.normal(size=(20, 6)), some_places(20)
+    want = decode.directions(posture, flatten, coefficients, place)
+    monkeypatch.setattr(decode, "BLOCK_BYTES", block_bytes)
+    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-13
+
+
+def test_a_skeleton_too_large_for_the_kernel_is_decoded_by_numpy():
+    posture, flatten = posture_model(n_bones=PITCH + 1)
+    coefficients, place = RNG.normal(size=(2, 6)), some_places(2)
+    want = decode.directions_numpy(posture, flatten, coefficients, place)
+    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-13
+
+
+def test_neighbours_that_point_oppositely_are_refused():
+    flatten = SIEM(np.array([[0.0, 0.0, 1.0]]))
+    posture = JointPCA(np.array([np.pi / 2, 0.0, -np.pi / 2, 0.0]), np.zeros((0, 4)), 1.0)
+    with pytest.raises(ValueError, match="opposite"):
+        decode.directions(posture, flatten, np.zeros((1, 0)), np.array([[0.5]]))
+
+
+def test_no_performance_gives_no_directions():
+    posture, flatten = posture_model()
+    assert decode.directions(posture, flatten, np.zeros((0, 6)), np.zeros((0, 4))).shape == (0, 4, 7, 3)
+
+
+def test_places_invert_the_warp_and_hold_its_ends():
+    warps = np.array([random_warp(RNG, 60) for _ in range(8)])
+    own = np.concatenate([np.sort(RNG.uniform(-0.1, 1.1, (8, 30))), RNG.uniform(-0.1, 1.1, (8, 30))], axis=1)
+    own = np.concatenate([own, warps[:, ::7], np.tile([0.0, 1.0], (8, 1))], axis=1)
+    want = np.stack([np.interp(at, warp, np.arange(60.0)) for at, warp in zip(own, warps)])
+    assert np.abs(decode.places(warps, own) - want).max() < 1e-11
