@@ -11,7 +11,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class TimeFit:
-    """A time of as many draws of the same people beside the recordings' (not held out).
+    """A time of many draws of the same people beside that of the recordings (not held out).
 
     distance : of Kolmogorov and Smirnov, 0 to 1; median_error, p90_error : emulated over recorded, less 1
     """

@@ -24,9 +24,16 @@ class FitSettings:
     command: str
 
     def __post_init__(self) -> None:
-        if self.scheme not in SCHEMES:
-            near = get_close_matches(self.scheme, SCHEMES, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(SCHEMES)}"
-            raise ValueError(f"scheme: no {self.scheme!r}; {hint}")
+        for wrong in unknown_scheme(self.scheme):
+            raise ValueError(wrong)
         if self.n_times < 10 or not 2 <= self.n_knots < self.n_times:
             raise ValueError(f"n_times {self.n_times} must be 10 or more and n_knots {self.n_knots} from 2 to below it")
+
+
+def unknown_scheme(scheme: str) -> list[str]:
+    """What is wrong with the name of a scheme, with the nearest known one; empty for a known one."""
+    if scheme in SCHEMES:
+        return []
+    near = get_close_matches(scheme, SCHEMES, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(SCHEMES)}"
+    return [f"scheme: no {scheme!r}; {hint}"]

@@ -24,7 +24,7 @@ from emulator.performances import MotionPerformances
 from emulator.registered import Registered
 from emulator.workforce import BETWEEN_METHOD, Workforce, intraclass_correlation
 
-ROUGH, N_NEW, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 199, 101
+ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 25, 199, 101
 GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
 SMOOTHED = (
     "the recordings' own coordinates, each blurred by low-rank noise that makes a draw seven eighths as far from the "
@@ -81,6 +81,7 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
     """The report with the draws of the same people beside their recordings, and of new people for roughness."""
     rng = np.random.default_rng(settings.seed)
     alike = _alike(model, made, rng)
+    many = _alike(model, made, rng, N_TIMES)
     new = model.sample(N_NEW, rng)
     own = np.stack([resample(m.directions, np.linspace(0, 1, model.n_times)) for m in made.moving.motions])
     rough, rough_new = (_over(_roughness(model, drawn), roughness(own)) for drawn in (alike, new))
@@ -93,15 +94,17 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
         roughness_new_ratio=rough_new,
         novelty_ratio=new_to_recorded,
         disco_p=p,
-        times=_times(alike, made),
+        times=_times(many, made),
         notes=model.report.notes + twins + ((ROUGH_NOTE,) if rough_new > ROUGH else ()),
     )
 
 
-def _alike(model: MotionEmulator, made: Registered, rng: np.random.Generator) -> MotionPerformances:
-    """One performance for each recording, by its worker."""
+def _alike(model: MotionEmulator, made: Registered, rng: np.random.Generator, n_each: int = 1) -> MotionPerformances:
+    """``n_each`` performances for each recording, by its worker."""
     index = made.moving.worker_index
-    drawn = [model.sample(int(np.sum(index == w)), rng, worker=name).scores for w, name in enumerate(model.workers)]
+    drawn = [
+        model.sample(n_each * int(np.sum(index == w)), rng, worker=name).scores for w, name in enumerate(model.workers)
+    ]
     return model.performances(np.concatenate(drawn))
 
 

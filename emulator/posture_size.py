@@ -5,21 +5,24 @@ from __future__ import annotations
 import numpy as np
 
 LARGEST, SLACK, N_FOLDS = 36, 0.003, 10
+FINE_RAD = 0.002
+"""A bone's angle (0.1 degrees) that no recording knows better: components below it are of no use."""
 
 
 def posture_size(sequences: np.ndarray, largest: int = LARGEST) -> int:
     """The smallest number of components at which held-out sequences (N, P) lose hardly more than at the best number.
 
-    Hardly: ``SLACK`` of their mean distance to the mean sequence. In each of ten folds (every tenth sequence) the
-    held-out ones are projected on the components of the rest. The usual rule of one standard error takes half as many:
-    repetitions differ much more among each other than the errors of two sizes do. A fold spans fewer components than
-    all sequences: the number found is scaled up by that.
+    Hardly: ``SLACK`` of their mean distance to the mean sequence, or ``FINE_RAD`` a bone, coordinates being radians.
+    In each of ten folds (every tenth sequence) the held-out ones are projected on the components of the rest; a fold
+    spans fewer components than all sequences, and the number found is scaled up by that. The usual rule of one
+    standard error takes half as many: repetitions differ more among each other than the errors of two sizes do.
     """
     gram = sequences @ sequences.T
     lost = np.concatenate([_lost(gram, held, largest) for held in _folds(len(sequences))])
     error = np.sqrt(lost).mean(axis=0)
     spread = np.sqrt(np.sum((sequences - sequences.mean(axis=0)) ** 2, axis=1)).mean()
-    enough = 1 + int(np.argmax(error <= error.min() + SLACK * spread))
+    hardly = np.maximum(error.min() + SLACK * spread, FINE_RAD * np.sqrt(sequences.shape[1] / 2))
+    enough = 1 + int(np.argmax(error <= hardly))
     span = len(sequences) - 1, len(sequences) - 1 - int(_folds(len(sequences))[0].sum())
     return min(largest, round(enough * span[0] / max(span[1], 1)))
 

@@ -41,7 +41,21 @@ class _Components(click.ParamType):
     "--where", help="Which repetitions, such as 'cov_correct==1'; 'all' takes all.  [default: the correct ones]"
 )
 @click.option(
-    "--n-components", type=_Components(), help="Posture components, or their share of variance.  [default: 0.98]"
+    "--n-components",
+    type=_Components(),
+    help="Posture components, or their share of variance.  [default: as many as held-out repetitions need]",
+)
+@click.option(
+    "--scheme", default="", metavar="NAME", help="Representation/reduction/density.  [default: SIEM/JointPCA/Smoothed]"
+)
+@click.option(
+    "--n-times", type=click.IntRange(10, 2001), default=101, help="Points of the common clock.  [default: 101]"
+)
+@click.option(
+    "--landmarks",
+    type=click.FloatRange(0, 1),
+    default=0.0,
+    help="How strongly marks are drawn together; 0.01 is strong.",
 )
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="For the figures of the report only.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
@@ -51,6 +65,9 @@ def command(
     task: str | None,
     where: str | None,
     n_components: float | None,
+    scheme: str,
+    n_times: int,
+    landmarks: float,
     seed: int,
     as_json: bool,
 ) -> None:
@@ -61,9 +78,10 @@ def command(
     with mistakes():
         if out.suffix.lower() != ".npz":
             raise ValueError(f"{out}: a library ends in .npz")
-        sets = _read(files, task, where, n_components)
+        asked = _asked(n_components=n_components, scheme=scheme, n_times=n_times, landmarks=landmarks)
+        sets = _read(files, task, where, asked)
         ready(out, ".npz")
-        library = _fitted(sets, n_components, seed, _said(files, out, task, where, n_components))
+        library = _fitted(sets, asked, seed, _said(files, out, task, where, asked))
         library.save(out)
     if as_json:
         print_json({"library": str(out), "tasks": {name: model.report.as_dict() for name, model in library.items()}})
@@ -75,11 +93,11 @@ def command(
     )
 
 
-def _read(files: Sequence[str], task: str | None, where: str | None, n_components: float | None) -> list[Any]:
+def _read(files: Sequence[str], task: str | None, where: str | None, asked: dict[str, Any]) -> list[Any]:
     """The repetitions of each file. Raises ValueError with all that speaks against a fit, before the first one."""
     from emulator import read_motions
 
-    wrong = _named_wrongly(files, task)
+    wrong = _named_wrongly(files, task) + _wrong_scheme(asked.get("scheme"))
     chosen = {} if where is None else {"where": None if where == "all" else where}
     sets: list[Any] = []
     names: dict[str, str] = {}
@@ -93,7 +111,7 @@ def _read(files: Sequence[str], task: str | None, where: str | None, n_component
             both = f"both {names[motions.task]} and {file} give the task {motions.task!r}"
             wrong.append(f"{both}; rename one file, or fit it apart with --task")
         names[motions.task] = file
-        wrong += _too_few(file, len(motions), n_components)
+        wrong += _too_few(file, len(motions), asked.get("n_components"))
         sets.append(motions)
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
@@ -109,6 +127,12 @@ def _named_wrongly(files: Sequence[str], task: str | None) -> list[str]:
     return wrong
 
 
+def _wrong_scheme(scheme: str | None) -> list[str]:
+    from emulator.fit_settings import unknown_scheme
+
+    return [] if scheme is None else unknown_scheme(scheme)
+
+
 def _too_few(file: str, n: int, n_components: float | None) -> list[str]:
     if n < FEWEST:
         return [f"{file}: found {n} repetition{'s' if n > 1 else ''}, expected {FEWEST} or more"]
@@ -117,24 +141,32 @@ def _too_few(file: str, n: int, n_components: float | None) -> list[str]:
     return []
 
 
-def _fitted(sets: Sequence[Any], n_components: float | None, seed: int, said: str) -> Any:
+def _asked(**settings: Any) -> dict[str, Any]:
+    """The settings that differ from the default."""
+    usual = {"n_components": None, "scheme": "", "n_times": 101, "landmarks": 0.0}
+    return {name: value for name, value in settings.items() if value != usual[name]}
+
+
+def _fitted(sets: Sequence[Any], asked: dict[str, Any], seed: int, said: str) -> Any:
     from emulator import MotionEmulator, MotionLibrary
     from opsim.cli.progress import progress
 
     library = MotionLibrary.of(command=said)
     for motions in sets:
         with progress(f"fit {motions.task}") as report:
-            model = MotionEmulator.fit(motions, n_components=n_components, progress=report, seed=seed, command=said)
+            model = MotionEmulator.fit(motions, progress=report, seed=seed, command=said, **asked)
         library = library.add(model)
     return library
 
 
-def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, n_components: float | None) -> str:
+def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, asked: dict[str, Any]) -> str:
     """The command as provenance: names of files without the folders of this machine."""
     words = ["opsim motion fit", *(Path(file).name for file in files), "-o", out.name]
     words += [] if task is None else ["--task", f"'{task}'"]
     words += [] if where is None else ["--where", f"'{where}'"]
-    return " ".join(words + ([] if n_components is None else ["--n-components", f"{n_components:g}"]))
+    for name, value in asked.items():
+        words += [f"--{name.replace('_', '-')}", value if isinstance(value, str) else f"{value:g}"]
+    return " ".join(words)
 
 
 def _print_report(report: Any) -> None:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import base64
-import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from opsim.provenance import behind
 from opsim.report import figures
+from opsim.report.offline import asset, policy, template
 from opsim.report.sentence import sentences
 from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
 from opsim.whole import write_text
 
-HERE = Path(__file__).parent
 STATE_KPIS = {"worker_states": "Workers", "station_states": "Stations"}
 HISTOGRAMS = {
     "time_in_system_s": "Time in system, by product",
@@ -41,7 +39,7 @@ def write_report(result: Any, path: str | Path, strips: Mapping[str, bytes] | No
 
 def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips: Mapping[str, bytes]) -> str:
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
-    bundle, script = _asset("assets/plotly-cartesian.min.js"), _asset("report.js")
+    bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
     drawn: dict[str, Any] = {}
     context = {
         "summary": summary,
@@ -57,11 +55,11 @@ def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips:
         "figures": drawn,
         "bundle": bundle,
         "script": script,
-        "style": _asset("report.css"),
-        "policy": _policy(bundle, script),
+        "style": asset("report.css"),
+        "policy": policy(bundle, script),
         "quantity": quantity,
     }
-    return _template().render(context)
+    return template("report.html.jinja").render(context)
 
 
 def _is_headline(row: Mapping[str, Any]) -> bool:
@@ -143,29 +141,6 @@ def _emulated(tasks: Sequence[Mapping[str, Any]], strips: Mapping[str, bytes]) -
     return list(groups.values())
 
 
-def _policy(*scripts: str) -> str:
-    """The browser runs the two scripts with these hashes and fetches nothing, whatever a name may have smuggled in."""
-    hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
-    allowed = " ".join(f"'sha256-{digest}'" for digest in hashes)
-    return f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; img-src data:"
-
-
 def _manifest(result: Any) -> dict[str, Any]:
     path = Path(result.folder) / "manifest.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-
-
-@lru_cache(maxsize=8)
-def _asset(name: str) -> str:
-    return (HERE / name).read_text(encoding="utf-8")
-
-
-@lru_cache(maxsize=1)
-def _template() -> Any:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    loader = FileSystemLoader(HERE)
-    environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    return environment.get_template("report.html.jinja")

@@ -43,6 +43,17 @@ def test_fit_as_json_is_json(emulated, tmp_path):
     assert code == 0 and json.loads(shown)["tasks"]["reach"]["n_components"] == 3
 
 
+def test_fit_takes_a_scheme_a_clock_and_landmarks_and_keeps_the_command(emulated, tmp_path):
+    out = tmp_path / "lib.npz"
+    asked = ("--scheme", "SIEM/JointPCA/MVG", "--n-times", 51, "--landmarks", 0.01)
+    code, _, _ = opsim("motion", "fit", emulated, "-o", out, *asked)
+    model = MotionLibrary.load(out)["reach"]
+    assert code == 0 and (model.report.scheme, model.n_times) == ("SIEM/JointPCA/MVG", 51)
+    assert "strength 0.01" in model.report.methods["landmarks"]
+    said = "--scheme SIEM/JointPCA/MVG --n-times 51 --landmarks 0.01"
+    assert model.report.command == f"opsim motion fit reach.npz -o lib.npz {said}"
+
+
 def test_a_recorded_task_is_fitted_with_its_six_people(tmp_path):
     code, shown, _ = opsim("motion", "fit", recording("uiprmd_deep_squat"), "-o", tmp_path / "lib.npz", "--json")
     report = json.loads(shown)["tasks"]["deep_squat"]
@@ -58,6 +69,8 @@ def test_a_recorded_task_is_fitted_with_its_six_people(tmp_path):
         ([BENCH, "-o", "lib.txt"], "ends in .npz"),
         ([BENCH], "--out"),
         ([BENCH, "-o", "lib.npz", "--n-components", "0.0"], "share of variance"),
+        ([BENCH, "-o", "lib.npz", "--scheme", "SIEM/JointPCA/MVF"], "did you mean 'SIEM/JointPCA/MVG'?"),
+        ([BENCH, "-o", "lib.npz", "--n-times", "3"], "10<=x<=2001"),
         ([BENCH, "-o", "lib.npz", "--n-components", "2.5"], "share of variance"),
     ],
 )
