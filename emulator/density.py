@@ -60,7 +60,9 @@ class LowRankNormal:
         """n draws (n, K); first xi (n, R), then eta (n, K); no eta where rho is 0."""
         xi = rng.standard_normal((n, len(self.factor)))
         if self.rho == 0:
-            return self.mean + xi @ self.factor
+            z = xi @ self.factor
+            z += self.mean
+            return z
         eta = rng.standard_normal((n, len(self.mean)))
         return self.mean + sqrt(1 - self.rho) * (xi @ self.factor) + sqrt(self.rho) * self.spread * eta
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -31,12 +32,27 @@ class Law:
         given : (coordinate, its values (n,)): draws from the conditional law, by Bayes' rule for the component and
                 Matheron's rule (noise kept, moved along the regression) within it.
         """
-        u = rng.random(n) if len(self.weight) > 1 else np.zeros(n)
-        noise = self.noise.sample(n, rng)
-        people = self.centre if self.people is None else self.people.sample(n, rng)
-        at = chosen(self.weight if given is None else self.weight_given(*given), u)
-        z = self.mean[at] + self.reach[at, None] * noise + people
+        if len(self.weight) == 1:
+            at, z = np.zeros(n, int), self.noise.sample(n, rng) * self.reach
+        else:
+            u = rng.random(n)
+            z = self.noise.sample(n, rng)
+            at = placed(self._edges, u) if given is None else chosen(self.weight_given(*given), u)
+            z *= self.reach[at, None]  # NOTE: in place; a new array of all draws costs as much as drawing them
+        z += self._centres[at]
+        if self.people is not None:
+            z += self.people.sample(n, rng)
         return z if given is None else self._moved(z, at, *given)
+
+    @cached_property
+    def _edges(self) -> np.ndarray:
+        """(M,) running sums of the weights."""
+        return np.cumsum(self.weight)
+
+    @cached_property
+    def _centres(self) -> np.ndarray:
+        """(M, K) where the components lie; people bring their own centre."""
+        return self.mean if self.people is not None else self.mean + self.centre
 
     def weight_given(self, coordinate: int, value: np.ndarray) -> np.ndarray:
         """(n, M) weights of the components once a coordinate of z is known to be ``value`` (n,)."""
@@ -66,8 +82,11 @@ class Law:
 
 
 def chosen(weight: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """The components (n,) that uniform numbers u (n,) fall on; ``weight`` (M,) or, one row a draw, (n, M)."""
+    """The components (n,) that uniform numbers u (n,) fall on, each with a row of its own of ``weight`` (n, M)."""
     edges = np.cumsum(weight, axis=-1)
-    if weight.ndim == 1:
-        return np.minimum(np.searchsorted(edges, u * edges[-1], side="right"), len(weight) - 1)
     return np.minimum((edges <= u[:, None] * edges[:, -1:]).sum(axis=1), weight.shape[1] - 1)
+
+
+def placed(edges: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """The components (n,) that uniform numbers u (n,) fall on, by the running sums (M,) of their weights."""
+    return np.minimum(np.searchsorted(edges, u * edges[-1], side="right"), len(edges) - 1)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from emulator.density import LowRankNormal
-from emulator.law import Law, chosen
+from emulator.law import Law, chosen, placed
 
 
 def normal(k=3, seed=1, mean=None):
@@ -67,10 +67,11 @@ def test_conditional_weights_are_those_of_bayes_rule():
 def test_components_are_chosen_as_often_as_they_weigh(shape):
     weight = np.array([0.5, 0.0, 0.3, 0.2])
     u = np.random.default_rng(0).random(20_000)
-    at = chosen(weight if not shape else np.tile(weight, (len(u), 1)), u)
+    at = placed(np.cumsum(weight), u) if not shape else chosen(np.tile(weight, (len(u), 1)), u)
     assert np.abs(np.bincount(at, minlength=4) / len(u) - weight).max() < 0.015
     assert not np.any(at == 1)
 
 
 def test_a_number_of_one_chooses_the_last_component():
-    assert chosen(np.array([0.5, 0.5]), np.array([1.0])).tolist() == [1]
+    assert placed(np.array([0.5, 1.0]), np.array([1.0])).tolist() == [1]
+    assert chosen(np.array([[0.5, 0.5]]), np.array([1.0])).tolist() == [1]
