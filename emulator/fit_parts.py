@@ -54,7 +54,7 @@ def parts_of(made: Registered, settings: FitSettings) -> Parts:
     posture = stored(_posture_components(flat, settings.n_components), settings.n_times)
     log_bones = _log_bones(made.moving)
     bones = JointPCA.fit(log_bones, BONE_SHARE)
-    channel = made.channels(np.exp(bones.inverse(bones.forward(log_bones))))
+    channel = made.channels()
     root = stored(JointPCA.fit(channel, ROOT_SHARE, LARGEST_ROOT), settings.n_times)
     slopes = clr(made.warps, settings.n_knots)
     pace = JointPCA.fit(slopes, PACE_SHARE, LARGEST_PACE)

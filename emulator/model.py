@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from emulator.workforce import WorkerEffect, Workforce
 
 SCHEME = "SIEM/JointPCA/Smoothed"
 SCHEMES = (SCHEME, "SIEM/JointPCA/MVG")
+SLOPE_ROOM = np.log(1.2)
 CONDITIONS = ("duration_s", "log_duration_shift")
 _CROWN_AND_SOLE_M = 0.20
 """Ankle above the floor and crown above the head joint, in a body whose height is asked for."""
@@ -171,8 +173,22 @@ class MotionEmulator:
         return from_clr(self._slopes(scores), self.n_times)
 
     def _slopes(self, scores: np.ndarray) -> np.ndarray:
-        """(n, Q) centred log ratios of the warps."""
-        return np.minimum(np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), -8.0), 8.0)
+        """(n, Q) log ratios of the warps' slopes, within ``_slope_limits``."""
+        return np.minimum(
+            np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), self._slope_limits[0]), self._slope_limits[1]
+        )
+
+    @cached_property
+    def _slope_limits(self) -> np.ndarray:
+        """(2, Q) least and largest log ratio of each knot: those of the recordings and a fifth beyond, if it has them.
+
+        Else a few draws of new people would rush through a part of the task three times as fast as anybody did.
+        """
+        smoothed = self.workforce.smoothed
+        if smoothed is None:
+            return np.array([[-8.0], [8.0]])
+        recorded = self.pace.inverse(self.scale.raw(smoothed.scores, "pace"))
+        return np.stack([recorded.min(axis=0) - SLOPE_ROOM, recorded.max(axis=0) + SLOPE_ROOM])
 
     def aligned_directions(self, scores: np.ndarray) -> np.ndarray:
         """Postures on the common clock, (n, T, B, 3)."""

@@ -29,13 +29,13 @@ class Registered:
     warps: np.ndarray
     directions: np.ndarray
 
-    def channels(self, bone_length_m: np.ndarray) -> np.ndarray:
-        """Side channels of the root on the common clock, (N, T * 4), for bodies with these bones (N, B)."""
+    def channels(self) -> np.ndarray:
+        """Side channels of the root on the common clock, (N, T * 4), with the feet where they were recorded."""
         channel = RootChannel(self.moving.skeleton)
         rows = []
-        for motion, gamma, posture, bones in zip(self.moving.motions, self.warps, self.directions, bone_length_m):
-            root, yaw = _on_clock(motion, gamma)
-            rows.append(channel.forward(posture, bones, root, yaw).ravel())
+        for motion, gamma, posture in zip(self.moving.motions, self.warps, self.directions):
+            root, yaw, stretch = _on_clock(motion, gamma)
+            rows.append(channel.forward(posture, motion.bone_length_m, root, yaw, stretch).ravel())
         return np.stack(rows)
 
     def mark_clock(self, warps: np.ndarray) -> np.ndarray:
@@ -68,8 +68,12 @@ def _mark_share(motions: MotionSet) -> np.ndarray:
     return motions.mark_s / motions.duration_s[:, None]
 
 
-def _on_clock(motion: Motion, gamma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Path (T, 3) and heading (T,) of a motion at the common clock's times."""
+def _on_clock(motion: Motion, gamma: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Path (T, 3), heading (T,) and stretch (T, B), if it has one, of a motion at the common clock's times."""
     at = gamma * motion.duration_s
-    root = np.stack([np.interp(at, motion.time_s, motion.root_m[:, c]) for c in range(3)], axis=1)
-    return root, np.interp(at, motion.time_s, motion.yaw_rad)
+
+    def then(columns: np.ndarray) -> np.ndarray:
+        return np.stack([np.interp(at, motion.time_s, column) for column in columns.T], axis=1)
+
+    stretch = None if motion.stretch is None else then(motion.stretch)
+    return then(motion.root_m), np.interp(at, motion.time_s, motion.yaw_rad), stretch

@@ -37,10 +37,20 @@ class RootChannel:
         return np.asarray(chosen)
 
     def forward(
-        self, directions: np.ndarray, bone_length_m: np.ndarray, root_m: np.ndarray, yaw_rad: np.ndarray
+        self,
+        directions: np.ndarray,
+        bone_length_m: np.ndarray,
+        root_m: np.ndarray,
+        yaw_rad: np.ndarray,
+        stretch: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Directions (T, B, 3) without heading, bones (B,), path (T, 3), heading (T,) -> side channel (T, 4)."""
-        way, floor = self._ride(directions, bone_length_m, yaw_rad)
+        """Directions (T, B, 3) without heading, bones (B,), path (T, 3), heading (T,) -> side channel (T, 4).
+
+        stretch : (T, B) recorded length of each bone over ``bone_length_m``. With it the feet are where they were
+                  recorded; without it rigid bones hang from the recorded root, and the feet of a squat rise and sink.
+        """
+        length_m = bone_length_m[..., None, :] * (1.0 if stretch is None else stretch)
+        way, floor = self._ride(directions, length_m, yaw_rad)
         left = np.stack([root_m[..., 0] - way[..., 0], root_m[..., 1] - way[..., 1], root_m[..., 2] - floor], axis=-1)
         return np.concatenate([left / self.leg_m(bone_length_m)[..., None, None], yaw_rad[..., None]], axis=-1)
 
@@ -72,29 +82,28 @@ class RootChannel:
     ) -> tuple[np.ndarray, np.ndarray]:
         """The same as ``inverse`` without compiled code."""
         yaw = channel[..., 3]
-        way, floor = self._ride(directions, bone_length_m, yaw)
+        length_m = bone_length_m[..., None, :]
+        way, floor = self._ride(directions, length_m, yaw)
         left = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
         level = way + left[..., :2]
-        height = np.maximum(floor + left[..., 2], -self._hanging(directions, bone_length_m)[..., 2].min(-1))
+        height = np.maximum(floor + left[..., 2], -self._hanging(directions, length_m)[..., 2].min(-1))
         return np.concatenate([level - level[..., :1, :], height[..., None]], axis=-1), yaw
 
     @property
     def _feet(self) -> list[int]:
         return [self.skeleton.names.index(name) for name in _FEET if name in self.skeleton.names]
 
-    def _hanging(self, directions: np.ndarray, bone_length_m: np.ndarray) -> np.ndarray:
-        """Joints (..., T, J, 3) with the root at the origin."""
+    def _hanging(self, directions: np.ndarray, length_m: np.ndarray) -> np.ndarray:
+        """Joints (..., T, J, 3) with the root at the origin; lengths (..., T or 1, B)."""
         zero = np.zeros((*directions.shape[:-2], 3))
-        return self.skeleton.positions(directions, bone_length_m[..., None, :], zero)
+        return self.skeleton.positions(directions, length_m, zero)
 
-    def _ride(
-        self, directions: np.ndarray, bone_length_m: np.ndarray, yaw_rad: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _ride(self, directions: np.ndarray, length_m: np.ndarray, yaw_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The horizontal way (..., T, 2) on planted feet, and the height (..., T) with the lowest foot at 0."""
         feet = self._feet
         if not feet:
             return np.zeros((*yaw_rad.shape, 2)), np.zeros(yaw_rad.shape)
-        hanging = turn(self._hanging(directions, bone_length_m)[..., feet, :], yaw_rad[..., None])
+        hanging = turn(self._hanging(directions, length_m)[..., feet, :], yaw_rad[..., None])
         above = hanging[..., 2] - hanging[..., 2].min(-1, keepdims=True)
         weight = np.exp(-above / SOFT_M)
         floor = -hanging[..., 2].min(-1) + SOFT_M * np.log(weight.mean(-1))

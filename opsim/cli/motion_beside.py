@@ -33,11 +33,11 @@ def beside(model: Any, file: str, *, where: str | None, n: int, people: str, see
     chosen = {} if where is None else {"where": None if where == "all" else where}
     motions = read_motions(file, **chosen)
     _refuse(model, motions, file, n)
-    real = _spread(motions, n, stream(seed, 0, "beside", "recordings"))
+    real = _spread(motions, n, stream(seed, 0, "beside", model.task, "recordings"))
     rate_hz = (len(real[0].time_s) - 1) / real[0].duration_s
-    drawn = _drawn(model, n, people, rate_hz, stream(seed, 0, "beside", "emulated"))
+    drawn = _drawn(model, n, people, rate_hz, stream(seed, 0, "beside", model.task, "emulated"))
     cards = [_recorded(motion, rate_hz) for motion in real] + drawn
-    order = stream(seed, 0, "beside", "order").permutation(len(cards))
+    order = stream(seed, 0, "beside", model.task, "order").permutation(len(cards))
     return Beside([cards[i] for i in order], _notes(model, motions, real, file, people))
 
 
@@ -74,8 +74,24 @@ def _spread(motions: Any, n: int, rng: Any) -> list[Any]:
 def _recorded(motion: Any, rate_hz: float) -> Card:
     from opsim.report.staged import staged
 
-    shown = staged(motion.positions_m(), rate_hz, motion.skeleton)
-    return Card(shown, True, f"{motion.worker}, repetition {motion.trial}")
+    return Card(
+        staged(_standing(motion), rate_hz, motion.skeleton), True, f"{motion.worker}, repetition {motion.trial}"
+    )
+
+
+def _standing(motion: Any) -> Any:
+    """Joints (T, J, 3) with bones of one length, as an emulated body has them, and the feet where they were recorded.
+
+    NOTE: rigid bones hung from the recorded pelvis would lift the feet of a squat by 5 to 9 cm, since markers on the
+    skin make bones that breathe.
+    """
+    from emulator.clean import turn
+    from emulator.root import RootChannel
+
+    channel, bones_m = RootChannel(motion.skeleton), motion.bone_length_m
+    side = channel.forward(motion.directions, bones_m, motion.root_m, motion.yaw_rad, motion.stretch)
+    root_m, yaw_rad = channel.inverse(side, motion.directions, bones_m)
+    return motion.skeleton.positions(turn(motion.directions, yaw_rad[:, None]), bones_m, root_m)
 
 
 def _drawn(model: Any, n: int, people: str, rate_hz: float, rng: Any) -> list[Card]:

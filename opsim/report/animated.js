@@ -1,9 +1,9 @@
 // Moves the bodies of the page, and keeps the reader's guesses. The frames stand in the page as whole mm.
 (function () {
   "use strict";
-  var LIFT = 0.17, HOLD_S = 0.8, FLOOR_M = -0.03, SQUARE_M = 0.25;
+  var LIFT = 0.17, HOLD_S = 0.8, FLOOR_M = -0.03, SQUARE_M = 0.25, STEADY_M = 0.15;
   var film = JSON.parse(document.getElementById("film").textContent), body = film.body;
-  var frames = film.cards.map(unpacked), answers = JSON.parse(atob(film.answers));
+  var frames = film.cards.map(unpacked), usual = frames.map(average), answers = JSON.parse(atob(film.answers));
   var figures = Array.prototype.slice.call(document.querySelectorAll(".card"));
   var guesses = frames.map(function () { return null; });
   var longest = Math.max.apply(null, frames.map(lasts)), end = longest + HOLD_S;
@@ -25,6 +25,11 @@
     var place = Math.min(Math.max(time_s * film.rate_hz, 0), last), low = Math.min(Math.floor(place), last - 1);
     var share = place - low, joints = new Float32Array(n);
     for (var i = 0; i < n; i++) joints[i] = (1 - share) * metres[low * n + i] + share * metres[(low + 1) * n + i];
+    return joints;
+  }
+  function average(metres) {
+    var n = 3 * film.joints, joints = new Float32Array(n);
+    for (var i = 0; i < metres.length; i++) joints[i % n] += metres[i] * n / metres.length;
     return joints;
   }
   // What all cards share: the middle of their ways, and the room that every view of them needs.
@@ -61,7 +66,7 @@
   function line(g, from, to) { g.beginPath(); g.moveTo(from.x, from.y); g.lineTo(to.x, to.y); g.stroke(); }
 
   function ground(g, view) {
-    var reach = bounds.wide;
+    var reach = bounds.wide - 0.04;
     g.strokeStyle = "#dde2e8"; g.lineWidth = Math.max(1, 0.004 * view.scale);
     [0, 1].forEach(function (c) {
       var here = view.middle[c], other = view.middle[1 - c];
@@ -91,44 +96,50 @@
     g.arc(b.x, b.y, rb, angle - open, angle + open);
     g.closePath();
   }
-  // Every part with its nearness to the viewer; the far ones are drawn first, each on a white rim.
-  function parts(view, joints) {
-    var found = [], seen = [], mm = view.scale / 1000, head = body.head, trunk = body.colours[0];
-    for (var j = 0; j < film.joints; j++) seen.push(view.see(joints[3 * j], joints[3 * j + 1], joints[3 * j + 2]));
+  // Every part with its nearness to the viewer; the far ones are drawn first, each on a white rim. A limb that is about as
+  // far before the torso as it usually is keeps its place in that order, else it would flicker where both are as near.
+  function parts(view, joints, usual_joints) {
+    var found = [], seen = all(view, joints), often = all(view, usual_joints), mm = view.scale / 1000, trunk = body.colours[0];
+    var torso = body.torso.length ? body.torso : [body.root], here = mean(torso, seen), there = mean(torso, often);
     body.bones.forEach(function (bone) {
-      var a = seen[bone[0]], b = seen[bone[1]], inside = bone[4] ? 0 : 0.3;
-      found.push({ near: (a.near + b.near) / 2 - inside, colour: body.colours[bone[4]], outline: function (g) {
-        limb(g, a, b, bone[2] * mm, bone[3] * mm);
+      var ends = [bone[0], bone[1]], now = mean(ends, seen) - here, then = mean(ends, often) - there;
+      var near = bone[4] ? (Math.abs(now - then) < STEADY_M ? then : now) : now - 0.3;
+      found.push({ near: near, colour: body.colours[bone[4]], outline: function (g) {
+        limb(g, seen[bone[0]], seen[bone[1]], bone[2] * mm, bone[3] * mm);
       } });
     });
-    if (body.torso.length) found.push({ near: mean(body.torso, seen) - 0.02, colour: trunk, wide: 2 * body.torso_mm * mm, outline: function (g) {
+    if (body.torso.length) found.push({ near: -0.02, colour: trunk, wide: 2 * body.torso_mm * mm, outline: function (g) {
       g.beginPath(); body.torso.forEach(function (j) { g.lineTo(seen[j].x, seen[j].y); }); g.closePath();
     } });
-    if (head >= 0) found.push({ near: seen[head].near, colour: trunk, outline: function (g) {
-      g.beginPath(); g.arc(seen[head].x, seen[head].y, body.head_mm * mm, 0, 2 * Math.PI);
+    if (body.head >= 0) found.push({ near: seen[body.head].near - here, colour: trunk, outline: function (g) {
+      g.beginPath(); g.arc(seen[body.head].x, seen[body.head].y, body.head_mm * mm, 0, 2 * Math.PI);
     } });
     return found.sort(function (a, b) { return a.near - b.near; });
   }
+  function all(view, joints) {
+    for (var seen = [], j = 0; j < joints.length; j += 3) seen.push(view.see(joints[j], joints[j + 1], joints[j + 2]));
+    return seen;
+  }
   function mean(joints, seen) { return joints.reduce(function (sum, j) { return sum + seen[j].near; }, 0) / joints.length; }
 
-  function paint(figure, metres) {
-    var canvas = figure.querySelector("canvas"), g = canvas.getContext("2d"), joints = posture(metres, at);
+  function paint(figure, i) {
+    var canvas = figure.querySelector("canvas"), g = canvas.getContext("2d"), joints = posture(frames[i], at);
     var view = camera(canvas, joints), rim = Math.max(1.5, 0.012 * view.scale);
     g.clearRect(0, 0, canvas.width, canvas.height);
     g.lineJoin = g.lineCap = "round";
     ground(g, view);
     shadows(g, view, joints);
-    parts(view, joints).forEach(function (part) {
+    parts(view, joints, usual[i]).forEach(function (part) {
       var wide = part.wide || 0;
       part.outline(g);
       g.strokeStyle = "#fff"; g.lineWidth = wide + 2 * rim; g.stroke();
       g.fillStyle = g.strokeStyle = part.colour; g.fill();
       if (wide) { g.lineWidth = wide; g.stroke(); }
     });
-    figure.querySelector(".ends i").style.width = 100 * Math.min(at, lasts(metres)) / longest + "%";
+    figure.querySelector(".ends i").style.width = 100 * Math.min(at, lasts(frames[i])) / longest + "%";
   }
   function draw() {
-    figures.forEach(function (figure, i) { paint(figure, frames[i]); });
+    figures.forEach(function (figure, i) { paint(figure, i); });
     $("time").value = at; $("clock").textContent = Math.min(at, longest).toFixed(1) + " s"; $("turn").value = turn;
   }
   function fit() {

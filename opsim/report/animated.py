@@ -18,7 +18,7 @@ from opsim.whole import write_text
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 FURTHEST_M = 32.0
-"""What two bytes a coordinate can say, in mm."""
+"""Two bytes a coordinate hold whole mm up to here."""
 
 
 def write_animated(

@@ -1,5 +1,7 @@
 import numpy as np
 
+from emulator.clean import turn
+from emulator.model import MotionEmulator
 from emulator.root import RootChannel
 from emulator.skeleton import Skeleton
 from tests.emulator.fitted import made, recorded
@@ -23,6 +25,19 @@ def test_path_and_heading_come_back():
         root, yaw = channel.inverse(split(motion, channel), motion.directions, motion.bone_length_m)
         assert np.abs(root - motion.root_m).max() < 1e-10
         assert np.abs(yaw - motion.yaw_rad).max() < 1e-12
+
+
+def test_feet_of_breathing_bones_stay_where_they_were_recorded_when_the_bones_are_made_rigid():
+    for motion in recorded("deep_squat").motions[::10]:
+        channel, feet = RootChannel(motion.skeleton), [motion.skeleton.index(f"{s}_toe") for s in ("left", "right")]
+        seen = motion.positions_m(rigid=False)[:, feet, 2].min(axis=1)
+        heights = {}
+        for name, stretch in (("hung", None), ("standing", motion.stretch)):
+            side = channel.forward(motion.directions, motion.bone_length_m, motion.root_m, motion.yaw_rad, stretch)
+            root, yaw = channel.inverse(side, motion.directions, motion.bone_length_m)
+            joints = motion.skeleton.positions(turn(motion.directions, yaw[:, None]), motion.bone_length_m, root)
+            heights[name] = joints[:, feet, 2].min(axis=1)
+        assert np.abs(heights["standing"] - seen).max() < 0.015 < 0.04 < np.ptp(heights["hung"])
 
 
 def test_the_compiled_way_is_the_numpy_way():
@@ -76,3 +91,10 @@ def test_drawn_walks_slide_no_more_than_two_centimetres_a_step():
     drawn = emulator.sample(20, np.random.default_rng(0)).positions_m(n_times=150)
     slides = [foot_travel_m(positions, emulator.skeleton) for positions in drawn]
     assert np.median(slides) / 6 < 0.02
+
+
+def test_feet_of_drawn_squats_stay_on_the_floor():
+    drawn = MotionEmulator.fit(recorded("deep_squat")).sample(30, np.random.default_rng(0)).positions_m()
+    feet = [recorded("deep_squat").skeleton.index(f"{s}_{j}") for s in ("left", "right") for j in ("ankle", "toe")]
+    lowest = drawn[:, :, feet, 2].min(axis=-1)
+    assert np.median(np.ptp(lowest, axis=1)) < 0.01  # 0.08 while rigid bones hung from the recorded root

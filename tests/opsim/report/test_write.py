@@ -5,7 +5,8 @@ from html.parser import HTMLParser
 
 import pytest
 
-from opsim.report.write import HERE, report_html, write_report
+from opsim.report.offline import HERE
+from opsim.report.write import report_html, write_report
 from tests.made_result import NAMES, SCRIPT, MadeResult, distribution, hostile, kpi, summary
 
 SECTIONS = ("summary", "figures-table", "states", "times", "movements", "made-up", "assumptions", "provenance")
