@@ -8,7 +8,12 @@ from opsim.cli.verbs import Verbs
 @click.group(
     "motion",
     cls=Verbs,
-    verbs={"fit": "opsim.cli.motion_fit", "sample": "opsim.cli.motion_sample", "show": "opsim.cli.motion_show"},
+    verbs={
+        "fit": "opsim.cli.motion_fit",
+        "sample": "opsim.cli.motion_sample",
+        "show": "opsim.cli.motion_show",
+        "judge": "opsim.cli.motion_judge",
+    },
 )
 def command() -> None:
-    """Train motion emulators on recordings, draw performances, draw them as people."""
+    """Train motion emulators on recordings, draw performances, look at them, judge them."""

@@ -1,0 +1,69 @@
+"""All that ``opsim motion judge --paper`` makes, section by section; between them the names of the steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+N_STEPS = 6
+"""Steps of one class."""
+
+
+def sections(sets: Sequence[Any], seed: int) -> Iterator[Any]:
+    """Sections as they are made, and before each step its name."""
+    from emulator.judge.paper.prepared import prepared
+    from emulator.judge.paper.tables import quantized
+
+    classes = []
+    for motions in sets:
+        yield f"{motions.task}: fitting"
+        classes.append(prepared(motions, seed))
+    postures = {}
+    for body in dict.fromkeys(c.motions.skeleton for c in classes):
+        yield "canonical postures"
+        postures[body] = quantized([c for c in classes if c.motions.skeleton == body], seed)
+    for c in classes:
+        yield from _of_class(c, postures[c.motions.skeleton])
+
+
+def _of_class(c: Any, postures: Any) -> Iterator[Any]:
+    from emulator.judge.paper.drawn import draws_of
+    from emulator.judge.paper.tables import level_two, table_1, table_2, table_3, tables_4_and_5
+    from opsim.report.paper.drawn import figure_19
+    from opsim.report.paper.write import Section
+
+    yield f"{c.task}: flattening and reduction"
+    pictures = list(_flattened(c))
+    yield f"{c.task}: sub-sequences"
+    tables = [table_1(c), table_2(c)]
+    pictures += _drawn(c, draws_of(c))
+    yield f"{c.task}: two levels"
+    rows = level_two(c)
+    tables.append(table_3(rows))
+    pictures.append(figure_19(rows))
+    yield f"{c.task}: quantization"
+    tables += tables_4_and_5(c, postures)
+    people = f"{len(c.motions)} repetitions of {len(c.motions.workers)} people on {c.aligned.shape[1]} points"
+    yield Section(c.task, f"{people}; {postures.n_postures} canonical postures", tuple(tables), tuple(pictures))
+
+
+def _flattened(c: Any) -> Iterator[Any]:
+    from emulator.judge.paper import flattening as found
+    from opsim.report.paper import flattening as pictures
+
+    yield pictures.figure_4(found.fields(c))
+    yield pictures.figure_5(found.round_trip_errors(c))
+    yield pictures.figure_7(found.spatial_shares(c))
+    yield pictures.figure_8(*found.first_score(c))
+    yield pictures.figure_9(found.errors_by_size(c))
+    yield pictures.figure_10(found.first_coefficients(c))
+    yield pictures.figure_13(*found.dimensions(c))
+
+
+def _drawn(c: Any, draws: Any) -> Iterator[Any]:
+    from emulator.judge.paper import drawn as found
+    from opsim.report.paper import drawn as pictures
+
+    yield pictures.figure_14(found.people(c, draws), c.motions.skeleton)
+    yield pictures.figure_15(found.scaled(draws))
+    yield pictures.figure_16(found.roughness_over_time(draws))
