@@ -72,8 +72,12 @@ class LowRankNormal:
         That subspace is the span of the covariance: all K where rho > 0, the rows of the factor where rho = 0.
         Source: Chen, Park & Srivastava eq. 7, with its sign slip mended and the singular directions left out.
         """
-        values, vectors = np.linalg.eigh(self.covariance)
-        kept = values > values[-1] * 1e-10
+        if self.rho == 0:  # by the factor itself, since K x K may be far larger
+            _, size, rows = np.linalg.svd(self.factor, full_matrices=False)
+            values, vectors = size**2, rows.T
+        else:
+            values, vectors = np.linalg.eigh(self.covariance)
+        kept = values > values.max(initial=0.0) * 1e-10
         coordinates = (scores - self.mean) @ vectors[:, kept]
         quadratic = np.sum(coordinates**2 / values[kept], axis=-1)
         return -0.5 * (quadratic + np.sum(np.log(2 * np.pi * values[kept])))

@@ -83,12 +83,12 @@ class SequentialPCA:
         """
         postures = sequences.reshape(-1, sequences.shape[-1])
         mean = postures.mean(axis=0)
-        values, vectors = _components(postures - mean)
-        spatial = vectors[: _wished("d1", d1, values)]
+        values, vectors = components_of(postures - mean)
+        spatial = vectors[: wished("d1", d1, values)]
         scores = np.moveaxis((sequences - mean) @ spatial.T, -1, 0)
         temporal_mean = scores.mean(axis=1)
-        functions = [_components(courses - middle) for courses, middle in zip(scores, temporal_mean)]
-        count = max(_wished("d2", d2, values) for values, _ in functions)
+        functions = [components_of(courses - middle) for courses, middle in zip(scores, temporal_mean)]
+        count = max(wished("d2", d2, values) for values, _ in functions)
         fewest = min(len(values) for values, _ in functions)
         if count > fewest:
             raise ValueError(f"d2: found {count}, but a spatial score spans only {fewest} functions of time")
@@ -106,7 +106,7 @@ class SequentialPCA:
         return self.mean + np.moveaxis(scores, -1, -2) @ self.spatial
 
 
-def _components(centred: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def components_of(centred: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positive eigenvalues (R,) and components (R, P) of centred rows (N, P), by the smaller of the two products."""
     by_rows = len(centred) < centred.shape[1]
     values, vectors = np.linalg.eigh(centred @ centred.T if by_rows else centred.T @ centred)
@@ -117,7 +117,8 @@ def _components(centred: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return values, _signed(basis)
 
 
-def _wished(name: str, wish: int | float, values: np.ndarray) -> int:
+def wished(name: str, wish: int | float, values: np.ndarray) -> int:
+    """How many components ``wish`` means, given the positive eigenvalues; ``name`` is what an error calls it."""
     try:
         return _count(wish, values, len(values))
     except ValueError as why:

@@ -47,9 +47,12 @@ def log(base: np.ndarray, point: np.ndarray) -> np.ndarray:
     return across * np.where(sine > 0, np.arctan2(sine, cosine) / np.where(sine > 0, sine, 1.0), 1.0)[..., None]
 
 
-def log_coordinates(base: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """``log`` in the coordinates of ``basis(base)``: points (..., 3) -> (..., 2), by half the work. Raises as log."""
-    plane = basis(base)
+def log_coordinates(base: np.ndarray, point: np.ndarray, plane: np.ndarray | None = None) -> np.ndarray:
+    """``log`` in the coordinates of ``plane`` (..., 2, 3), or of ``basis(base)``: points (..., 3) -> (..., 2).
+
+    By half the work of ``log``; raises as it does.
+    """
+    plane = basis(base) if plane is None else plane
     cosine = np.einsum("...c,...c->...", point, base)
     x, y = (np.einsum("...c,...c->...", point, plane[..., k, :]) for k in (0, 1))
     sine = np.sqrt(x * x + y * y)

@@ -4,7 +4,6 @@
 them; the controls must be seen to fail.
 """
 
-from emulator.judge.baseline import PaperScheme
 from emulator.judge.compare import Comparison, compare
 from emulator.judge.controls import jittered_resampler, resampler
 from emulator.judge.disco import Disco, disco
@@ -17,7 +16,6 @@ from emulator.judge.roughness import roughness, temporal_roughness
 __all__ = [
     "Comparison",
     "Disco",
-    "PaperScheme",
     "compare",
     "disco",
     "distances",

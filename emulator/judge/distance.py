@@ -42,12 +42,14 @@ def distances_numpy(a: np.ndarray, b: np.ndarray | None = None) -> np.ndarray:
 
 
 def _packed(sequences: np.ndarray) -> np.ndarray:
-    """Sequences (n, T, B, 3) as (n, 3, T * B) float32, so that neighbours in memory are worked on together."""
+    """Halves of sequences (n, T, B, 3) as (n, 3, T * B) float32: neighbours in memory are worked on together."""
+    from emulator.kernels.arcs import halved
+
     sequences = np.asarray(sequences)
     if sequences.ndim != 4 or sequences.shape[-1] != 3 or sequences.shape[1] == 0:
         raise ValueError(f"distances: found {sequences.shape}, expected (n, T, B, 3)")
     rows = sequences.reshape(len(sequences), -1, 3)
-    packed = np.ascontiguousarray(rows.transpose(0, 2, 1), dtype=np.float32)
-    if not np.isfinite(packed).all():
+    packed = np.empty((len(rows), 3, rows.shape[1]), np.float32)
+    if not halved(rows, packed):
         raise ValueError("distances: a posture is not finite")
     return packed

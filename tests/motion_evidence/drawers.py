@@ -7,15 +7,16 @@ from collections.abc import Callable
 import numpy as np
 from motion_evidence.halves import Halves
 
-from emulator.judge import PaperScheme, jittered_resampler, resampler
+from emulator.judge import jittered_resampler, resampler
 from emulator.judge.alike import draw_alike
 from emulator.model import MotionEmulator
+from emulator.schemes import Scheme
 
 Drawer = Callable[[int, np.random.Generator], np.ndarray]
 OURS, PAPER, COPIER, SHAKER, REAL = "ours", "paper 10x30", "resampler", "jittered", "real half"
 
 
-def drawers(halves: Halves, emulator: MotionEmulator, paper: PaperScheme) -> dict[str, Drawer]:
+def drawers(halves: Halves, emulator: MotionEmulator, paper: Scheme) -> dict[str, Drawer]:
     """Name -> draw(n, rng) -> (n, T, B, 3) on the common clock."""
 
     def ours(n: int, rng: np.random.Generator) -> np.ndarray:

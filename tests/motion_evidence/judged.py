@@ -14,7 +14,6 @@ from emulator.align import resample
 from emulator.held_out import HeldOutRow, emulated_rows, resampled_rows
 from emulator.judge import (
     Comparison,
-    PaperScheme,
     compare,
     joint_reconstruction,
     reconstruction_error,
@@ -22,8 +21,10 @@ from emulator.judge import (
 )
 from emulator.judge.alike import draw_alike
 from emulator.model import MotionEmulator
+from emulator.schemes import Scheme
 
 N_OWN_TIME = 200
+PAPER_SCHEME = "SIEM/SequentialPCA/MVG"
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ def judge_split(task: str, split: int, n_draws: int = 1000) -> Split:
     with threadpool_limits(1, user_api="blas"):
         made = halves(task, split)
         emulator = MotionEmulator.fit(made.fitted, n_times=N_TIMES, seed=split)
-        paper = PaperScheme.fit(made.a)
+        paper = Scheme.fit(made.a, PAPER_SCHEME, dims=(10, 30))
         rng = np.random.default_rng([split, 1])
         return Split(
             task,

@@ -1,0 +1,121 @@
+"""Could a body do this? Joint limits, speeds and sliding feet, of drawn performances beside recorded ones.
+
+Read as a comparison: markers stand on the skin and people differ, so recorded frames lie outside the limits, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.judge.joint_angles import LIMITS_DEG, joint_angles_deg
+from emulator.motion import MotionSet
+from emulator.skeleton import Skeleton
+
+FROM_STANDING = ("hip flexion", "trunk flexion", "neck flexion")
+UPRIGHT = 0.98
+"""Upright is within this share of the way from the head's lowest to its highest place."""
+LOW_M = 0.03
+"""A foot's joint is low while it is no more than this above its lowest place in the performance."""
+
+
+@dataclass(frozen=True)
+class Plausibility:
+    """What was found of n performances.
+
+    outside       : share of frames outside each joint limit of ``LIMITS_DEG``, left and right counted singly
+    beyond_deg    : how far the farthest frame lies outside, 0 where none does
+    speed_m_per_s : the greatest speed of any joint in each performance (n,)
+    skate_cm      : way of a foot over the floor while it is low in each performance (n,), the mean over ankles and toes
+    """
+
+    outside: dict[str, float]
+    beyond_deg: dict[str, float]
+    speed_m_per_s: np.ndarray
+    skate_cm: np.ndarray
+
+
+def plausibility(
+    skeleton: Skeleton,
+    positions_m: Sequence[np.ndarray],
+    duration_s: np.ndarray,
+    standing_deg: Mapping[str, float] | None = None,
+) -> Plausibility:
+    """Judge performances (T, J, 3), z up, each at even times from 0 to its duration (n,).
+
+    standing_deg : angles of upright standing, from which the limits count (see ``standing_deg``); None for zeros
+    Take the same T for what is to be compared: speeds and ways are those between frames.
+    Raises ValueError for a skeleton without the canonical joints needed, and for unequal numbers of performances.
+    """
+    if len(positions_m) != len(duration_s) or not len(duration_s):
+        raise ValueError(f"plausibility: {len(positions_m)} performances and {len(duration_s)} durations")
+    angles = [joint_angles_deg(skeleton, positions) for positions in positions_m]
+    zero = standing_deg or {}
+    together = {n: np.concatenate([one[n].ravel() for one in angles]) - zero.get(n, 0.0) for n in LIMITS_DEG}
+    excess = {name: _excess(together[name], *limits) for name, limits in LIMITS_DEG.items()}
+    return Plausibility(
+        {name: float(np.mean(e > 0)) for name, e in excess.items()},
+        {name: float(e.max()) for name, e in excess.items()},
+        np.array([_top_speed(p, s) for p, s in zip(positions_m, duration_s)]),
+        np.array([_skate_cm(skeleton, p) for p in positions_m]),
+    )
+
+
+def standing_deg(skeleton: Skeleton, positions_m: Sequence[np.ndarray]) -> dict[str, float]:
+    """Angles of trunk, hips and neck in the frames (T, J, 3) of each performance in which the head is highest.
+
+    The source measures from upright standing. In recordings the joints of the trunk lie in front of the spine or behind
+    it, as markers and software have it, which shifts these angles by up to some 30 degrees. The recordings must contain
+    standing, or the limits are too strict or too lenient by what is missing.
+    """
+    found: dict[str, list[np.ndarray]] = {name: [] for name in FROM_STANDING}
+    for positions in positions_m:
+        height = positions[:, skeleton.index("head"), 2]
+        angles = joint_angles_deg(skeleton, positions[height >= height.min() + UPRIGHT * np.ptp(height)])
+        for name in FROM_STANDING:
+            found[name].append(angles[name].ravel())
+    return {name: float(np.nanmedian(np.concatenate(values))) for name, values in found.items()}
+
+
+def recorded_positions_m(motions: MotionSet, n_times: int = 101) -> np.ndarray:
+    """Recorded positions (N, T, J, 3), rigid bones, at even times of each repetition, to set beside drawn ones."""
+    return np.stack([_even(motion.positions_m(), motion.time_s, n_times) for motion in motions.motions])
+
+
+def plausibility_rows(emulated: Plausibility, recorded: Plausibility) -> list[tuple[str, str, float, float]]:
+    """(what, unit, emulated, recorded), one row a limit and then speeds and skate."""
+    rows = [(f"{name} outside", "%", 100 * emulated.outside[name], 100 * recorded.outside[name]) for name in LIMITS_DEG]
+    both = (emulated, recorded)
+    speed = [[float(f(p.speed_m_per_s)) for p in both] for f in (np.median, np.max)]
+    return [
+        *rows,
+        ("top speed, median", "m/s", *speed[0]),
+        ("top speed, greatest", "m/s", *speed[1]),
+        ("foot skate a performance", "cm", *(float(p.skate_cm.mean()) for p in both)),
+    ]
+
+
+def _excess(angles: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Degrees outside the limits, 0 inside and where there is no angle."""
+    return np.nan_to_num(np.maximum(np.maximum(low - angles, angles - high), 0.0), nan=0.0)
+
+
+def _top_speed(positions_m: np.ndarray, duration_s: float) -> float:
+    steps = np.linalg.norm(np.diff(positions_m, axis=0), axis=-1)
+    return float(steps.max() * (len(positions_m) - 1) / duration_s)
+
+
+def _skate_cm(skeleton: Skeleton, positions_m: np.ndarray) -> float:
+    feet = [skeleton.index(f"{side}_{joint}") for side in ("left", "right") for joint in ("ankle", "toe")]
+    place = positions_m[:, feet]
+    low = place[..., 2] <= place[..., 2].min(axis=0) + LOW_M
+    steps = np.linalg.norm(np.diff(place[..., :2], axis=0), axis=-1)
+    return float(100 * (steps * (low[1:] & low[:-1])).sum(axis=0).mean())
+
+
+def _even(positions_m: np.ndarray, time_s: np.ndarray, n_times: int) -> np.ndarray:
+    at = np.linspace(0.0, time_s[-1], n_times)
+    flat = positions_m.reshape(len(positions_m), -1)
+    return np.stack([np.interp(at, time_s, column) for column in flat.T], -1).reshape(n_times, *positions_m.shape[1:])

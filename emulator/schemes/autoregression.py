@@ -1,0 +1,132 @@
+"""VAR(p): each spatial score from the last p points of all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.density import LowRankNormal
+
+PAPER_ORDER = 12
+"""Source: Chen, Park & Srivastava sec. 4.3.2."""
+
+
+@dataclass(frozen=True)
+class VAR:
+    """y_t = intercept + sum of lags_k y_(t - k) + noise.
+
+    lags    : (p, d, d); intercept : (d,); noise : Gaussian about 0 with the residuals' covariance
+    opening : law of the first p points (p d,): of the one sequence as they are, of pooled sequences a Gaussian
+    start   : Gaussian of the start posture's scores
+    sequence: number of the training sequence it was fitted to, or None for all of them together
+    """
+
+    intercept: np.ndarray
+    lags: np.ndarray
+    noise: LowRankNormal
+    opening: LowRankNormal
+    start: LowRankNormal
+    n_times: int
+    sequence: int | None
+
+    @classmethod
+    def fit(
+        cls,
+        scores: np.ndarray,
+        start: np.ndarray,
+        rng: np.random.Generator,
+        *,
+        pooled: bool,
+        order: int | None = None,
+    ) -> VAR:
+        """Least squares on one sequence of scores (N, T, d) chosen at random, as in the paper, or on all of them.
+
+        order : p; None for 12, or the largest that T points of one sequence can tell.
+        Raises ValueError for an order that leaves no residual.
+        """
+        sequence = None if pooled else int(rng.integers(len(scores)))
+        chosen = scores if sequence is None else scores[sequence][None]
+        n_seen, n_times, d = chosen.shape
+        p = _order(order, n_seen, n_times, d)
+        before, now = _lagged(chosen, p)
+        n_before = before.shape[1]
+        stacked = np.concatenate([before, now], axis=1)
+        r = np.asarray(np.linalg.qr(stacked, mode="r"))  # neighbouring lags are too alike to square
+        coefficients = np.linalg.lstsq(r[:n_before, :n_before], r[:n_before, n_before:], rcond=None)[0]
+        residual = (now - before @ coefficients) / np.sqrt(len(now) - n_before)
+        windows = chosen[:, :p].reshape(n_seen, p * d)
+        middle = windows.mean(axis=0)
+        return cls(
+            coefficients[0],
+            np.swapaxes(coefficients[1:].reshape(p, d, d), 1, 2),
+            LowRankNormal.of_rows(np.zeros(d), residual, 0.0),
+            LowRankNormal.of_rows(middle, (windows - middle) / np.sqrt(max(n_seen - 1, 1)), 0.0),
+            LowRankNormal.fit(start, 0.0),
+            n_times,
+            sequence,
+        )
+
+    @property
+    def order(self) -> int:
+        return len(self.lags)
+
+    @property
+    def modulus(self) -> float:
+        """The largest modulus of the companion matrix's eigenvalues; from 1 on, sequences explode."""
+        p, d = self.lags.shape[:2]
+        companion = np.eye(p * d, k=-d)
+        companion[:d] = np.moveaxis(self.lags, 0, 1).reshape(d, p * d)
+        return float(np.abs(np.linalg.eigvals(companion)).max())
+
+    def sample(
+        self, n: int, rng: np.random.Generator, *, allow_unstable: bool = False
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """n scores (n, T, d) and start scores (n, S); first the openings, then the noise, then the starts.
+
+        Raises ValueError where the model explodes (companion modulus from 1 on), unless ``allow_unstable``.
+        """
+        if not allow_unstable and self.modulus >= 1:
+            raise ValueError(
+                f"VAR({self.order}): its companion modulus is {self.modulus:.4f}, from 1 on sequences explode; "
+                "fit VAR-pooled or a lower order, or ask with allow_unstable=True"
+            )
+        p, d = self.lags.shape[:2]
+        scores = np.empty((n, self.n_times, d))
+        scores[:, :p] = self.opening.sample(n, rng).reshape(n, p, d)
+        scores[:, p:] = self.intercept + self.noise.sample(n * (self.n_times - p), rng).reshape(n, -1, d)
+        newest_last = np.swapaxes(self.lags[::-1], 1, 2).reshape(p * d, d)
+        with np.errstate(over="ignore", invalid="ignore"):
+            for t in range(p, self.n_times):
+                scores[:, t] += scores[:, t - p : t].reshape(n, p * d) @ newest_last
+        if not np.isfinite(scores).all():
+            raise ValueError(f"VAR({p}): exploded beyond all numbers; its companion modulus is {self.modulus:.4f}")
+        return scores, self.start.sample(n, rng)
+
+    def log_likelihood(self, scores: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Log density (...,) of scores (..., T, d) given their first p points, and of the start posture."""
+        p, d = self.lags.shape[:2]
+        sequences = scores.reshape(-1, *scores.shape[-2:])
+        before, now = _lagged(sequences, p)
+        error = now - before @ np.concatenate([self.intercept[None], np.swapaxes(self.lags, 1, 2).reshape(p * d, d)])
+        inner = self.noise.log_likelihood(error).reshape(len(sequences), -1).sum(axis=1)
+        return np.asarray(inner.reshape(scores.shape[:-2]) + self.start.log_likelihood(start))
+
+
+def _lagged(sequences: np.ndarray, p: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows (1, y_(t - 1), ..., y_(t - p)) and y_t, of all sequences (n, T, d), one after the other."""
+    n_times, d = sequences.shape[1:]
+    before = [np.ones((len(sequences), n_times - p, 1))]
+    before += [sequences[:, p - k : n_times - k] for k in range(1, p + 1)]
+    return np.concatenate(before, axis=-1).reshape(-1, 1 + p * d), sequences[:, p:].reshape(-1, d)
+
+
+def _order(order: int | None, n: int, n_times: int, d: int) -> int:
+    """The order asked for, or 12 where n sequences of T points leave residuals of d scores."""
+    largest = max((p for p in range(1, n_times) if n * (n_times - p) - 1 - p * d >= d), default=0)
+    if order is None and largest:
+        return min(PAPER_ORDER, largest)
+    if order is None or order != int(order) or not 1 <= order <= largest:
+        asked = "VAR" if order is None else f"VAR({order})"
+        raise ValueError(f"{asked}: {n} x {n_times} points of {d} scores can tell an order from 1 to {largest}")
+    return int(order)
