@@ -1,12 +1,17 @@
-"""What the posture components lose of repetitions that had no part in them: a figure of the fit report."""
+"""What the fit report says of the repetitions: what the posture components lose of them, and which are strangers."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from emulator import sphere
 from emulator.flatten import SIEM
 from emulator.reduce import JointPCA
+
+STRANGE, FEWEST_TO_JUDGE = 6.0, 6
+"""Of 263 correct public repetitions one lies this many times as far from the nearest other as they usually do."""
 
 
 def reconstruction_deg(flatten: SIEM, directions: np.ndarray, n_components: int, n_folds: int = 5) -> float:
@@ -31,3 +36,14 @@ def reconstruction_deg(flatten: SIEM, directions: np.ndarray, n_components: int,
 def flatten_shape(directions: np.ndarray) -> tuple[int, int]:
     """(T, 2B) of directions (N, T, B, 3)."""
     return directions.shape[1], 2 * directions.shape[2]
+
+
+def strangers(left_out: np.ndarray, names: Sequence[str]) -> tuple[str, ...]:
+    """A note on the repetitions that are like no other, by the distances (N, N) among all, infinite on the diagonal."""
+    nearest = left_out.min(axis=1)
+    usual = np.median(nearest)
+    far = np.flatnonzero(nearest > STRANGE * usual)
+    if len(names) < FEWEST_TO_JUDGE or usual <= 0 or len(far) == 0:
+        return ()
+    each = ", ".join(f"{names[i]} ({nearest[i] / usual:.0f} times as far as usual)" for i in far.tolist())
+    return (f"far from every other repetition, another movement or a mistake: {each}",)

@@ -10,7 +10,7 @@ import numpy as np
 from emulator.align import resample
 from emulator.dwell_fit import HOLDS_METHOD, said
 from emulator.dwells import NONE
-from emulator.fit_judge import reconstruction_deg
+from emulator.fit_judge import reconstruction_deg, strangers
 from emulator.fit_parts import Parts
 from emulator.fit_report import FitReport, TimeFit
 from emulator.fit_settings import FitSettings
@@ -28,7 +28,8 @@ ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 25, 199, 101
 GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
 SMOOTHED = (
     "the recordings' own coordinates, each blurred by low-rank noise that makes a draw seven eighths as far from the "
-    "nearest recording as a left-out recording is; known workers from their own repetitions"
+    "nearest recording as a left-out recording is; a known worker from his own repetitions, and with the weight of one "
+    "of them from everybody's deviations about his shrunk mean"
 )
 POSTURE_SIZE = "as many as held-out repetitions need (ten folds)"
 ROUGH_NOTE = (
@@ -85,7 +86,7 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
     new = model.sample(N_NEW, rng)
     own = np.stack([resample(m.directions, np.linspace(0, 1, model.n_times)) for m in made.moving.motions])
     rough, rough_new = (_over(_roughness(model, drawn), roughness(own)) for drawn in (alike, new))
-    new_to_recorded, p = _postures(model.aligned_directions(alike.scores), made.directions, rng)
+    new_to_recorded, p, left_out = _postures(model.aligned_directions(alike.scores), made.directions, rng)
     twins = (ALIKE_NOTE if model.posture.n_components == 0 else TWINS_NOTE,) if math.isnan(new_to_recorded) else ()
     return replace(
         model.report,
@@ -95,7 +96,10 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
         novelty_ratio=new_to_recorded,
         disco_p=p,
         times=_times(many, made),
-        notes=model.report.notes + twins + ((ROUGH_NOTE,) if rough_new > ROUGH else ()),
+        notes=model.report.notes
+        + twins
+        + strangers(left_out, [motion.name for motion in made.moving.motions])
+        + ((ROUGH_NOTE,) if rough_new > ROUGH else ()),
     )
 
 
@@ -118,15 +122,15 @@ def _over(emulated: float, recorded: float) -> float:
     return emulated / recorded if recorded > 1e-12 else float("nan")
 
 
-def _postures(drawn: np.ndarray, recorded: np.ndarray, rng: np.random.Generator) -> tuple[float, float]:
-    """Novelty of drawn postures (n, T, B, 3) against left-out recordings (N, T, B, 3), and DISCO's p."""
+def _postures(drawn: np.ndarray, recorded: np.ndarray, rng: np.random.Generator) -> tuple[float, float, np.ndarray]:
+    """Novelty of drawn postures (n, T, B, 3) against left-out recordings (N, T, B, 3), DISCO's p, distances (N, N)."""
     step = -(-recorded.shape[1] // MOST_TIMES)
     drawn, recorded = drawn[:, ::step], recorded[:, ::step]
     among, across = distances(recorded), distances(drawn, recorded)
     left_out = among + np.diag(np.full(len(among), np.inf))
     left_out = np.where(left_out < 1e-5, 0.0, left_out)  # twins lie within the rounding of float32
     test = disco(pooled(across, distances(drawn), among), len(drawn), rng, N_PERMUTATIONS)
-    return novelty(across, left_out), test.p
+    return novelty(across, left_out), test.p, left_out
 
 
 def _times(drawn: MotionPerformances, made: Registered) -> tuple[TimeFit, ...]:

@@ -26,7 +26,10 @@ def fit(motions: MotionSet, settings: FitSettings, progress: Progress = None) ->
         raise ValueError(f"{motions.task}: a model needs at least {FEWEST} repetitions, found {len(motions)}")
     refuse_unsound(motions)
     with threadpool_limits(1, user_api="blas"):  # one thread: the same recordings give the same bytes everywhere
-        return _fit(motions, settings, progress)
+        try:
+            return _fit(motions.in_order(), settings, progress)
+        except ValueError as error:
+            raise ValueError(f"{motions.task}: {error}") from error
 
 
 def _fit(motions: MotionSet, settings: FitSettings, progress: Progress) -> MotionEmulator:

@@ -181,6 +181,10 @@ class MotionSet:
         keep = rows_where(condition, table_of(self.motions))
         return self.subset(np.flatnonzero(keep), condition)
 
+    def in_order(self) -> MotionSet:
+        """The same motions by worker and trial in natural order, then duration: the order of a file decides nothing."""
+        return replace(self, motions=tuple(sorted(self.motions, key=_place)))
+
     def subset(self, indices: Sequence[int] | np.ndarray, selection: str = "") -> MotionSet:
         """The motions of these numbers, in this order."""
         said = [part for part in (self.selection if self.selection != "all" else "", selection) if part]
@@ -200,6 +204,10 @@ def table_of(motions: Sequence[Motion]) -> dict[str, list[Any]]:
     columns["trial"] = [motion.trial for motion in motions]
     columns["duration_s"] = [motion.duration_s for motion in motions]
     return columns
+
+
+def _place(motion: Motion) -> tuple[Any, ...]:
+    return _natural(motion.worker), _natural(motion.trial), motion.duration_s
 
 
 def _natural(name: str) -> list[tuple[int, int, str]]:

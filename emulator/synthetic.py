@@ -38,8 +38,8 @@ class Truth:
     warps (N, 201): common clock -> own unit time, on 201 even clock times; mark_clock (N, E) marks on the common clock,
     scattered about the key posture by ``MARK_SPREAD`` as a hand-set label is;
     latents (N, 4) posture latents, standard normal in the population; log_duration (N,) log seconds; worker_index (N,)
-    duration_mean_s, duration_cv, between_share (of the variance of log duration), posture_duration_correlation
-    (of latent 0 with log duration): of the population
+    duration_mean_s, duration_cv, between_share (of the variance of log duration), posture_duration_correlation and
+    pace_duration_correlation (of latent 0 and of the first wave of the warps with log duration): of the population
     """
 
     warps: np.ndarray
@@ -51,6 +51,13 @@ class Truth:
     duration_cv: float
     between_share: float
     posture_duration_correlation: float
+    pace_duration_correlation: float
+
+    @property
+    def mark_s(self) -> np.ndarray:
+        """(N, E) seconds at which the marks come."""
+        share = [np.interp(at, _CLOCK, gamma) for at, gamma in zip(self.mark_clock, self.warps)]
+        return np.exp(self.log_duration)[:, None] * np.stack(share)
 
 
 def make(
@@ -62,22 +69,28 @@ def make(
     rng: np.random.Generator | None = None,
     between_share: float = 0.5,
     correlation: float = 0.6,
+    pace_correlation: float = 0.0,
     bodies: Sequence[Body] | None = None,
 ) -> tuple[MotionSet, Truth]:
     """``n_workers`` times ``n_repetitions`` made repetitions of a task, and the truth about them.
 
     between_share : share of the variance of log duration, of posture and of pace that lies between workers
-    correlation   : of the first posture latent with log duration, between workers and within alike
+    correlation, pace_correlation : of the first posture latent, and of the first wave of the warps (with it the way to
+                    the middle of the task takes longer), with log duration, between workers and within alike
     bodies        : one a worker; None draws them, 1.72 m tall on average
-    Raises ValueError for an unknown task (with the nearest known) or a share outside [0, 1].
+    Raises ValueError for an unknown task (with the nearest known), a share outside [0, 1], or correlations that no
+    numbers have.
     """
     if task not in TASKS:
         near = get_close_matches(task, TASKS, n=1)
         raise ValueError(
             f"no task {task!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(TASKS)}")
         )
-    if not (0 <= between_share <= 1 and -1 <= correlation <= 1):
-        raise ValueError(f"between_share {between_share} must be in [0, 1], correlation {correlation} in [-1, 1]")
+    if not (0 <= between_share <= 1 and correlation**2 + pace_correlation**2 <= 1):
+        raise ValueError(
+            f"between_share {between_share} must be in [0, 1], the squares of correlation {correlation} and "
+            f"pace_correlation {pace_correlation} must add to 1 at most"
+        )
     rng = np.random.default_rng(seed) if rng is None else rng
     dance = TASKS[task]
     index = np.repeat(np.arange(n_workers), n_repetitions)
@@ -85,7 +98,7 @@ def make(
     drawn = draw_bodies(n_workers, rng)
     bodies = drawn if bodies is None else bodies
     mark_clock = np.array(dance.mark_clock) + MARK_SPREAD * rng.standard_normal((len(index), len(dance.mark_clock)))
-    truth = _truth(dance, z, mark_clock, index, between_share, correlation)
+    truth = _truth(dance, z, mark_clock, index, between_share, correlation, pace_correlation)
     motions = [
         _motion(dance, truth, i, bodies[w], f"w{w + 1}", f"r{i % n_repetitions + 1}")
         for i, w in enumerate(index.tolist())
@@ -141,14 +154,22 @@ def _two_level(rng: np.random.Generator, index: np.ndarray, k: int, share: float
 
 
 def _truth(
-    dance: Choreography, z: np.ndarray, mark_clock: np.ndarray, index: np.ndarray, share: float, correlation: float
+    dance: Choreography,
+    z: np.ndarray,
+    mark_clock: np.ndarray,
+    index: np.ndarray,
+    share: float,
+    by_posture: float,
+    by_pace: float,
 ) -> Truth:
     spread = np.sqrt(np.log1p(dance.cv**2))
     pace, own = z[:, N_LATENTS : N_LATENTS + 3], z[:, -1]
+    of_its_own = np.sqrt(1 - by_posture**2 - by_pace**2)
     log_duration = np.log(dance.mean_s) - spread**2 / 2
-    log_duration = log_duration + spread * (correlation * z[:, 0] + np.sqrt(1 - correlation**2) * own)
+    log_duration = log_duration + spread * (by_posture * z[:, 0] + by_pace * pace[:, 0] + of_its_own * own)
+    latents = z[:, :N_LATENTS]
     return Truth(
-        _warps(pace), mark_clock, z[:, :N_LATENTS], log_duration, index, dance.mean_s, dance.cv, share, correlation
+        _warps(pace), mark_clock, latents, log_duration, index, dance.mean_s, dance.cv, share, by_posture, by_pace
     )
 
 

@@ -55,9 +55,13 @@ def test_as_many_canonical_postures_are_found_as_there_are_kinds():
 
 @pytest.mark.parametrize("n_kinds", [1, 2, 7])
 def test_the_number_follows_the_data(n_kinds):
-    postures, _, _ = blobs((120,) * n_kinds)
-    found = Quantization.fit(postures).n_postures
-    assert found == n_kinds if n_kinds > 1 else found <= 120  # one blob has its own, smaller scale
+    assert Quantization.fit(blobs((120,) * n_kinds)[0]).n_postures == n_kinds
+
+
+@pytest.mark.parametrize("n_bones", [3, 20])
+def test_one_cloud_of_many_dimensions_is_one_kind(n_bones):
+    """All are about equally far from one another there: without ``CROWD``, each was a mode of its own."""
+    assert Quantization.fit(blobs((600,), n_bones=n_bones)[0]).n_postures == 1
 
 
 def test_a_canonical_posture_is_the_mean_of_its_cluster():

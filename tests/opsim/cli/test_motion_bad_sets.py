@@ -1,0 +1,165 @@
+"""``opsim motion fit`` on recordings that are wrong: refused with place, found and expected, or fitted with a note."""
+
+import numpy as np
+import pytest
+
+from emulator.model import MotionEmulator
+from tests.opsim.cli.calls import opsim
+
+ODD = 3  # emulated/k3
+
+
+@pytest.fixture(scope="module")
+def lifts(tmp_path_factory):
+    """The arrays of eight made lifts, and the joints of each (T, J, 3)."""
+    path = tmp_path_factory.mktemp("lifts") / "lift.npz"
+    assert opsim("motion", "sample", "bench_work", "lift", "-n", 8, "--fps", 25, "-o", path)[0] == 0
+    with np.load(path) as file:
+        arrays = {key: file[key] for key in file.files if key not in ("duration",) and not key.startswith("ann_")}
+    return arrays, np.split(arrays["positions"], arrays["offsets"][1:-1])
+
+
+def of(lifts, parts, **changed):
+    """The arrays of a file with these repetitions."""
+    n = len(parts)
+    whole = {"positions": np.concatenate(parts), "offsets": np.cumsum([0, *(len(part) for part in parts)])}
+    labels = {key: lifts[0][key][:n] for key in ("subject", "trial")}
+    return {**lifts[0], **whole, **labels, **changed}
+
+
+def odd(lifts, change):
+    """The file in which one repetition is changed."""
+    return of(lifts, [change(part.copy()) if i == ODD else part for i, part in enumerate(lifts[1])])
+
+
+def joint(lifts, name):
+    return lifts[0]["names"].tolist().index(name)
+
+
+def no_number(part):
+    part[10, 3, 1] = np.nan
+    return part
+
+
+def still(part):
+    return np.repeat(part[:1], len(part), axis=0)
+
+
+def upside_down(part):
+    return part * [1, 1, -1] + [0, 0, 2]
+
+
+def without(lifts, name):
+    """The file without one joint; what hung on it hangs on its parent."""
+    gone, parents = joint(lifts, name), lifts[0]["parents"]
+    keep = [i for i in range(len(parents)) if i != gone]
+    onto = [parents[gone] if parents[i] == gone else parents[i] for i in keep]
+    return of(
+        lifts,
+        [part[:, keep] for part in lifts[1]],
+        names=lifts[0]["names"][keep],
+        parents=np.array([keep.index(parent) if parent >= 0 else -1 for parent in onto]),
+    )
+
+
+def of_no_length(lifts, name, parent):
+    def put(part):
+        part[:, joint(lifts, name)] = part[:, joint(lifts, parent)]
+        return part
+
+    return odd(lifts, put)
+
+
+def other_way(lifts, name, parent):
+    """The arm below the parent points the other way throughout."""
+
+    def put(part):
+        part[:, joint(lifts, name)] = 2 * part[:, joint(lifts, parent)] - part[:, joint(lifts, name)]
+        return part
+
+    return odd(lifts, put)
+
+
+REFUSED = {
+    "one repetition": (lambda s: of(s, s[1][:1]), (), "bad.npz: found 1 repetition, expected 3 or more"),
+    "two repetitions": (lambda s: of(s, s[1][:2]), (), "bad.npz: found 2 repetitions, expected 3 or more"),
+    "two frames": (lambda s: odd(s, lambda p: p[:2]), (), "emulated/k3: found 2 frames, expected 4 or more"),
+    "one frame": (lambda s: odd(s, lambda p: p[:1]), (), "offsets: found"),
+    "a bone of no length": (
+        lambda s: of_no_length(s, "left_wrist", "left_elbow"),
+        (),
+        "repetition emulated/k3: bone to joint 'left_wrist' has no length at frame 0",
+    ),
+    "a joint too few": (
+        lambda s: of(s, s[1], positions=s[0]["positions"][:, :-1]),
+        (),
+        "20, 3), expected (frames, 21, 3) for 21 names",
+    ),
+    "a hip too few": (lambda s: without(s, "left_hip"), (), "left_hip"),
+    "a bone the other way": (
+        lambda s: other_way(s, "left_shoulder", "chest"),
+        (),
+        "bad: align: sequence 3 (emulated/k3): at 10% of its time the bone to left_shoulder points opposite",
+    ),
+    "no number in all": (lambda s: of(s, [no_number(p.copy()) for p in s[1]]), (), "no repetition is left"),
+    "more components than repetitions span": (
+        lambda s: of(s, s[1]),
+        ("--n-components", 8),
+        "--n-components: found 8, expected at most 7 for 8 repetitions",
+    ),
+    "more components than copies span": (
+        lambda s: of(s, [s[1][i // 2] for i in range(8)]),
+        ("--n-components", 6),
+        "bad: n_components: found 6, but the sequences span only 3",
+    ),
+}
+NOTED = {
+    "no number in one": (lambda s: odd(s, no_number), "left out emulated/k3: positions are missing"),
+    "one stands still": (
+        lambda s: odd(s, still),
+        "1 of 8 repetitions do not move, their own clock is kept: emulated/k3",
+    ),
+    "all stand still": (lambda s: of(s, [still(p) for p in s[1]]), "8 of 8 repetitions do not move"),
+    "one upside down": (
+        lambda s: odd(s, upside_down),
+        "far from every other repetition, another movement or a mistake:",
+    ),
+    "copies": (lambda s: odd(s, lambda _: s[1][4]), "copies of one recording, all used: emulated/k4 of emulated/k3"),
+    "all one recording": (lambda s: of(s, [s[1][0]] * 8), "all repetitions are one and the same movement"),
+    "no knee": (lambda s: without(s, "left_knee"), "bones breathe, most the one to left_ankle"),
+}
+
+
+def fit(folder, arrays, *words):
+    np.savez(folder / "bad.npz", **arrays)
+    return opsim("motion", "fit", folder / "bad.npz", "-o", folder / "lib.npz", "--n-times", 31, *words)
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_cannot_be_fitted_is_refused_with_code_2_and_no_library(lifts, tmp_path, case):
+    make, words, said = REFUSED[case]
+    code, _, complaint = fit(tmp_path, make(lifts), *words)
+    assert code == 2 and said in " ".join(complaint.split()), complaint
+    assert not (tmp_path / "lib.npz").exists()
+
+
+@pytest.mark.parametrize("case", NOTED)
+def test_what_is_odd_is_fitted_with_a_note_on_the_screen_and_in_the_library(lifts, tmp_path, case):
+    make, said = NOTED[case]
+    code, shown, _ = fit(tmp_path, make(lifts))
+    assert code == 0 and said.split(":")[0] in " ".join(shown.split())
+    emulator = MotionEmulator.load(tmp_path / "lib.npz")
+    assert any(said in note for note in emulator.report.notes), emulator.report.notes
+    assert np.all(np.isfinite(emulator.sample(20, np.random.default_rng(0)).positions_m(n_times=5)))
+
+
+def test_a_bad_file_among_good_ones_is_named_before_any_fit(lifts, tmp_path):
+    np.savez(tmp_path / "good.npz", **of(lifts, lifts[1]))
+    np.savez(tmp_path / "one.npz", **of(lifts, lifts[1][:1]))
+    np.savez(tmp_path / "short.npz", **of(lifts, lifts[1], positions=lifts[0]["positions"][:, :-1]))
+    code, _, complaint = opsim(
+        "motion", "fit", *(tmp_path / f"{name}.npz" for name in ("good", "one", "short")), "-o", tmp_path / "lib.npz"
+    )
+    said = " ".join(complaint.split())
+    assert code == 2 and "one.npz: found 1 repetition" in said and "short.npz: positions: found" in said
+    assert "aligning" not in complaint and not (tmp_path / "lib.npz").exists()
