@@ -48,6 +48,7 @@ $(PEERS)/.ready: requirements.lock pyproject.toml tests/bench/peers_requirements
 bench-peers: $(PEERS)/.ready
 	PYTHONPATH=tests $(PEERS)/bin/python -m bench.peers
 	$(PEERS)/bin/python -m pytest tests/bench/test_align.py -p no:xdist -q -s -k fdasrsf
+	$(PEERS)/bin/python -m pytest tests/bench/test_judge.py -p no:xdist -q -s -k dcors
 
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show

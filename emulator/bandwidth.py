@@ -62,7 +62,7 @@ def _blurred(whole: SmoothedScores, h: float, posture: slice) -> SmoothedScores:
 
     All coordinates take about as much noise, because what one takes from the recording and another from the noise they
     do not share: with h for the duration too, which nothing held back, it was all noise, and its correlation with made
-    postures 0.26-0.55 where 0.60 is true; by the rule it is 0.50-0.58.
+    postures 0.26-0.55 within workers where 0.60 was recorded; by the rule it is 0.48-0.56.
     """
     noise = whole.noise.spread * np.sqrt(np.mean(whole.reach**2))
     wanted = whole.spread * np.sqrt(_noise_share(whole.owner))

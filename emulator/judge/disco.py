@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+_BLOCK = 100
+
 
 @dataclass(frozen=True)
 class Disco:
@@ -25,21 +27,29 @@ class Disco:
 def disco(distances: np.ndarray, n_first: int, rng: np.random.Generator, n_permutations: int = 999) -> Disco:
     """Test the first ``n_first`` of N items against the rest, from their distances (N, N), all at once.
 
-    All permutations come out of one matrix product: with Z (P, N) the 0/1 members of the first sample,
-    the sums within it are the row sums of (Z D) * Z. Raises ValueError where a sample is empty.
+    The permutations come out of matrix products: with Z (P, N) the 0/1 members of the first sample, the sums within it
+    are the row sums of (Z D) * Z; ``_BLOCK`` permutations at a time stay in the cache.
+    Raises ValueError where a sample is empty.
     Source: Rizzo & Szekely (2010); Chen, Park & Srivastava sec. 4.4.
     """
     n = len(distances)
     if not 0 < n_first < n:
         raise ValueError(f"disco: the first sample has {n_first} of {n} items, expected 1 to {n - 1}")
-    members = np.zeros((n_permutations + 1, n))
-    members[0, :n_first] = 1.0
-    np.put_along_axis(members[1:], rng.random((n_permutations, n)).argsort(axis=1)[:, :n_first], 1.0, axis=1)
-    energy, within = _energies(distances, members, n_first)
+    first = (np.arange(n) < n_first).astype(float)[None]
+    given, within = _energies(distances, first, n_first)
+    blocks = [min(_BLOCK, n_permutations - start) for start in range(0, n_permutations, _BLOCK)]
+    drawn = [_energies(distances, _divisions(size, n, n_first, rng), n_first)[0] for size in blocks]
+    energy = np.concatenate([given, *drawn])
     reached = int(np.sum(energy[1:] >= energy[0] - 1e-12 * np.abs(energy).max()))
     p = (1 + reached) / (1 + n_permutations)
     between = n_first * (n - n_first) / (2 * n) * energy[0]
     return Disco(float(energy[0]), float(between * (n - 2) / within[0]) if within[0] > 0 else np.inf, p, n_permutations)
+
+
+def _divisions(size: int, n: int, n_first: int, rng: np.random.Generator) -> np.ndarray:
+    """Random divisions (size, n): 1 for the items with the ``n_first`` smallest of n random keys."""
+    keys = rng.random((size, n))
+    return (keys <= np.sort(keys, axis=1)[:, n_first - 1, None]).astype(float)
 
 
 def _energies(distances: np.ndarray, members: np.ndarray, n_first: int) -> tuple[np.ndarray, np.ndarray]:

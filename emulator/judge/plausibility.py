@@ -86,15 +86,14 @@ def recorded_positions_m(motions: MotionSet, n_times: int = 101) -> np.ndarray:
 
 def plausibility_rows(emulated: Plausibility, recorded: Plausibility) -> list[tuple[str, str, float, float]]:
     """(what, unit, emulated, recorded), one row a limit and then speeds and skate."""
-    rows = [(f"{name} outside", "%", 100 * emulated.outside[name], 100 * recorded.outside[name]) for name in LIMITS_DEG]
     both = (emulated, recorded)
-    speed = [[float(f(p.speed_m_per_s)) for p in both] for f in (np.median, np.max)]
-    return [
-        *rows,
-        ("top speed, median", "m/s", *speed[0]),
-        ("top speed, greatest", "m/s", *speed[1]),
-        ("foot skate a performance", "cm", *(float(p.skate_cm.mean()) for p in both)),
+    told: list[tuple[str, str, list[float]]] = [
+        *((f"{name} outside", "%", [100 * p.outside[name] for p in both]) for name in LIMITS_DEG),
+        ("top speed, median", "m/s", [float(np.median(p.speed_m_per_s)) for p in both]),
+        ("top speed, greatest", "m/s", [float(p.speed_m_per_s.max()) for p in both]),
+        ("foot skate a performance", "cm", [float(p.skate_cm.mean()) for p in both]),
     ]
+    return [(what, unit, ours, theirs) for what, unit, (ours, theirs) in told]
 
 
 def _excess(angles: np.ndarray, low: float, high: float) -> np.ndarray:

@@ -1,9 +1,14 @@
-"""Judges against plain numpy, one thread: the answer is asserted first, then the ratio."""
+"""Judges against plain numpy and dcor, one thread: the answer is asserted first, then the ratio.
+
+dcor is only there where ``make bench-peers`` installed it.
+"""
 
 from functools import partial
 
 import numpy as np
+import pytest
 from bench.cpu import best_s
+from scipy.spatial.distance import cdist
 
 from emulator.judge import disco, distances, energy_v
 from emulator.judge.distance import distances_numpy
@@ -19,7 +24,7 @@ def test_distances_of_two_hundred_sequences():
     assert np.allclose(ours()[off], plain()[off], rtol=1e-6)
     plain_s, ours_s = best_s(plain, ours, rounds=3)
     print(f"\ndistances 200 x 200, T 301, B 20: numpy {plain_s:.2f} s, ours x {plain_s / ours_s:.0f}")
-    assert plain_s / ours_s > 12
+    assert plain_s / ours_s > 18
 
 
 def arccos_distances(sequences):
@@ -40,7 +45,29 @@ def test_a_permutation_test_of_a_hundred_and_twenty():
     assert np.isclose(ours().energy, loop()[0]) and abs(ours().p - loop()[1]) < 0.03
     loop_s, ours_s = best_s(loop, ours, rounds=3)
     print(f"\nDISCO, n 120, 999 permutations: loop {loop_s * 1e3:.0f} ms, ours x {loop_s / ours_s:.0f}")
-    assert loop_s / ours_s > 5
+    assert loop_s / ours_s > 15
+
+
+def test_a_permutation_test_against_dcors():
+    """Both from points to p, 999 permutations each.
+
+    The same 120 points; dcor's statistic is n m / (n + m) times the energy distance.
+    """
+    dcor = pytest.importorskip("dcor", reason="dcor is not installed: make bench-peers")
+    x, y = (np.random.default_rng(0).normal(size=(2, 60, 50)) + np.array([0.0, 0.03])[:, None, None]).copy()
+    points = np.concatenate([x, y])
+
+    def ours():
+        return disco(cdist(points, points), 60, np.random.default_rng(1))
+
+    def theirs():
+        return dcor.homogeneity.energy_test(x, y, num_resamples=999, random_state=1)
+
+    assert ours().energy * 60 * 60 / 120 == pytest.approx(theirs().statistic, rel=1e-12)
+    assert 0.02 < theirs().pvalue < 0.98 and abs(ours().p - theirs().pvalue) < 0.05
+    theirs_s, ours_s = best_s(theirs, ours, rounds=3)
+    print(f"\nDISCO, n 120, 999 permutations: dcor {theirs_s * 1e3:.0f} ms, ours x {theirs_s / ours_s:.0f}")
+    assert theirs_s / ours_s > 15
 
 
 def looped(apart, n_first, rng, n_permutations=999):

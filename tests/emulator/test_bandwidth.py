@@ -77,3 +77,32 @@ def test_a_strange_repetition_does_not_set_the_noise():
 
 def test_the_same_recordings_give_the_same_bytes():
     assert made()[0].factor.tobytes() == made()[0].factor.tobytes()
+
+
+def test_what_stands_beside_the_posture_takes_noise_by_the_rule_and_keeps_its_variance():
+    """Silverman's h for 8 repetitions a worker is (4 / 24)^(1/5) = 0.70: a third of the variance is noise."""
+    blurred, _, _ = made(n_each=8)
+    noise = blurred.noise.spread[-1] ** 2 * np.mean(blurred.reach**2)
+    assert noise / blurred.spread[-1] ** 2 == pytest.approx(0.70**2 / (1 + 0.70**2), abs=0.005)
+    assert noise + np.mean(blurred.deviations[:, -1] ** 2) == pytest.approx(blurred.spread[-1] ** 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("each", [2, 3, 30])
+def test_the_variance_is_whole_however_few_repetitions_a_worker_has(each):
+    blurred, _, _ = made(n_each=each)
+    noise = blurred.noise.spread[-1] ** 2 * np.mean(blurred.reach**2)
+    assert noise + np.mean(blurred.deviations[:, -1] ** 2) == pytest.approx(blurred.spread[-1] ** 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("kinds", [0.0, 8.0])
+def test_duration_goes_with_the_posture_as_it_does_in_the_recordings(kinds):
+    """Where what varies most bends most, it takes little noise, and a duration that was all noise kept 0.08 to 0.66 of
+    the covariance."""
+    blurred, _, size = made(n_each=12, kinds=kinds, bend=np.diag([5.0, 1.0, 0.1, 0.1, 0.1, 0.1]))
+    deviation = blurred.scores - blurred.means[blurred.owner]
+    recorded = deviation.T @ deviation / (len(deviation) - OWNERS)
+    drawn = blurred.deviations.T @ blurred.deviations / len(deviation)
+    drawn = drawn + np.mean(blurred.reach**2) * blurred.factor.T @ blurred.factor
+    with_duration = recorded[:6, -1] * size
+    kept = (drawn[:6, -1] * size) @ with_duration / (with_duration @ with_duration)
+    assert 0.8 < kept < 1.1

@@ -79,6 +79,19 @@ def test_the_population_is_the_one_that_was_asked_for():
     assert abs(np.exp(truth.log_duration).mean() / truth.duration_mean_s - 1) < 0.05
 
 
+@pytest.mark.parametrize("pace", [-0.9, 0.0, 0.6])
+def test_who_takes_longer_does_so_on_the_way_there_if_asked_for(pace):
+    truth = make("reach", 150, 1, seed=4, correlation=0.4, pace_correlation=pace)[1]
+    half = np.log(truth.warps[:, 100] / (1 - truth.warps[:, 100]))
+    assert abs(np.corrcoef(half, truth.log_duration)[0, 1] - pace) < 0.2
+    assert abs(np.corrcoef(truth.latents[:, 0], truth.log_duration)[0, 1] - 0.4) < 0.2
+
+
+def test_correlations_that_no_numbers_have_are_refused():
+    with pytest.raises(ValueError, match=r"0\.8 and pace_correlation 0\.7 must add to 1"):
+        make("reach", 2, 2, correlation=0.8, pace_correlation=0.7)
+
+
 def test_an_unknown_task_is_answered_with_the_nearest():
     with pytest.raises(ValueError, match="did you mean 'fasten'"):
         make("fastn")

@@ -38,6 +38,20 @@ def test_four_points_around_a_square_as_an_eigenproblem_by_hand():
     assert np.allclose(found.explained, 0.5)
 
 
+def test_points_are_those_of_scikit_learn():
+    """City block distances of six points; ClassicalMDS(metric="precomputed") of scikit-learn 1.9.1, signs and all."""
+    x = np.array([[0, 1, 2], [3, 1, 0], [2, 2, 5], [1, 0, 1], [4, 4, 1], [0, 5, 3]], float)
+    theirs = [
+        [0.71721803, -2.67475542],
+        [-4.42008532, 0.07297353],
+        [1.48123489, -1.44996809],
+        [-2.02946887, -1.93105568],
+        [-1.11029294, 4.88381483],
+        [5.36139421, 1.09899083],
+    ]
+    assert np.allclose(mds(np.abs(x[:, None] - x).sum(axis=-1)).points, theirs, atol=1e-8)
+
+
 def test_two_samples_are_scaled_together():
     x, y = np.random.default_rng(2).normal(size=(2, 9, 2)) + np.array([0.0, 5.0])[:, None, None]
     a, b, whole = mds_of_two(*parts(x, y))

@@ -41,14 +41,17 @@ def rand_index(a, b):
 
 
 def test_the_index_by_which_divisions_are_compared_is_that_of_scikit_learn():
-    """adjusted_rand_score([0, 0, 1, 1, 2, 2], [0, 0, 1, 2, 2, 2]) of scikit-learn is 0.4444..."""
-    assert np.isclose(rand_index(np.array([0, 0, 1, 1, 2, 2]), np.array([0, 0, 1, 2, 2, 2])), 4 / 9)
+    """adjusted_rand_score of scikit-learn 1.9.1."""
+    rng = np.random.default_rng(7)
+    a = rng.integers(0, 4, 50)
+    b = np.where(rng.random(50) < 0.7, a, rng.integers(0, 3, 50))
+    assert np.isclose(rand_index(a, b), 0.6888798586444232, rtol=1e-12)
 
 
 def test_as_many_canonical_postures_are_found_as_there_are_kinds():
     postures, owner, centres = blobs()
     found = Quantization.fit(postures)
-    assert found.n_postures == 4
+    assert found.n_postures == 4  # as MeanShift(bandwidth=1.0) of scikit-learn 1.9.1, with the same members
     assert np.array_equal(found.sample_labels, owner)
     assert distances(found.canonical[:, None], centres[:, None]).diagonal().max() < 0.1
 
@@ -87,8 +90,8 @@ def test_turning_the_whole_body_turns_the_canonical_postures():
 
 
 def test_another_sample_of_the_same_movement_divides_it_alike():
-    unseen = unit(path(2000, seed=50))
-    found = [Quantization.fit(unit(path(seed=seed))) for seed in range(4)]
+    unseen = unit(path(1000, seed=50))
+    found = [Quantization.fit(unit(path(1500, seed=seed))) for seed in range(3)]
     assert {q.n_postures for q in found} == {3}
     labels = [q.labels(unseen) for q in found]
     assert min(rand_index(labels[0], other) for other in labels[1:]) > 0.95

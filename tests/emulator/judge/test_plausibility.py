@@ -1,0 +1,67 @@
+import numpy as np
+import pytest
+
+from emulator.judge.joint_angles import LIMITS_DEG
+from emulator.judge.plausibility import plausibility, plausibility_rows, recorded_positions_m, standing_deg
+from emulator.synthetic import make
+from tests.emulator.judge.test_joint_angles import SKELETON, standing
+
+
+def still(n_times=11, **moved):
+    return np.repeat(standing(**moved)[None], n_times, axis=0)
+
+
+def test_one_who_stands_does_nothing_wrong():
+    found = plausibility(SKELETON, [still()], np.array([1.0]))
+    assert set(found.outside) == set(LIMITS_DEG) and not any(found.outside.values())
+    assert found.speed_m_per_s.tolist() == [0] and found.skate_cm.tolist() == [0]
+
+
+def test_a_knee_bent_backwards_in_half_of_the_frames_is_a_quarter_of_the_knees():
+    positions = still(10)
+    positions[5:, SKELETON.index("left_ankle")] = [0.2, 0.1, 0.5 - 0.2 * np.sqrt(3)]
+    found = plausibility(SKELETON, [positions], np.array([1.0]))
+    assert found.outside["knee flexion"] == 0.25 and np.isclose(found.beyond_deg["knee flexion"], 20)
+
+
+def test_speed_is_the_way_between_frames_over_their_time():
+    positions = still(11)
+    positions[6:, SKELETON.index("left_hand"), 0] += 0.1
+    assert np.allclose(plausibility(SKELETON, [positions, still()], np.array([2.0, 1.0])).speed_m_per_s, [0.5, 0])
+
+
+def test_a_foot_that_slides_skates_and_one_that_steps_does_not():
+    slid, stepped = still(11), still(11)
+    feet = [SKELETON.index("left_ankle"), SKELETON.index("left_toe")]
+    way = np.linspace(0, 0.4, 11)[:, None]
+    slid[:, feet, 0] += way
+    stepped[:, feet, 0] += way
+    stepped[1:-1, feet, 2] += 0.2
+    found = plausibility(SKELETON, [slid, stepped], np.ones(2))
+    assert np.allclose(found.skate_cm, [20, 0])  # 40 cm by two of the four joints
+
+
+def test_limits_count_from_standing():
+    stooped = still(neck=[0.0, 0.15, 1.45])
+    bent = still(neck=[0.2 * np.tan(np.radians(-30)), 0, 1.5])
+    assert np.isclose(standing_deg(SKELETON, [bent])["trunk flexion"], -30)
+    strict, fair = (plausibility(SKELETON, [bent], np.ones(1), zero) for zero in (None, standing_deg(SKELETON, [bent])))
+    assert strict.outside["trunk flexion"] == 1 and fair.outside["trunk flexion"] == 0
+    assert plausibility(SKELETON, [stooped], np.ones(1)).outside["trunk side bend"] == 1
+
+
+def test_rows_set_the_emulated_beside_the_recorded():
+    rows = plausibility_rows(*(plausibility(SKELETON, [still()], np.ones(1)) for _ in range(2)))
+    assert len(rows) == len(LIMITS_DEG) + 3 and all(emulated == recorded for _, _, emulated, recorded in rows)
+
+
+def test_recorded_positions_are_at_even_times_from_first_to_last_frame():
+    motions, _ = make("reach", n_workers=2, n_repetitions=2)
+    positions = recorded_positions_m(motions, 31)
+    assert positions.shape == (len(motions), 31, motions.skeleton.n_joints, 3)
+    assert np.allclose(positions[0, [0, -1]], motions.motions[0].positions_m()[[0, -1]])
+
+
+def test_unequal_numbers_are_refused():
+    with pytest.raises(ValueError, match="1 performances and 2"):
+        plausibility(SKELETON, [still()], np.ones(2))
