@@ -27,9 +27,10 @@ from emulator.workforce import BETWEEN_METHOD, Workforce, intraclass_correlation
 ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 25, 199, 101
 GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
 SMOOTHED = (
-    "the recordings' own coordinates, each blurred by low-rank noise that makes a draw seven eighths as far from the "
-    "nearest recording as a left-out recording is; a known worker from his own repetitions, and with the weight of one "
-    "of them from everybody's deviations about his shrunk mean"
+    "the recordings' own coordinates, each blurred by low-rank noise that makes a posture seven eighths as far from "
+    "the nearest recording as a left-out recording is, other coordinates by Silverman's rule; slopes of the pace "
+    "within a fifth of the recorded ones; a known worker from his own repetitions, and with the weight of one of them "
+    "from everybody's deviations about his shrunk mean"
 )
 POSTURE_SIZE = "as many as held-out repetitions need (ten folds)"
 ROUGH_NOTE = (
