@@ -75,7 +75,9 @@ class FitReport:
     def rows(self) -> list[tuple[str, str]]:
         """Label and text of each figure, in the order to print them."""
         icc = "not estimable" if math.isnan(self.icc) else f"{self.icc:.2f} ({self.icc_low:.2f} to {self.icc_high:.2f})"
+        chosen = [("scheme, chosen", self.methods["scheme"])] if "scheme" in self.methods else []
         return [
+            *chosen,
             ("sequences", f"{self.n_sequences} of {self.n_workers} workers, {self.where}"),
             ("components", f"{self.n_components} of posture, {self.n_coordinates} jointly"),
             ("explained variance", f"{100 * self.explained_variance:.1f} %"),

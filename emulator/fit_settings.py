@@ -8,6 +8,9 @@ from difflib import get_close_matches
 
 from emulator.model import SCHEMES
 
+AUTO = "auto"
+"""Choose the scheme by cross-validation: see ``fit_choice``."""
+
 Progress = Callable[[int, int, str], None] | None
 
 
@@ -32,8 +35,9 @@ class FitSettings:
 
 def unknown_scheme(scheme: str) -> list[str]:
     """What is wrong with the name of a scheme, with the nearest known one; empty for a known one."""
-    if scheme in SCHEMES:
+    known = (AUTO, *SCHEMES)
+    if scheme in known:
         return []
-    near = get_close_matches(scheme, SCHEMES, n=1)
-    hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(SCHEMES)}"
+    near = get_close_matches(scheme, known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}"
     return [f"scheme: no {scheme!r}; {hint}"]

@@ -8,12 +8,13 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from emulator.bandwidth import smoothed
+from emulator.fit_choice import choose
 from emulator.fit_parts import Parts, parts_of
-from emulator.fit_settings import FitSettings, Progress
+from emulator.fit_settings import AUTO, FitSettings, Progress
 from emulator.fit_summary import judged, summary
 from emulator.model import SCHEME, MotionEmulator
 from emulator.motion import MotionSet
-from emulator.registered import registered
+from emulator.registered import Registered, registered
 from emulator.sound import refuse_unsound
 from emulator.workforce import Workforce, shrinkages
 
@@ -34,9 +35,21 @@ def fit(motions: MotionSet, settings: FitSettings, progress: Progress = None) ->
 
 def _fit(motions: MotionSet, settings: FitSettings, progress: Progress) -> MotionEmulator:
     made = registered(motions, settings, progress)
+    said = ""
+    if settings.scheme == AUTO:
+        choice = choose(made, settings, _model, progress)
+        settings, said = replace(settings, scheme=choice.scheme), choice.why
+    model = _model(made, settings)
+    if said:
+        model = replace(model, report=replace(model.report, methods=model.report.methods | {"scheme": said}))
+    return replace(model, report=judged(model, made, settings))
+
+
+def _model(made: Registered, settings: FitSettings) -> MotionEmulator:
+    motions = made.whole
     parts = parts_of(made, settings)
     workforce = _workforce(parts, made.moving, settings)
-    model = MotionEmulator(
+    return MotionEmulator(
         motions.task,
         motions.skeleton,
         motions.mark_names,
@@ -53,7 +66,6 @@ def _fit(motions: MotionSet, settings: FitSettings, progress: Progress) -> Motio
         summary(made, parts, workforce, settings),
         parts.dwells,
     )
-    return replace(model, report=judged(model, made, settings))
 
 
 def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings) -> Workforce:

@@ -76,6 +76,7 @@ class MotionEmulator:
     ) -> MotionEmulator:
         """Align, flatten, reduce and model the repetitions of one task.
 
+        scheme       : one of SCHEMES, or "auto": see ``fit_choice``
         n_components : posture components: a number, a share of variance in (0, 1), or None: see ``posture_size``
         landmarks    : strength that brings marks together in the registration (see ``landmarks``; 0.01 is strong)
         n_times      : points of the common clock; n_knots : cells of the pace, 2 to n_times - 1

@@ -1,5 +1,6 @@
 """The schemes of Chen, Park & Srivastava by name, on aligned sequences of postures. A table of contents."""
 
+from emulator.schemes.choosing import choose_scheme
 from emulator.schemes.dimensions import DimensionSearch, search_dimensions
 from emulator.schemes.mpca import MPCA
 from emulator.schemes.names import SCHEMES
@@ -17,6 +18,7 @@ __all__ = [
     "STVF",
     "DimensionSearch",
     "Scheme",
+    "choose_scheme",
     "parallel_analysis",
     "search_dimensions",
 ]

@@ -46,7 +46,10 @@ class _Components(click.ParamType):
     help="Posture components, or their share of variance.  [default: as many as held-out repetitions need]",
 )
 @click.option(
-    "--scheme", default="", metavar="NAME", help="Representation/reduction/density.  [default: SIEM/JointPCA/Smoothed]"
+    "--scheme",
+    default="",
+    metavar="NAME",
+    help="Representation/reduction/density, or auto: chosen by cross-validation.  [default: SIEM/JointPCA/Smoothed]",
 )
 @click.option(
     "--n-times", type=click.IntRange(10, 2001), default=101, help="Points of the common clock.  [default: 101]"
