@@ -1,4 +1,4 @@
-"""``opsim motion show``: a task of a library as strips of stick figures, or moving beside recordings."""
+"""``opsim motion show``: a task of a library as strips of figures, or moving: as a video, or beside recordings."""
 
 from __future__ import annotations
 
@@ -7,20 +7,22 @@ from typing import Any
 
 import click
 
+from opsim.cli.motion_asked import Asked
 from opsim.cli.verbs import mistakes
-
-MOST_BESIDE = 13
-"""Recorded and emulated together have the letters A to Z."""
 
 
 @click.command("show")
 @click.argument("library")
 @click.argument("task", required=False)
-@click.option("-o", "--out", type=click.Path(path_type=Path), help="A .png or .svg file.  [default: <task>.png]")
 @click.option(
-    "-n", "n", type=click.IntRange(min=1, max=20), help="Drawn performances.  [default: 3, with --beside 4 and 4]"
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path),
+    help="A .png or .svg file; with --video .html, .gif or .mp4; with --beside .html.  [default: <task>.png or .html]",
 )
+@click.option("-n", "n", type=int, help="Drawn performances, 1 to 20.  [default: 3, with --beside 4 and 4]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@click.option("--video", is_flag=True, help="The mean performance beside drawn ones, moving on one clock.")
 @click.option(
     "--beside",
     metavar="RECORDING.npz",
@@ -30,71 +32,58 @@ MOST_BESIDE = 13
 @click.option(
     "--people",
     type=click.Choice(["new", "recorded"]),
-    help="Whom the emulated ones of --beside are of: others, or the people of the fit.  [default: new]",
+    help="Whom those of --video and --beside are of: others, or the people of the fit.  [default: new]",
+)
+@click.option(
+    "--person", metavar="NAME", help="All of --video by this person of the fit, beside the person's own mean."
 )
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
-def command(
-    library: str,
-    task: str | None,
-    out: Path | None,
-    n: int | None,
-    seed: int,
-    beside: str | None,
-    where: str | None,
-    people: str | None,
-    as_json: bool,
-) -> None:
+def command(library: str, task: str | None, seed: int, as_json: bool, **options: Any) -> None:
     """Draw a TASK of a LIBRARY along real time: the mean performance above drawn ones.
 
+    With --video the mean moves beside drawn ones: an offline page, a GIF or a film, by the ending of -o.
     With --beside, write a page on which recorded and emulated performances move side by side, and one guesses.
     """
-    from opsim.cli.motion_files import chosen, ready
     from opsim.provenance import behind
 
     with mistakes():
-        _refuse(out, n, beside, where, people)
-        model = chosen(library, task)
-        ending = ".png" if beside is None else ".html"
-        out = out if out is not None else Path(f"{Path(model.task).name}{ending}")
-        ready(out, *([".html"] if beside is not None else [".png", ".svg"]))
+        asked = Asked(**options)
+        model, out = asked.checked(library, task)
         report = model.report
         title = f"{model.task}: emulated from {behind(report.source, report.n_sequences, report.n_workers)}"
-        if beside is None:
-            said = _strips(model, out, n or 3, seed, title)
-        else:
-            said = _page(model, out, beside, where, n or 4, people or "new", seed)
+        said = {"strips": _strips, "video": _video, "beside": _beside}[asked.kind](model, out, asked, seed, title)
     _tell({"task": model.task, "out": str(out), "seed": seed, "source": report.source, **said}, title, as_json)
 
 
-def _refuse(out: Path | None, n: int | None, beside: str | None, where: str | None, people: str | None) -> None:
-    """Raises ValueError with all that does not go together."""
-    ending = "" if out is None else out.suffix.lower()
-    wrong = []
-    if beside is None:
-        given = [f"--{name}" for name, value in (("where", where), ("people", people)) if value is not None]
-        wrong += [f"{name}: found without --beside, expected --beside RECORDING.npz" for name in given]
-        if ending == ".html":
-            wrong.append(f"{out}: a page shows recordings beside what is emulated; expected --beside RECORDING.npz")
-    elif out is not None and ending != ".html":
-        wrong.append(f"{out}: found the ending {out.suffix!r}, expected .html with --beside")
-    if beside is not None and n is not None and n > MOST_BESIDE:
-        wrong.append(f"-n: found {n}, expected at most {MOST_BESIDE} with --beside (letters A to Z)")
-    if wrong:
-        raise ValueError("\n".join(wrong))
+def _strips(model: Any, out: Path, asked: Asked, seed: int, title: str) -> dict[str, Any]:
+    from emulator.mean_performance import mean_performance
+    from opsim.report.strips import draw_strips, strips_of
+    from opsim.report.view import Strip
+
+    mean, drawn = mean_performance(model), strips_of(model, n_samples=asked.n or 3, seed=seed)[1:]
+    row = Strip("mean performance", mean.positions_m(n_times=61)[0], float(mean.duration_s[0]), mean.mark_s[0])
+    draw_strips([row, *drawn], out, skeleton=model.skeleton, mark_names=model.mark_names, title=title)
+    return {"samples": len(drawn)}
 
 
-def _strips(model: Any, out: Path, n: int, seed: int, title: str) -> dict[str, Any]:
-    from opsim.report import draw_strips
+def _video(model: Any, out: Path, asked: Asked, seed: int, _title: str) -> dict[str, Any]:
+    from opsim.cli.motion_video import video
+    from opsim.cli.progress import progress
+    from opsim.report.video_files import write_video
 
-    draw_strips(model, out, n_samples=n, seed=seed, title=title)
-    return {"samples": n}
+    made = video(model, n=asked.n or 3, people=asked.people or "new", person=asked.person, seed=seed)
+    with progress(f"draw {model.task}") as report:
+        write_video(made, out, report)
+    cards = [{"card": caption.label, "said": caption.said} for caption in made.captions]
+    return {"samples": asked.n or 3, "notes": dict(made.notes), "cards": cards, "bytes": out.stat().st_size}
 
 
-def _page(model: Any, out: Path, file: str, where: str | None, n: int, people: str, seed: int) -> dict[str, Any]:
+def _beside(model: Any, out: Path, asked: Asked, seed: int, _title: str) -> dict[str, Any]:
     from opsim.cli.motion_beside import beside
     from opsim.report.animated import LETTERS, write_animated
 
-    made = beside(model, file, where=where, n=n, people=people, seed=seed)
+    n = asked.n or 4
+    made = beside(model, str(asked.beside), where=asked.where, n=n, people=asked.people or "new", seed=seed)
     write_animated(made.cards, model.skeleton, out, task=model.task, notes=made.notes)
     cards = [
         {"card": letter, "real": card.is_real, "who": card.who, "duration_s": round(card.duration_s, 3)}
@@ -104,13 +93,17 @@ def _page(model: Any, out: Path, file: str, where: str | None, n: int, people: s
 
 
 def _tell(said: dict[str, Any], title: str, as_json: bool) -> None:
-    """For people, without the answers: they are to guess."""
+    """For people; of the game without the answers: they are to guess."""
     from opsim.cli.console import print_json
 
     if as_json:
         print_json(said)
         return
     click.echo(title)
+    for card in said["cards"] if "bytes" in said else []:
+        click.echo(f"{card['card']}: {card['said']}")
     for topic, words in said.get("notes", {"source": said["source"]}).items():
         click.echo(f"{topic}: {words}")
-    click.echo(f"{'page' if 'cards' in said else 'picture'}: {said['out']}")
+    kind = {".html": "page", ".gif": "GIF", ".mp4": "film"}.get(Path(said["out"]).suffix.lower(), "picture")
+    size = f" ({said['bytes'] / 1e6:.1f} MB)" if "bytes" in said else ""
+    click.echo(f"{kind}: {said['out']}{size}")

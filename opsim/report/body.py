@@ -10,6 +10,8 @@ TRUNK = "#9aa2ad"
 COLOURS = (TRUNK, LEFT, RIGHT)
 HEAD_M, TORSO_M = 0.105, 0.085
 OTHER_M = (0.036, 0.032)
+STEADY_M = 0.15
+"""A limb that is about as far before the torso as it usually is keeps its place in the order of drawing."""
 LIMB_M = {
     "neck": (0.06, 0.055),
     "head": (0.055, 0.05),

@@ -114,9 +114,9 @@ def test_the_answers_are_not_printed_to_people(folder):
     "words, said",
     [
         (["--beside", "reach.npz", "-o", "x.png"], "x.png: found the ending '.png', expected .html with --beside"),
-        (["-o", "x.html"], "x.html: a page shows recordings beside what is emulated; expected --beside RECORDING.npz"),
+        (["-o", "x.html"], "expected .png or .svg, or --video or --beside RECORDING.npz: it is for what moves"),
         (["--where", "all"], "--where: found without --beside"),
-        (["--people", "new"], "--people: found without --beside"),
+        (["--people", "new"], "--people: found without --video or --beside"),
         (["--beside", "reach.npz", "-n", "14"], "-n: found 14, expected at most 13 with --beside"),
         (["--beside", "reach.npz", "-n", "13"], "reach.npz: found 12 repetitions (all), expected 13 or more for -n 13"),
         (["--beside", "raech.npz"], "raech.npz: no such file"),

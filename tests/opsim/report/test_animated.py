@@ -45,13 +45,13 @@ def test_names_cannot_break_out_of_the_page():
     evil = "</script><script>window.harmed = 1</script>"
     shown = [Card(card.positions_m, card.is_real, evil) for card in cards(1)]
     page = animated_html(shown, SKELETON, task=evil, notes=[(evil, evil)])
-    assert "<script>window" not in page and page.count("</script>") == 2
+    assert "<script>window" not in page and page.count("</script>") == 3
 
 
 def test_a_movement_on_the_spot_is_not_followed_and_a_walk_is():
     still, walk = cards(1), cards(1, travel_m=2.0)
-    assert film_of(animated_html(still, SKELETON, task="x"))["follow"] is False
-    assert film_of(animated_html(walk, SKELETON, task="x"))["follow"] is True
+    assert film_of(animated_html(still, SKELETON, task="x"))["camera"]["follow"] is False
+    assert film_of(animated_html(walk, SKELETON, task="x"))["camera"]["follow"] is True
 
 
 def test_more_cards_than_letters_are_refused():

@@ -1,0 +1,74 @@
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from opsim.report.video_files import write_video
+from opsim.report.video_frames import Film, posture
+from tests.browser.chromium import Watched, browser
+from tests.browser.test_animated import ink, seek
+from tests.made_cards import video
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as running:
+        yield running
+
+
+@pytest.fixture
+def page(tmp_path, chromium):
+    """A page of a mean and simulated ones, the longest last, paused at its start."""
+
+    def opened(n=2, width=1280, **more):
+        watched = Watched(chromium, write_video(video(n, **more), tmp_path / "page.html"), width)
+        watched.page.get_by_role("button", name="Pause").click()
+        return watched
+
+    return opened
+
+
+def test_it_asks_for_nothing_and_complains_of_nothing(page):
+    watched = page()
+    watched.page.keyboard.press("Space")
+    watched.page.wait_for_timeout(200)
+    assert len(watched.requests) == 1 and watched.complaints == []
+
+
+def test_the_shorter_mean_waits_in_its_last_posture_for_the_longest(page):
+    watched = page()
+    seen = {}
+    for at_s in (0.25, 0.5, 0.6):
+        seek(watched, at_s)
+        seen[at_s] = ink(watched, "mean"), ink(watched, "2")
+    assert seen[0.25][0] != seen[0.5][0] == seen[0.6][0] and seen[0.5][1] != seen[0.6][1]
+
+
+def test_the_mean_stands_to_the_left_and_all_bodies_on_one_line(page):
+    watched = page(3)
+    of_all = "[...document.querySelectorAll('canvas')].map(c => c.getBoundingClientRect()).map(b => [b.x, b.bottom])"
+    boxes = watched(of_all)
+    assert [x for x, _ in boxes] == sorted(x for x, _ in boxes) and len({round(bottom) for _, bottom in boxes}) == 1
+    assert watched("document.querySelector('.card').id") == "card-mean"
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_nothing_sticks_out_to_the_side(page, width):
+    watched = page(5, width, notes=(("Fitted to", "x" * 300),))
+    assert watched("document.documentElement.scrollWidth") <= width
+
+
+def test_the_page_draws_what_the_gif_draws(page, tmp_path):
+    """The player in JavaScript and the painter in Python: the same body, camera and order, to the edges' smoothing."""
+    shown, at_s = video(1), 0.25
+    film = Film(shown, 20.0)
+    watched = page(1)
+    seek(watched, at_s)
+    drawn = watched.page.locator("#card-mean canvas").screenshot()
+    python = film.painter.picture(posture(shown.mean, at_s), film.usual[0])
+    javascript = Image.open(io.BytesIO(drawn)).convert("RGB").resize(python.size)
+    apart = np.abs(np.asarray(python).astype(int) - np.asarray(javascript).astype(int)).max(axis=-1)
+    assert np.mean(apart > 96) < 0.01 and np.mean(np.asarray(python).min(axis=-1) < 200) > 0.2
