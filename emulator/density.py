@@ -66,6 +66,11 @@ class LowRankNormal:
         eta = rng.standard_normal((n, len(self.mean)))
         return self.mean + sqrt(1 - self.rho) * (xi @ self.factor) + sqrt(self.rho) * self.spread * eta
 
+    def of(self, xi: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+        """One item (K,) from given numbers xi (R,); only what rho leaves independent is drawn."""
+        x = self.mean + sqrt(1 - self.rho) * (xi @ self.factor)
+        return x if self.rho == 0 else x + sqrt(self.rho) * self.spread * rng.standard_normal(len(self.mean))
+
     def log_likelihood(self, scores: np.ndarray) -> np.ndarray:
         """Log density (...,) of scores (..., K) in the subspace where this Gaussian lives.
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from emulator.anova import intraclass_correlation
 from emulator.dwell_fit import fit_dwells, predictors
 from emulator.dwells import NONE, Dwells
 from emulator.fit_settings import FitSettings
@@ -19,7 +20,6 @@ from emulator.reduce import JointPCA
 from emulator.registered import Registered
 from emulator.storage import bits, on_grid
 from emulator.warp import clr, from_clr
-from emulator.workforce import intraclass_correlation
 
 ROOT_SHARE, PACE_SHARE, BONE_SHARE, NEARLY_ALL = 0.98, 0.98, 0.98, 0.999999
 LARGEST_ROOT, LARGEST_PACE = 8, 10

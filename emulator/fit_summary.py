@@ -7,7 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from emulator import fit_people
 from emulator.align import resample
+from emulator.anova import intraclass_correlation
 from emulator.dwell_fit import HOLDS_METHOD, said
 from emulator.dwells import NONE
 from emulator.fit_judge import reconstruction_deg, strangers
@@ -22,7 +24,7 @@ from emulator.judge.roughness import roughness
 from emulator.model import SCHEME, SCHEMES, MotionEmulator
 from emulator.performances import MotionPerformances
 from emulator.registered import Registered
-from emulator.workforce import BETWEEN_METHOD, Workforce, intraclass_correlation
+from emulator.workforce import BETWEEN_METHOD, Workforce
 
 ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 25, 199, 101
 GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
@@ -153,4 +155,4 @@ def _methods(made: Registered, parts: Parts, workforce: Workforce, settings: Fit
     }
     holds = {"holds": HOLDS_METHOD} if len(parts.dwells) else {}
     marks = {"landmarks": f"marks drawn together with strength {settings.landmarks:g}"} if settings.landmarks else {}
-    return methods | holds | marks
+    return methods | holds | marks | fit_people.said(parts, made.moving)

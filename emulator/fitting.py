@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 from emulator.bandwidth import smoothed
 from emulator.fit_choice import choose
 from emulator.fit_parts import Parts, parts_of
+from emulator.fit_people import explained
 from emulator.fit_settings import AUTO, FitSettings, Progress
 from emulator.fit_summary import judged, summary
 from emulator.model import SCHEME, MotionEmulator
@@ -70,7 +71,9 @@ def _model(made: Registered, settings: FitSettings) -> MotionEmulator:
 
 def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings) -> Workforce:
     index, n_workers = motions.worker_index, len(motions.workers)
-    crew = Workforce.fit(parts.z, index, motions.workers, *shrinkages(len(parts.z), n_workers))
+    rho = shrinkages(len(parts.z), n_workers)
+    crew = Workforce.fit(parts.z, index, motions.workers, *rho, explained(parts, motions))
+    crew = replace(crew, group=motions.source)
     if settings.scheme != SCHEME or len(parts.z) == n_workers or parts.posture.n_components == 0:
         return crew
     centred, block = parts.flat - parts.posture.mean, parts.scale.block("posture")

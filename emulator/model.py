@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from emulator import dwell_given, dwell_times
+from emulator import dwell_times
+from emulator.conditions import given
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
 from emulator.joint import JointScale
-from emulator.law import Law
 from emulator.margin import Margin, inverse_all
 from emulator.marks import coordinates_to_clock
 from emulator.motion import MotionSet
@@ -30,9 +30,6 @@ from emulator.workforce import WorkerEffect, Workforce
 SCHEME = "SIEM/JointPCA/Smoothed"
 SCHEMES = (SCHEME, "SIEM/JointPCA/MVG")
 SLOPE_ROOM = np.log(1.2)
-CONDITIONS = ("duration_s", "log_duration_shift")
-_CROWN_AND_SOLE_M = 0.20
-"""Ankle above the floor and crown above the head joint, in a body whose height is asked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,12 +93,13 @@ class MotionEmulator:
         worker    : an effect of ``draw_worker`` or ``known_worker``, a known worker's name, or None: each performance
                     by another worker of the population
         condition : None, or {"duration_s": x} (number or (n,)): the conditional law of z given the duration;
-                    {"log_duration_shift": d}: the same noise, log duration moved by d, posture after it by regression
+                    {"log_duration_shift": d}: the same noise, log duration moved by d, posture after it by regression;
+                    {"pace": 1.1}: the same as a shift by -log 1.1
         Raises ValueError for an unknown worker or condition.
         """
         effect = self._effect(worker)
         law = self.workforce.law(effect)
-        z = self._given(law, n, rng, effect, condition) if condition else law.sample(n, rng)
+        z = given(self, law, n, rng, effect, condition) if condition else law.sample(n, rng)
         return self.performances(z, 1.0 if effect is None else effect.scale)
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
@@ -157,17 +155,52 @@ class MotionEmulator:
             raise ValueError(f"{self.task}: no worker {name!r}; {hint}")
         return WorkerEffect(self.workforce.effects[self.workers.index(name)], name)
 
-    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> WorkerEffect | None:
-        """A worker of the population, or None if the recordings were of one person.
+    def draw_worker(
+        self, rng: np.random.Generator, body: Any = None, people: Callable[[str], float] | None = None
+    ) -> WorkerEffect | None:
+        """A worker of the population, or None if the recordings were of one person and nothing is known of a body.
 
-        body : None, or something with ``height_m`` (attribute or key): bones are then scaled to that height, taken as
-               the chain ankle to head plus 0.20 m.
+        body   : None, or something with any of ``body_keys`` (attributes or keys). height_m scales the bones, by the
+                 chain ankle to head plus 0.20 m; pace 1.1 is a tenth faster than the typical worker's moving time, with
+                 the posture that goes with it; height, mass, age and sex move the mean where ``covariates`` explain it;
+                 person is a recorded one: that worker, if this task has him, at ``pace`` times his own
+        people : a standard normal number for the name of each recorded person: the worker's leaning to him. The same
+                 numbers in two tasks of the same people give effects correlated as those people's are
+        Raises BodyError for a body that cannot be.
         """
-        height_m = body.get("height_m") if isinstance(body, Mapping) else getattr(body, "height_m", None)
-        if not self.workforce.has_worker_effect and height_m is None:
-            return None
-        z = self.workforce.between.sample(1, rng)[0]
-        return WorkerEffect(z, "", 1.0 if height_m is None else (height_m - _CROWN_AND_SOLE_M) / self._chain_m(z))
+        from emulator.newcomers import drawn_worker
+
+        return drawn_worker(self, rng, body, people)
+
+    def new_worker(
+        self,
+        rng: np.random.Generator | None = None,
+        *,
+        people: Callable[[str], float] | None = None,
+        outside: str = "clamp",
+        **body: Any,
+    ) -> WorkerEffect:
+        """A worker with this body: ``new_worker(height_m=1.62, mass_kg=58, age_years=41, sex="f", pace=1.1)``.
+
+        rng     : draws what the body does not say; None: the typical person with this body
+        outside : "clamp" or "refuse" a body outside those of the recordings; what was done is in ``effect.said``
+        Raises BodyError (a ValueError) with all mistakes at once.
+        """
+        from emulator.newcomers import new_worker
+
+        return new_worker(self, rng, body, people, outside)
+
+    @property
+    def knows_people(self) -> bool:
+        """``draw_worker`` takes ``people``."""
+        return True
+
+    @property
+    def body_keys(self) -> tuple[str, ...]:
+        """What ``draw_worker`` reads of a body here: mass, age and sex only where the recordings explain by them."""
+        from emulator.newcomers import body_keys
+
+        return body_keys(self)
 
     def warps(self, scores: np.ndarray) -> np.ndarray:
         """Own unit time on the common clock, (n, T), strictly increasing from 0 to 1."""
@@ -242,37 +275,7 @@ class MotionEmulator:
         column = self.workforce.within.covariance_with(at)
         return column if effect is not None else column + self.workforce.between.covariance_with(at)
 
-    def _given(
-        self, law: Law, n: int, rng: np.random.Generator, effect: WorkerEffect | None, condition: Mapping[str, Any]
-    ) -> np.ndarray:
-        """z under a condition: drawn given the duration, then moved along its regression on the duration."""
-        for name in condition:
-            if name not in CONDITIONS:
-                raise ValueError(f"condition: no {name!r}; known: {', '.join(CONDITIONS)}")
-        if len(self.dwells):
-            return dwell_given.conditioned(self, law, n, rng, effect, condition)
-        at = self.scale.block("duration").start
-        if "duration_s" in condition:
-            log_duration = np.log(np.broadcast_to(condition["duration_s"], n))
-            z = law.sample(n, rng, given=(at, self._duration_z(log_duration)))
-        else:
-            z = law.sample(n, rng)
-        return self._shifted(z, at, self.covariance_with(at, effect), condition.get("log_duration_shift", 0.0))
-
-    def _shifted(self, z: np.ndarray, at: int, column: np.ndarray, shift: float | np.ndarray) -> np.ndarray:
-        """z with log duration moved by ``shift``, the rest after it by its regression ``column`` (K,) on duration."""
-        log_duration = self.margin.inverse(self.scale.raw(z, "duration")[:, 0])
-        slope = column / column[at] if column[at] > 0 else np.zeros_like(column)
-        slope[at] = 1.0
-        return z + (self._duration_z(log_duration + np.asarray(shift)) - z[:, at])[:, None] * slope
-
-    def _duration_z(self, log_duration: np.ndarray) -> np.ndarray:
+    def duration_z(self, log_duration: np.ndarray) -> np.ndarray:
         """The coordinate of z at which the log duration is this."""
         at = self.scale.block("duration").start
         return np.asarray((self.margin.forward(log_duration) - self.scale.centre[at]) / self.scale.spread[at])
-
-    def _chain_m(self, z: np.ndarray) -> float:
-        """Length of the chain ankle, knee, hip, pelvis to head: the height without sole and crown."""
-        length = dict(zip(self.skeleton.bone_names, self.bone_length_m(z[None])[0]))
-        chain = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
-        return float(sum(length.get(name, 0.0) for name in chain))

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from emulator.covariates import stored
 from emulator.density import LowRankNormal
 from emulator.model import MotionEmulator
 from emulator.reduce import JointPCA
@@ -27,6 +28,7 @@ def pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         "margin_slopes": [margin.slope for margin in (model.margin, *model.mark_margins)],
         "rho": {"between": model.workforce.between.rho, "within": model.workforce.within.rho},
         "workers": list(model.workforce.names),
+        "group": model.workforce.group,
         "report": model.report.as_dict(),
     }
     arrays = {
@@ -51,6 +53,9 @@ def pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         pca: JointPCA = getattr(model, name)
         whole, exponent = encode(np.concatenate([pca.mean[None], pca.basis]), bits(model.n_times))
         arrays |= {f"{name}_whole": _steps(whole, model.n_times), f"{name}_exponent": exponent}
+    if model.workforce.covariates is not None:
+        plain["covariates"], told = stored.pack(model.workforce.covariates)
+        arrays |= {f"covariates_{name}": value for name, value in told.items()}
     if model.workforce.smoothed is not None:
         arrays |= {f"smoothed_{name}": getattr(model.workforce.smoothed, name) for name in SMOOTHED}
     return plain, arrays

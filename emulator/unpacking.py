@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from emulator.covariates import stored
+from emulator.covariates.model import CovariateModel
 from emulator.density import LowRankNormal
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
@@ -127,7 +129,19 @@ class _Parts:
         names = tuple(str(name) for name in self.plain["workers"])
         effects = self.array("effects", len(names), self.k)
         smoothed = self._smoothed(len(names)) if f"{self.task}/smoothed_scores" in self.arrays else None
-        return Workforce(self._normal("between"), self._normal("within"), names, effects, smoothed)
+        group = str(self.plain.get("group", self.plain["report"]["source"]))
+        between, within = self._normal("between"), self._normal("within")
+        return Workforce(between, within, names, effects, smoothed, group, self._covariates())
+
+    def _covariates(self) -> CovariateModel | None:
+        if "covariates" not in self.plain:
+            return None
+        head = f"{self.task}/covariates_"
+        arrays = {name.removeprefix(head): value for name, value in self.arrays.items() if name.startswith(head)}
+        model = stored.unpack(self.plain["covariates"], arrays)
+        if model.r2.shape != (self.k,):
+            raise ValueError(f"{self.task}: covariates of {model.r2.size} coordinates, expected {self.k}")
+        return model
 
     def _normal(self, name: str) -> LowRankNormal:
         factor, spread = self.array(f"{name}_factor", -1, self.k), self.array(f"{name}_spread", self.k)

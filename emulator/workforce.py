@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emulator.anova import anova
 from emulator.density import LowRankNormal
 from emulator.law import Law
 from emulator.margin import within_worker
 from emulator.smoothed import SmoothedScores
+
+if TYPE_CHECKING:
+    from emulator.covariates.body import Body
+    from emulator.covariates.model import CovariateModel
 
 BETWEEN_METHOD = (
     "variances by ANOVA (a negative one is 0); correlations of people's means, shrunk to 0 by rho = {rho}; "
@@ -30,12 +36,14 @@ def shrinkages(n_sequences: int, n_workers: int) -> tuple[float, float]:
 class WorkerEffect:
     """What makes one worker this worker: z (K,) joint coordinates, and the worker's name (empty if drawn).
 
-    ``scale`` multiplies every bone length; it is 1 unless a body height was asked for.
+    scale : multiplies every bone length; it is 1 unless a body height was asked for
+    said  : what was done with a body that was asked for, in words
     """
 
     z: np.ndarray
     name: str = ""
     scale: float = 1.0
+    said: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -45,6 +53,8 @@ class Workforce:
     between, within : LowRankNormal over K coordinates (within has mean 0)
     names : W worker names; effects : (W, K) their shrunk means
     smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
+    group : whose names these are: two tasks of one group were done by the same people where names agree
+    covariates : what a body says of z, or None
     """
 
     between: LowRankNormal
@@ -52,12 +62,23 @@ class Workforce:
     names: tuple[str, ...]
     effects: np.ndarray
     smoothed: SmoothedScores | None = None
+    group: str = ""
+    covariates: CovariateModel | None = None
 
     @classmethod
     def fit(
-        cls, z: np.ndarray, worker_index: np.ndarray, names: tuple[str, ...], rho_between: float, rho_within: float
+        cls,
+        z: np.ndarray,
+        worker_index: np.ndarray,
+        names: tuple[str, ...],
+        rho_between: float,
+        rho_within: float,
+        covariates: Explained | None = None,
     ) -> Workforce:
-        """Moment (ANOVA) estimates from z (N, K) and worker_index (N,) into ``names`` (each with a repetition)."""
+        """Moment (ANOVA) estimates from z (N, K) and worker_index (N,) into ``names`` (each with a repetition).
+
+        covariates : what bodies say of the workers' means; a known worker is then drawn towards those of his body
+        """
         parts = anova(z, worker_index)
         means = np.stack([z[worker_index == w].mean(axis=0) for w in range(len(names))])
         centre = means.mean(axis=0)
@@ -66,8 +87,12 @@ class Workforce:
             np.zeros(z.shape[1]), within_worker(z, worker_index) / np.sqrt(residual_df), rho_within
         )
         between = LowRankNormal.of_rows(centre, _between_rows(means - centre, parts.between), rho_between)
-        effects = centre + parts.reliability(np.bincount(worker_index)) * (means - centre)
-        return cls(between, within, names, effects)
+        told, left = np.zeros_like(means), np.ones(z.shape[1])
+        if covariates is not None:
+            told, left = covariates.fitted, _left(covariates.model)
+        foretold = centre + told
+        effects = foretold + parts.reliability(np.bincount(worker_index), left**2) * (means - foretold)
+        return cls(between, within, names, effects, None, "", None if covariates is None else covariates.model)
 
     @property
     def has_worker_effect(self) -> bool:
@@ -79,9 +104,46 @@ class Workforce:
         mean = np.zeros_like(self.between.mean) if effect is None else effect.z
         if self.smoothed is None:
             return Law(np.ones(1), np.zeros((1, len(mean))), np.ones(1), self.within, mean, people)
-        if effect is not None and effect.name in self.names:
-            return self._known_laws[self.names.index(effect.name)]
-        return self.smoothed.anyone(mean, people)
+        if effect is None or effect.name not in self.names:
+            return self.smoothed.anyone(mean, people)
+        number = self.names.index(effect.name)
+        known = self._known_laws[number]
+        moved = effect.z - self.effects[number]
+        return known if not moved.any() else replace(known, centre=known.centre + moved)
+
+    @cached_property
+    def by_person(self) -> np.ndarray:
+        """(W, R) orthonormal columns: rows of ``by_person @ between.factor`` are the people, as far as they differ.
+
+        So numbers (W,) of a new worker, one for each recorded person, draw the same law as numbers (R,) do. It is the
+        polar factor that comes nearest to the people's own deviations (Schoenemann 1966).
+        """
+        own = self.effects - self.effects.mean(axis=0)
+        u, _, vt = np.linalg.svd(own @ self.between.factor.T, full_matrices=False)
+        return np.asarray(u @ vt)
+
+    @property
+    def covariate_names(self) -> tuple[str, ...]:
+        """The numeric covariates of the recorded people that say something of how they move."""
+        return () if self.covariates is None else self.covariates.names
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """The same and the category, if people were of two or more."""
+        sex = () if self.covariates is None or not self.covariates.levels else (self.covariates.category,)
+        return self.covariate_names + sex
+
+    def about(self, body: Body, outside: str = "clamp") -> LowRankNormal:
+        """How new workers with this body differ: the mean by the covariates, and the variance that these leave."""
+        if self.covariates is None or not (set(body.known) | ({"sex"} if body.sex else set())) & set(self.reads):
+            return self.between
+        left = _left(self.covariates)
+        mean = self.between.mean + self.covariates.predict(body, outside)
+        return LowRankNormal(mean, self.between.factor * left, self.between.spread * left, self.between.rho)
+
+    def said_of(self, body: Body, outside: str = "clamp") -> tuple[str, ...]:
+        """What is done with a body, in words."""
+        return () if self.covariates is None else tuple(self.covariates.explain(body, outside).lines)
 
     @cached_property
     def _known_laws(self) -> tuple[Law, ...]:
@@ -89,62 +151,17 @@ class Workforce:
         return tuple(self.smoothed.known(w, effect) for w, effect in enumerate(self.effects))
 
 
-@dataclass(frozen=True)
-class Anova:
-    """One-way random-effects analysis of K coordinates: mean squares and variance components, each (K,).
+@dataclass(frozen=True, eq=False)
+class Explained:
+    """A model of covariates, and what it says of the W recorded people: shifts (W, K) of their means."""
 
-    ``size`` is the effective number of repetitions a worker, n0 = (N - sum n_w^2 / N) / (W - 1).
-    """
-
-    between_square: np.ndarray
-    within_square: np.ndarray
-    size: float
-    df_between: int
-    df_within: int
-
-    @property
-    def between(self) -> np.ndarray:
-        """(K,) between-worker variances, not below 0."""
-        return np.maximum((self.between_square - self.within_square) / self.size, 0.0)
-
-    def reliability(self, counts: np.ndarray) -> np.ndarray:
-        """(W, K) share of a worker's mean that is the worker and not the luck of ``counts`` (W,) repetitions."""
-        between = self.between
-        noise = self.within_square / counts[:, None]
-        return np.where(between > 0, between / np.maximum(between + noise, 1e-300), 0.0)
+    model: CovariateModel
+    fitted: np.ndarray
 
 
-def anova(values: np.ndarray, worker_index: np.ndarray) -> Anova:
-    """Mean squares of values (N, K) between and within workers; all zero between where there is one worker.
-
-    Source: Searle, Casella & McCulloch, Variance Components, sec. 3.6 (unbalanced one-way, moment estimator).
-    """
-    counts = np.bincount(worker_index)
-    counts = counts[counts > 0]
-    n, w = len(values), len(counts)
-    residual = within_worker(values, worker_index)
-    explained = values - residual - values.mean(axis=0)
-    size = (n - np.sum(counts**2) / n) / (w - 1) if w > 1 else 1.0
-    within = np.sum(residual**2, axis=0) / max(n - w, 1)
-    between = np.sum(explained**2, axis=0) / (w - 1) if w > 1 else np.zeros(values.shape[1])
-    return Anova(between, within, float(size), w - 1, n - w)
-
-
-def intraclass_correlation(values: np.ndarray, worker_index: np.ndarray, confidence: float = 0.95) -> tuple[float, ...]:
-    """ICC(1) of values (N,), with the exact F interval: (icc, low, high); three NaN without two workers and repeats.
-
-    Source: Shrout & Fleiss (1979), ICC(1,1) and its interval, with n0 for the number of repetitions.
-    """
-    from scipy.special import fdtri
-
-    parts = anova(values[:, None], worker_index)
-    if parts.df_between < 1 or parts.df_within < 1 or parts.within_square[0] <= 0:
-        return (float("nan"),) * 3
-    ratio = float(parts.between_square[0] / parts.within_square[0])
-    tail = (1 + confidence) / 2
-    low = ratio / fdtri(parts.df_between, parts.df_within, tail)
-    high = ratio * fdtri(parts.df_within, parts.df_between, tail)
-    return tuple(float((f - 1) / (f + parts.size - 1)) for f in (ratio, low, high))
+def _left(covariates: CovariateModel) -> np.ndarray:
+    """(K,) share of the between-worker standard deviation that covariates leave, by leave-one-person-out R^2."""
+    return np.asarray(np.sqrt(1.0 - np.clip(covariates.r2, 0.0, 1.0)))
 
 
 def _between_rows(deviations: np.ndarray, variance: np.ndarray) -> np.ndarray:

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from opsim.effects import worker_effect
+from opsim.one_thread import one_blas_thread
 from opsim.performance import Drawn
-from opsim.streams import BLOCK, Items, stream
+from opsim.streams import BLOCK, Items
 
 
 class OwnLuck:
@@ -33,15 +35,12 @@ class OwnLuck:
         return self._items[task][k]
 
     def _draw(self, task: str) -> Callable[[np.random.Generator, int], list[Drawn]]:
-        from threadpoolctl import threadpool_limits
-
         model = self.models[task]
-        effect_stream = stream(self._seed, self._workforce, "effect", self._worker, task, 0)
-        with threadpool_limits(limits=1, user_api="blas"):
-            effect = model.draw_worker(effect_stream, self._body)
+        with one_blas_thread():
+            effect = worker_effect(model, task, self._worker, self._seed, self._workforce, self._body)
 
         def draw(rng: np.random.Generator, number: int) -> list[Drawn]:
-            with threadpool_limits(limits=1, user_api="blas"):
+            with one_blas_thread():
                 block = _trace(model, number) or model.sample(BLOCK, rng, worker=effect)
             _check_times(block, task, model)
             return [Drawn(block, row) for row in range(BLOCK)]

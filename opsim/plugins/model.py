@@ -30,10 +30,10 @@ class GuardedModel:
             raise fault(self.found, f"mean_duration_s gave {mean_s:g}, expected a positive number of seconds")
         return mean_s
 
-    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> Any:
+    def draw_worker(self, rng: np.random.Generator, body: Any = None, **more: Any) -> Any:
         """As ``TaskModel``."""
         with blamed(self.found, "failed in draw_worker"):
-            return self._model.draw_worker(rng, body)
+            return self._model.draw_worker(rng, body, **more)
 
     def sample(self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None) -> Any:
         """As ``TaskModel``; n positive durations, and marks for each."""

@@ -79,10 +79,14 @@ def test_a_shift_moves_log_duration_by_just_that_and_nothing_at_zero(emulator):
     assert np.allclose(same.scores, plain.scores, atol=1e-12)
 
 
-def test_a_body_height_scales_the_bones(emulator):
-    tall, short = (emulator.draw_worker(rng(1), body={"height_m": h}) for h in (1.9, 1.5))
-    lengths = [emulator.sample(1, rng(), worker=w).bone_length_m.sum() for w in (tall, short)]
-    assert np.isclose(lengths[0] / lengths[1], 1.7 / 1.3)
+def test_a_body_height_is_kept_from_the_ankles_to_the_head(emulator):
+    chain = [
+        emulator.skeleton.bone_names.index(f) for f in ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
+    ]
+    tall, short = (emulator.new_worker(height_m=h) for h in (1.9, 1.5))
+    for worker, height_m in ((tall, 1.9), (short, 1.5)):
+        bones_m = emulator.performances(worker.z[None], worker.scale).bone_length_m[0]
+        assert bones_m[chain].sum() == pytest.approx(height_m - 0.2)
     top = emulator.sample(1, rng(), worker=tall).positions_m()[0, 0, :, 2].max()
     assert 1.6 < top < 1.85
 
@@ -163,8 +167,19 @@ def test_an_unknown_worker_is_answered_with_the_nearest(emulator):
 
 
 def test_an_unknown_condition_is_refused(emulator):
-    with pytest.raises(ValueError, match="pace"):
-        emulator.sample(1, rng(), condition={"pace": 1.1})
+    with pytest.raises(ValueError, match="no 'durations'; did you mean 'duration_s'"):
+        emulator.sample(1, rng(), condition={"durations": 1.1})
+
+
+def test_all_mistakes_of_a_condition_are_named_at_once(emulator):
+    wrong = {"duration_s": 0.0, "log_duration_shift": np.nan, "pace": -1.0}
+    with pytest.raises(ValueError, match="positive seconds\\n.*a finite number\\n.*a positive ratio"):
+        emulator.sample(1, rng(), condition=wrong)
+
+
+def test_a_pace_is_the_shift_that_makes_everything_that_much_shorter(emulator):
+    plain, fast = (emulator.sample(64, rng(4), condition=c) for c in (None, {"pace": 1.25}))
+    assert np.allclose(plain.duration_s / fast.duration_s, 1.25)
 
 
 def test_an_effect_of_another_emulator_is_refused(emulator):

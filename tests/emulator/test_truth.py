@@ -14,7 +14,7 @@ from emulator.align import resample
 from emulator.held_out import holm
 from emulator.model import MotionEmulator
 from emulator.sphere import angle
-from emulator.workforce import anova
+from emulator.anova import anova
 from tests.emulator import truths
 from tests.emulator.truths import BOTH, Crew
 

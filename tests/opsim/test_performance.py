@@ -3,6 +3,7 @@ import pytest
 import simpy
 
 from opsim import Worker
+from opsim.effects import worker_effect
 from opsim.libraries import load_library
 from opsim.performance import Drawn
 from opsim.shipped import shipped_folder
@@ -35,7 +36,7 @@ def performed(stop_s=None, *, rating=1.0, n=3):
 def block():
     """The emulator's own block that the performances of ana come from."""
     squat = LIBRARY["deep_squat"]
-    effect = squat.draw_worker(stream(7, 0, "effect", "ana", "deep_squat", 0))
+    effect = worker_effect(squat, "deep_squat", "ana", 7, 0)
     return squat.sample(64, stream(7, 0, "duration", "deep_squat", "ana", 0), worker=effect)
 
 

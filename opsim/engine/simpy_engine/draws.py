@@ -6,8 +6,9 @@ from itertools import accumulate
 
 import numpy as np
 
+from opsim.effects import worker_effect
 from opsim.plan import Plan
-from opsim.streams import BLOCK, Items, Scattered, stream
+from opsim.streams import BLOCK, Items, Scattered
 
 FIXED_WORKFORCE = 0
 """Where staffing is fixed, workers' own effects belong to workforce 0: the same people work in every replication.
@@ -67,9 +68,8 @@ class Draws:
 
     def _of_worker(self, task: int, worker: int) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
-        effect = plan.model.draw_worker(
-            stream(self._plan.seed, self._workforce, "effect", name, plan.name, 0), self._plan.workers[worker].body
-        )
+        body = self._plan.workers[worker].body
+        effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body)
         return self._items(("duration", plan.name, name), _performed(plan.model, effect))
 
     def _items(self, name, draw) -> Items:

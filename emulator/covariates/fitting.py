@@ -1,0 +1,186 @@
+"""How a CovariateModel is fitted: covariates made ready, partial least squares, the category, what is left over."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator.covariates.category import f_test, left_out_effects, level_effects, levels_of, members
+from emulator.covariates.gaussian import CovariateGaussian
+from emulator.covariates.left_out import Folds, summed
+from emulator.covariates.model import CovariateModel, level_shares, logged
+from emulator.covariates.noise import kept, noise_r2, p_of_noise
+from emulator.covariates.pls import pls1
+from emulator.covariates.sound import mistakes_of
+
+PEOPLE_A_COMPONENT, MOST_COMPONENTS = 4, 5
+"""One component for every four people: with more, six people foretold new ones worse than their mean did."""
+HARDLY_MORE = 0.02
+"""A gain of leave-one-out R^2 for which no further component is taken."""
+FEWEST_KNOWN = 3
+
+
+def fit(
+    means: np.ndarray,
+    numeric: np.ndarray,
+    names: Sequence[str],
+    category: Sequence[str | None] | None,
+    category_name: str,
+    groups: np.ndarray | None,
+    families: np.ndarray | None,
+    level: float,
+    keep: str,
+) -> CovariateModel:
+    """See ``CovariateModel.fit``."""
+    means, numeric = np.asarray(means, float), np.asarray(numeric, float)
+    wrong = mistakes_of(means, numeric, names, category, groups, families, level, keep)
+    if wrong:
+        raise ValueError("\n".join(wrong))
+    groups = np.arange(len(means)) if groups is None else np.asarray(groups)
+    known = _Known.of(numeric, names, category, groups)
+    numbers = _numbers(known, means, level, keep, families)
+    sexes = _sexes(known, means, numbers, level, keep, families)
+    errors, within = sexes.errors, sexes.residual
+    total = _of_people(means, groups) - _of_people(means, groups).mean(axis=0)
+    variance = np.sum(total**2, axis=0) / max(len(total) - 1, 1)
+    ratio = _ratio(np.sum(errors**2, axis=0), np.sum(sexes.plain**2, axis=0))
+    return CovariateModel(
+        names=known.names,
+        low=known.low,
+        high=known.high,
+        left_out=known.left_out,
+        centre=known.x.mean(axis=0),
+        slope=numbers.slope,
+        category=category_name,
+        levels=known.levels,
+        level_effect=sexes.effect,
+        gaussian=known.gaussian,
+        n_people=known.folds.n_people,
+        n_components=numbers.n_components,
+        noise_p=numbers.p,
+        category_p=sexes.p,
+        r2=1.0 - ratio,
+        error_spread=np.sqrt(variance * ratio),
+        inflation=np.maximum(_ratio(ratio, _ratio(np.sum(within**2, axis=0), np.sum(total**2, axis=0))), 1.0),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """Covariates made ready: x (R, P) without gaps; member (G, C); range of what was recorded."""
+
+    names: tuple[str, ...]
+    low: np.ndarray
+    high: np.ndarray
+    left_out: tuple[tuple[str, str], ...]
+    x: np.ndarray
+    folds: Folds
+    levels: tuple[str, ...]
+    member: np.ndarray
+    gaussian: CovariateGaussian
+
+    @classmethod
+    def of(
+        cls, numeric: np.ndarray, names: Sequence[str], category: Sequence[str | None] | None, groups: np.ndarray
+    ) -> _Known:
+        use, left_out = _usable(numeric, names, groups)
+        chosen = tuple(names[i] for i in use)
+        raw, x = numeric[:, use], logged(chosen, numeric[:, use])
+        first = [int(np.argmax(groups == g)) for g in range(int(groups.max()) + 1)]
+        people = [category[i] for i in first] if category is not None else None
+        levels = levels_of(people)
+        shares = level_shares(people or [None] * len(first), levels)
+        gaussian = CovariateGaussian.fit(np.concatenate([_of_people(x, groups), shares], axis=1))
+        x = gaussian.filled(np.concatenate([x, shares[groups]], axis=1))[:, : len(use)]
+        member = members(people, levels) if levels else np.zeros((len(first), 0))
+        low, high = np.nanmin(raw, axis=0, initial=np.inf), np.nanmax(raw, axis=0, initial=-np.inf)
+        return cls(chosen, low, high, left_out, x, Folds.of(x, groups), levels, member, gaussian)
+
+
+def _usable(numeric: np.ndarray, names: Sequence[str], groups: np.ndarray) -> tuple[list[int], tuple]:
+    """Numbers of the covariates that can say something, and (name, why) of the others."""
+    use, left_out = [], []
+    for i, name in enumerate(names):
+        people = _of_people(numeric[:, i : i + 1], groups)[:, 0]
+        count = int(np.sum(~np.isnan(people)))
+        if count < FEWEST_KNOWN:
+            left_out.append((name, f"known of {count} people, {FEWEST_KNOWN} are needed"))
+        elif np.nanmax(people) - np.nanmin(people) <= 1e-9 * np.nanmax(np.abs(people)):
+            left_out.append((name, "the same for everybody"))
+        else:
+            use.append(i)
+    return use, tuple(left_out)
+
+
+def _of_people(values: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """(G, ...) means over each person's rows (R, ...), of what is known; NaN where nothing is."""
+    there = ~np.isnan(values)
+    count = summed(there.astype(float), groups)
+    return np.where(count > 0, summed(np.where(there, values, 0.0), groups) / np.maximum(count, 1.0), np.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class _Numbers:
+    """The step by partial least squares: slope (P, K), and how it was decided."""
+
+    n_components: np.ndarray
+    p: np.ndarray
+    slope: np.ndarray
+
+
+def _numbers(known: _Known, means: np.ndarray, level: float, keep: str, families: np.ndarray | None) -> _Numbers:
+    n_scores, folds = means.shape[1], known.folds
+    most = min(folds.n_people // PEOPLE_A_COMPONENT, len(known.names), MOST_COMPONENTS)
+    if most == 0:
+        none = np.zeros(n_scores, int)
+        return _Numbers(none, np.full(n_scores, np.nan), np.zeros((len(known.names), n_scores)))
+    r2 = folds.r2(means, most)
+    best = r2[1:].max(axis=0)
+    p = p_of_noise(best, noise_r2(folds, most))
+    fewest = np.argmax(r2 >= best - HARDLY_MORE, axis=0)
+    count = np.where(kept(p, level, keep, families) & (best > 0), fewest, 0)
+    slopes = pls1(known.x, means, most)[1]
+    return _Numbers(count, p, np.take_along_axis(slopes, count[None, None], axis=0)[0])
+
+
+@dataclass(frozen=True, eq=False)
+class _Sexes:
+    """The step by category: effect (C, K), p (K,); and of each person what the whole model leaves, (G, K).
+
+    residual : of the fit; errors : with the person left out; plain : the same with the others' mean as forecast
+    """
+
+    effect: np.ndarray
+    p: np.ndarray
+    residual: np.ndarray
+    errors: np.ndarray
+    plain: np.ndarray
+
+
+def _sexes(
+    known: _Known, means: np.ndarray, numbers: _Numbers, level: float, keep: str, families: np.ndarray | None
+) -> _Sexes:
+    folds = known.folds
+    y, x = _of_people(means, folds.groups), _of_people(known.x, folds.groups)
+    residual = y - means.mean(axis=0) - (x - known.x.mean(axis=0)) @ numbers.slope
+    mean, slopes = folds.slopes(means, int(numbers.n_components.max(initial=0)))
+    slope = np.take_along_axis(slopes, numbers.n_components[None, None, None], axis=0)[0]
+    centred = x - (known.x - folds.x)[0]
+    errors = y - mean - np.einsum("gp,gpk->gk", centred - folds.mean, slope)
+    plain = y - mean
+    if not known.levels:
+        return _Sexes(np.zeros((0, y.shape[1])), np.full(y.shape[1], np.nan), residual, errors, plain)
+    p = f_test(residual, known.member)
+    passed = kept(p, level, keep, families)
+    effect = level_effects(residual, known.member) * passed
+    at = np.flatnonzero(passed)
+    away = centred[None] - folds.mean[:, None]
+    without = y[None, :, at] - mean[:, None, at] - np.einsum("ghp,gpk->ghk", away, slope[:, :, at])
+    errors[:, at] -= left_out_effects(without, known.member)
+    return _Sexes(effect, p, residual - known.member @ effect, errors, plain)
+
+
+def _ratio(above: np.ndarray, below: np.ndarray) -> np.ndarray:
+    return np.where(below > 0, above / np.where(below > 0, below, 1.0), 1.0)

@@ -1,0 +1,137 @@
+"""CovariateModel: the mean joint coordinates of people explained by their bodies, and foretold for a new body.
+
+Two steps (Baydal-Bertomeu et al., section 5 of the procedure, eq. 3-6): numeric covariates (height, mass, age, pace)
+by partial least squares, each score with the number of components that leave-one-person-out R^2 asks for; then a
+category (sex) by a linear model on what is left, kept where its F test passes. Beyond the paper: a forecast must beat
+noise (see ``noise``), the scores are corrected for one another, a person counts once however often recorded, and gaps
+in what is known of a person are filled by the conditional mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from emulator.covariates.body import Body
+from emulator.covariates.explained import Prediction, explain, fit_lines
+from emulator.covariates.gaussian import CovariateGaussian
+
+LOGGED = ("pace",)
+"""Ratios enter as logarithms: twice as fast and half as fast are equally far from the usual."""
+
+
+@dataclass(frozen=True, eq=False)
+class CovariateModel:
+    """P numeric covariates and C levels of a category -> shifts of K mean coordinates.
+
+    names (P,), low and high (P,): the covariates used and their range in training; left_out : (name, why) of others
+    centre (P,), slope (P, K) : on the covariates, those of ``LOGGED`` as logarithms; 0 where they say nothing
+    category : what the category is called; levels (C,), level_effect (C, K) : 0 where the F test does not pass
+    gaussian : of the covariates and of the levels but the first
+    n_components (K,), noise_p (K,), category_p (K,) : how each score was decided (NaN where it could not be tested)
+    r2 (K,) : of the whole model with the person left out; 0 where nothing is kept
+    error_spread (K,) : standard deviation of a new person's mean about ``predict``
+    inflation (K,) : variance of a new person about ``predict`` over that of the training people, at least 1
+    """
+
+    names: tuple[str, ...]
+    low: np.ndarray
+    high: np.ndarray
+    left_out: tuple[tuple[str, str], ...]
+    centre: np.ndarray
+    slope: np.ndarray
+    category: str
+    levels: tuple[str, ...]
+    level_effect: np.ndarray
+    gaussian: CovariateGaussian
+    n_people: int
+    n_components: np.ndarray
+    noise_p: np.ndarray
+    category_p: np.ndarray
+    r2: np.ndarray
+    error_spread: np.ndarray
+    inflation: np.ndarray
+
+    @classmethod
+    def fit(
+        cls,
+        means: np.ndarray,
+        numeric: np.ndarray,
+        names: Sequence[str],
+        category: Sequence[str | None] | None = None,
+        *,
+        category_name: str = "sex",
+        groups: np.ndarray | None = None,
+        families: np.ndarray | None = None,
+        level: float = 0.95,
+        keep: str = "fdr",
+    ) -> CovariateModel:
+        """From means (R, K) of people (or of people at several paces), their covariates and a category each.
+
+        numeric  : (R, P), NaN where unknown; names : (P,)
+        category : R words, None where unknown; one person has one
+        groups   : (R,) which person a row is of, 0 to G - 1; None: each row is a person of its own
+        families : (K,) numbers; scores of one family are corrected for one another (None: all are one family)
+        keep     : "fdr" controls false discoveries over the scores at 1 - level; "each" asks ``level`` score by score
+        No luck enters: the same rows give the same model. Raises ValueError for shapes that do not fit, all at once.
+        """
+        from emulator.covariates.fitting import fit
+
+        return fit(means, numeric, names, category, category_name, groups, families, level, keep)
+
+    @property
+    def explained(self) -> np.ndarray:
+        """(K,) whether the covariates say anything of a score."""
+        return np.any(self.slope != 0, axis=0) | np.any(self.level_effect != 0, axis=0)
+
+    def predict(self, body: Any, outside: str = "clamp") -> np.ndarray:
+        """(K,) how this body's mean coordinates are expected to differ from the mean of the training people.
+
+        body    : a Body, a mapping or an object with such attributes
+        outside : "clamp" takes the nearest recorded value of a covariate out of range, "refuse" raises BodyError
+        """
+        return self.explain(body, outside).mean
+
+    def explain(self, body: Any, outside: str = "clamp") -> Prediction:
+        """The same with what became of each covariate: asked, range, used."""
+        return explain(self, Body.of(body, self.names), outside)
+
+    def shifts(self, numeric: np.ndarray, category: Sequence[str | None] | None = None) -> np.ndarray:
+        """(R, K) the shifts of rows of covariates (R, P) in the order of ``names``; NaN and None are filled."""
+        filled = self.gaussian.filled(np.concatenate([logged(self.names, numeric), self._levels(category, numeric)], 1))
+        return self.of_values(filled)
+
+    def of_values(self, values: np.ndarray) -> np.ndarray:
+        """(R, K) shifts of values (R, P + C - 1): covariates as the model takes them, shares of later levels."""
+        shift = (values[:, : len(self.names)] - self.centre) @ self.slope
+        if not self.levels:
+            return np.asarray(shift)
+        later = np.clip(values[:, len(self.names) :], 0.0, 1.0)
+        later = later / np.maximum(later.sum(axis=1, keepdims=True), 1.0)
+        return np.asarray(shift + np.column_stack([1.0 - later.sum(axis=1), later]) @ self.level_effect)
+
+    def _levels(self, category: Sequence[str | None] | None, numeric: np.ndarray) -> np.ndarray:
+        """(R, C - 1) shares of the later levels, NaN where unknown."""
+        return level_shares(category if category is not None else [None] * len(numeric), self.levels)
+
+    @property
+    def lines(self) -> list[str]:
+        """What was found, in words for a report."""
+        return fit_lines(self)
+
+
+def logged(names: Sequence[str], numeric: np.ndarray) -> np.ndarray:
+    """Covariates (R, P) as the model takes them."""
+    numeric = np.array(numeric, float)
+    at = [i for i, name in enumerate(names) if name in LOGGED]
+    numeric[:, at] = np.log(numeric[:, at])
+    return numeric
+
+
+def level_shares(category: Sequence[str | None], levels: tuple[str, ...]) -> np.ndarray:
+    """(R, C - 1) 1 where a row is of a level but the first, NaN where its level is none of them."""
+    rows = [[float(one == level) if one in levels else np.nan for level in levels[1:]] for one in category]
+    return np.array(rows, float).reshape(len(category), max(len(levels) - 1, 0))
