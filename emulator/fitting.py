@@ -38,15 +38,16 @@ def _fit(motions: MotionSet, settings: FitSettings, progress: Progress) -> Motio
     made = registered(motions, settings, progress)
     said = ""
     if settings.scheme == AUTO:
-        choice = choose(made, settings, _model, progress)
+        choice = choose(made, settings, model_of, progress)
         settings, said = replace(settings, scheme=choice.scheme), choice.why
-    model = _model(made, settings)
+    model = model_of(made, settings)
     if said:
         model = replace(model, report=replace(model.report, methods=model.report.methods | {"scheme": said}))
     return replace(model, report=judged(model, made, settings))
 
 
-def _model(made: Registered, settings: FitSettings) -> MotionEmulator:
+def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
+    """The emulator of registered recordings, its report without a judgement of draws."""
     motions = made.whole
     parts = parts_of(made, settings)
     workforce = _workforce(parts, made.moving, settings)

@@ -29,6 +29,12 @@ class Registered:
     warps: np.ndarray
     directions: np.ndarray
 
+    def subset(self, mask: np.ndarray) -> Registered:
+        """The repetitions of a mask (N,), on the same clock."""
+        at = np.flatnonzero(mask)
+        holds = tuple(self.holds[i] for i in at)
+        return Registered(self.whole.subset(at), self.moving.subset(at), holds, self.warps[at], self.directions[at])
+
     def channels(self) -> np.ndarray:
         """Side channels of the root on the common clock, (N, T * 4), with the feet where they were recorded."""
         channel = RootChannel(self.moving.skeleton)

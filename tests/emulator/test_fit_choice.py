@@ -3,7 +3,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from emulator.fit_choice import subset
 from emulator.fit_settings import FitSettings
 from emulator.model import SCHEME, SCHEMES, MotionEmulator
 from emulator.registered import registered
@@ -46,6 +45,6 @@ def test_where_nothing_can_be_held_out_auto_is_refused():
 def test_a_subset_is_the_same_repetitions():
     motions, _ = make("pick", 2, 3, seed=2)
     made = registered(motions, FitSettings(SCHEME, None, 21, 8, 0.0, 0, ""), None)
-    part = subset(made, np.array([True, False, True, False, True, False]))
+    part = made.subset(np.array([True, False, True, False, True, False]))
     assert [m.name for m in part.moving.motions] == [made.moving.motions[i].name for i in (0, 2, 4)]
     assert np.array_equal(part.warps, made.warps[::2]) and len(part.holds) == 3
