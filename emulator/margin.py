@@ -36,7 +36,13 @@ class Margin:
         return _line(z, self.z, self.value, self.slope)
 
     def moments_s(self, mean: np.ndarray, spread: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """First and second moment (M,) of exp(inverse(Z)), seconds, for Z normal with ``mean``, ``spread`` (M,)."""
+        """First and second moment (M,) of exp(inverse(Z)), seconds, for Z normal with ``mean``, ``spread`` (M,).
+
+        In closed form where the margin is normal, else on a grid.
+        """
+        if len(self.z) == 1:
+            log_s, square = self.inverse(mean), (self.slope * spread) ** 2
+            return np.exp(log_s + square / 2), np.exp(2 * (log_s + square))
         duration_s = np.exp(self.inverse(mean[:, None] + spread[:, None] * _GRID))
         return duration_s @ _WEIGHTS, duration_s**2 @ _WEIGHTS
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -70,6 +70,7 @@ def make(
     between_share: float = 0.5,
     correlation: float = 0.6,
     pace_correlation: float = 0.0,
+    duration_cv: float | None = None,
     bodies: Sequence[Body] | None = None,
 ) -> tuple[MotionSet, Truth]:
     """``n_workers`` times ``n_repetitions`` made repetitions of a task, and the truth about them.
@@ -77,9 +78,10 @@ def make(
     between_share : share of the variance of log duration, of posture and of pace that lies between workers
     correlation, pace_correlation : of the first posture latent, and of the first wave of the warps (with it the way to
                     the middle of the task takes longer), with log duration, between workers and within alike
+    duration_cv   : coefficient of variation of the duration; None: the task's own
     bodies        : one a worker; None draws them, 1.72 m tall on average
-    Raises ValueError for an unknown task (with the nearest known), a share outside [0, 1], or correlations that no
-    numbers have.
+    Raises ValueError for an unknown task (with the nearest known), a share outside [0, 1], a negative cv, or
+    correlations that no numbers have.
     """
     if task not in TASKS:
         near = get_close_matches(task, TASKS, n=1)
@@ -91,8 +93,10 @@ def make(
             f"between_share {between_share} must be in [0, 1], the squares of correlation {correlation} and "
             f"pace_correlation {pace_correlation} must add to 1 at most"
         )
+    if duration_cv is not None and not duration_cv >= 0:
+        raise ValueError(f"duration_cv: found {duration_cv}, expected a number from 0")
     rng = np.random.default_rng(seed) if rng is None else rng
-    dance = TASKS[task]
+    dance = TASKS[task] if duration_cv is None else replace(TASKS[task], cv=duration_cv)
     index = np.repeat(np.arange(n_workers), n_repetitions)
     z = _two_level(rng, index, N_LATENTS + 4, between_share)
     drawn = draw_bodies(n_workers, rng)

@@ -52,3 +52,12 @@ def test_residuals_have_no_mean_left_by_worker():
 
 def test_no_margins_take_no_columns():
     assert inverse_all((), np.empty((4, 0))).shape == (4, 0)
+
+
+def test_the_closed_form_of_a_normal_margin_is_what_its_grid_gives():
+    closed, by_grid = (
+        Margin(np.zeros(1), np.array([0.3]), 0.7),
+        Margin(np.array([-1.0, 1.0]), np.array([-0.4, 1.0]), 0.7),
+    )
+    mean, spread = np.array([-0.5, 0.0, 1.2]), np.array([0.0, 0.4, 1.1])
+    assert np.allclose(closed.moments_s(mean, spread), by_grid.moments_s(mean, spread), rtol=1e-9)

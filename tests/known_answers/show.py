@@ -2,8 +2,10 @@
 
 import os
 import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from known_answers import staffing
+from known_answers import emulated_staffing, staffing
 from known_answers.cases import CASES, Case
 from known_answers.simulate import simulate
 from recordings import data_folder
@@ -18,21 +20,28 @@ def main() -> int:
     if not (data_folder() / "reference" / "known_answers.json").exists():
         print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
         return 2
-    runs = simulate((*CASES, *staffing.CASES), processes=os.cpu_count() or 1, done=_progress)
+    with TemporaryDirectory() as folder:
+        print("fitting made motions of 300 people at three shares ...", file=sys.stderr, flush=True)
+        emulated, mean_s = emulated_staffing.written(Path(folder))
+        asked = (*CASES, *staffing.CASES, *emulated)
+        runs = simulate(asked, processes=os.cpu_count() or 1, done=_progress)
     print(f"\n{'figure':42} {'theory':>10} {'simulated':>10} {'95 %':>8}  half-width  n")
     verdicts = [_line(case, runs[case.file, case.variant][case.kpi]) for case in CASES]
     outside = [sum(verdict == word for verdict in verdicts) for word in ("outside 95 %", "outside 99.9 %", "imprecise")]
     print(f"{len(CASES)} figures: {outside[0]} outside 95 %, {outside[1]} outside 99.9 %, {outside[2]} imprecise")
-    staffed = [_staffing(runs, variant) for variant in staffing.EXPECTED]
+    staffed = [_staffing("staffing", v, staffing.rates(runs, v)) for v in staffing.EXPECTED]
+    for case in emulated:
+        rates = emulated_staffing.rates(runs, case, mean_s[case.variant])
+        staffed.append(_staffing("staffing, emulated", case.variant, rates))
     return int(outside[0] > MOST_OUTSIDE_95 or any(outside[1:]) or not all(staffed))
 
 
-def _staffing(runs, variant: str) -> bool:
-    rates, (mean, sd) = staffing.rates(runs, variant), staffing.EXPECTED[variant]
+def _staffing(name: str, variant: str, rates) -> bool:
+    mean, sd = staffing.EXPECTED[variant]
     found, spread = float(rates.mean()), float(rates.std(ddof=1))
     holds = abs(found / mean - 1) <= 0.015 and (sd is None or abs(spread / sd - 1) <= 0.1)
     against = "" if sd is None else f" (of {sd})"
-    print(f"staffing/{variant}: {found:.4f} of {mean}, SD over {len(rates)} workforces {spread:.4f}{against}", end=" ")
+    print(f"{name}/{variant}: {found:.4f} of {mean}, SD over {len(rates)} workforces {spread:.4f}{against}", end=" ")
     print("" if holds else "does not hold")
     return holds
 

@@ -1,0 +1,48 @@
+"""The same line, its work emulated: a library of made motions whose share of variance between people is known."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from known_answers.cases import HERE, Case
+from known_answers.staffing import EXPECTED
+
+SHARE = {"none": 0.0, "quarter": 0.25, "half": 0.5}
+CV = 0.3
+N_PEOPLE, N_EACH = 300, 6
+"""Enough that the fitted CV and share are the true ones within a few per cent."""
+
+
+def library(n_people: int = N_PEOPLE, n_each: int = N_EACH):
+    """A reach at each share, fitted to made repetitions; name of the variant -> emulator."""
+    from emulator import MotionEmulator, MotionLibrary, synthetic
+
+    made = MotionLibrary.of()
+    for name, share in SHARE.items():
+        motions, _ = synthetic.make("reach", n_people, n_each, seed=1, between_share=share, duration_cv=CV)
+        motions = replace(motions, task=name)
+        made = made.add(MotionEmulator.fit(motions, n_times=21, n_knots=6, n_components=4))
+    return made
+
+
+def written(folder: Path, n_people: int = N_PEOPLE, n_each: int = N_EACH) -> tuple[tuple[Case, ...], dict[str, float]]:
+    """The library and ``staffing.yaml`` with its work emulated, in a folder: their cases, and mean seconds of work."""
+    made = library(n_people, n_each)
+    made.save(folder / "made.npz")
+    text = (HERE / "staffing.yaml").read_text()
+    for old, new in (
+        ("horizon: 1400 s, warm_up: 200 s", "horizon: 2240 s, warm_up: 320 s"),
+        ("tasks:\n", "libraries: {made: made.npz}\ntasks:\n"),
+        ("{dist: lognormal, mean: 1 s, cv: 0.3}", "{emulator: made/none}"),
+        ("{tasks.work.between_share: 0.25}", "{tasks.work.emulator: made/quarter}"),
+        ("{tasks.work.between_share: 0.5}", "{tasks.work.emulator: made/half}"),
+    ):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    (folder / "emulated.yaml").write_text(text)
+    cases = tuple(Case(str(folder / "emulated"), name, "throughput_per_h", (), few=60) for name in EXPECTED)
+    return cases, {name: model.mean_duration_s() for name, model in made.items()}
+
+
+def rates(runs, case: Case, mean_s: float):
+    """(replications,) throughput times mean time, one a workforce."""
+    return runs[case.file, case.variant]["throughput_per_h"] * mean_s / 3600.0
