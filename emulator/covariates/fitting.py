@@ -1,4 +1,4 @@
-"""How a CovariateModel is fitted: covariates made ready, partial least squares, the category, what is left over."""
+"""How a CovariateModel is fitted: partial least squares, then the category, then what is left for a new person."""
 
 from __future__ import annotations
 
@@ -7,19 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.covariates.category import f_test, left_out_effects, level_effects, levels_of, members
-from emulator.covariates.gaussian import CovariateGaussian
-from emulator.covariates.left_out import Folds, summed
-from emulator.covariates.model import CovariateModel, level_shares, logged
-from emulator.covariates.noise import kept, noise_r2, p_of_noise
+from emulator.covariates.category import f_test, left_out_effects, level_effects
+from emulator.covariates.model import CovariateModel
+from emulator.covariates.noise import kept, noise_p
 from emulator.covariates.pls import pls1
+from emulator.covariates.ready import Ready, of_people
 from emulator.covariates.sound import mistakes_of
 
 PEOPLE_A_COMPONENT, MOST_COMPONENTS = 4, 5
 """One component for every four people: with more, six people foretold new ones worse than their mean did."""
 HARDLY_MORE = 0.02
 """A gain of leave-one-out R^2 for which no further component is taken."""
-FEWEST_KNOWN = 3
 
 
 def fit(
@@ -39,11 +37,11 @@ def fit(
     if wrong:
         raise ValueError("\n".join(wrong))
     groups = np.arange(len(means)) if groups is None else np.asarray(groups)
-    known = _Known.of(numeric, names, category, groups)
+    known = Ready.of(numeric, names, category, groups)
     numbers = _numbers(known, means, level, keep, families)
     sexes = _sexes(known, means, numbers, level, keep, families)
     errors, within = sexes.errors, sexes.residual
-    total = _of_people(means, groups) - _of_people(means, groups).mean(axis=0)
+    total = of_people(means, groups) - of_people(means, groups).mean(axis=0)
     variance = np.sum(total**2, axis=0) / max(len(total) - 1, 1)
     ratio = _ratio(np.sum(errors**2, axis=0), np.sum(sexes.plain**2, axis=0))
     return CovariateModel(
@@ -68,60 +66,6 @@ def fit(
 
 
 @dataclass(frozen=True, eq=False)
-class _Known:
-    """Covariates made ready: x (R, P) without gaps; member (G, C); range of what was recorded."""
-
-    names: tuple[str, ...]
-    low: np.ndarray
-    high: np.ndarray
-    left_out: tuple[tuple[str, str], ...]
-    x: np.ndarray
-    folds: Folds
-    levels: tuple[str, ...]
-    member: np.ndarray
-    gaussian: CovariateGaussian
-
-    @classmethod
-    def of(
-        cls, numeric: np.ndarray, names: Sequence[str], category: Sequence[str | None] | None, groups: np.ndarray
-    ) -> _Known:
-        use, left_out = _usable(numeric, names, groups)
-        chosen = tuple(names[i] for i in use)
-        raw, x = numeric[:, use], logged(chosen, numeric[:, use])
-        first = [int(np.argmax(groups == g)) for g in range(int(groups.max()) + 1)]
-        people = [category[i] for i in first] if category is not None else None
-        levels = levels_of(people)
-        shares = level_shares(people or [None] * len(first), levels)
-        gaussian = CovariateGaussian.fit(np.concatenate([_of_people(x, groups), shares], axis=1))
-        x = gaussian.filled(np.concatenate([x, shares[groups]], axis=1))[:, : len(use)]
-        member = members(people, levels) if levels else np.zeros((len(first), 0))
-        low, high = np.nanmin(raw, axis=0, initial=np.inf), np.nanmax(raw, axis=0, initial=-np.inf)
-        return cls(chosen, low, high, left_out, x, Folds.of(x, groups), levels, member, gaussian)
-
-
-def _usable(numeric: np.ndarray, names: Sequence[str], groups: np.ndarray) -> tuple[list[int], tuple]:
-    """Numbers of the covariates that can say something, and (name, why) of the others."""
-    use, left_out = [], []
-    for i, name in enumerate(names):
-        people = _of_people(numeric[:, i : i + 1], groups)[:, 0]
-        count = int(np.sum(~np.isnan(people)))
-        if count < FEWEST_KNOWN:
-            left_out.append((name, f"known of {count} people, {FEWEST_KNOWN} are needed"))
-        elif np.nanmax(people) - np.nanmin(people) <= 1e-9 * np.nanmax(np.abs(people)):
-            left_out.append((name, "the same for everybody"))
-        else:
-            use.append(i)
-    return use, tuple(left_out)
-
-
-def _of_people(values: np.ndarray, groups: np.ndarray) -> np.ndarray:
-    """(G, ...) means over each person's rows (R, ...), of what is known; NaN where nothing is."""
-    there = ~np.isnan(values)
-    count = summed(there.astype(float), groups)
-    return np.where(count > 0, summed(np.where(there, values, 0.0), groups) / np.maximum(count, 1.0), np.nan)
-
-
-@dataclass(frozen=True, eq=False)
 class _Numbers:
     """The step by partial least squares: slope (P, K), and how it was decided."""
 
@@ -130,7 +74,7 @@ class _Numbers:
     slope: np.ndarray
 
 
-def _numbers(known: _Known, means: np.ndarray, level: float, keep: str, families: np.ndarray | None) -> _Numbers:
+def _numbers(known: Ready, means: np.ndarray, level: float, keep: str, families: np.ndarray | None) -> _Numbers:
     n_scores, folds = means.shape[1], known.folds
     most = min(folds.n_people // PEOPLE_A_COMPONENT, len(known.names), MOST_COMPONENTS)
     if most == 0:
@@ -138,7 +82,7 @@ def _numbers(known: _Known, means: np.ndarray, level: float, keep: str, families
         return _Numbers(none, np.full(n_scores, np.nan), np.zeros((len(known.names), n_scores)))
     r2 = folds.r2(means, most)
     best = r2[1:].max(axis=0)
-    p = p_of_noise(best, noise_r2(folds, most))
+    p = noise_p(folds, means, best, most)
     fewest = np.argmax(r2 >= best - HARDLY_MORE, axis=0)
     count = np.where(kept(p, level, keep, families) & (best > 0), fewest, 0)
     slopes = pls1(known.x, means, most)[1]
@@ -160,10 +104,10 @@ class _Sexes:
 
 
 def _sexes(
-    known: _Known, means: np.ndarray, numbers: _Numbers, level: float, keep: str, families: np.ndarray | None
+    known: Ready, means: np.ndarray, numbers: _Numbers, level: float, keep: str, families: np.ndarray | None
 ) -> _Sexes:
     folds = known.folds
-    y, x = _of_people(means, folds.groups), _of_people(known.x, folds.groups)
+    y, x = of_people(means, folds.groups), of_people(known.x, folds.groups)
     residual = y - means.mean(axis=0) - (x - known.x.mean(axis=0)) @ numbers.slope
     mean, slopes = folds.slopes(means, int(numbers.n_components.max(initial=0)))
     slope = np.take_along_axis(slopes, numbers.n_components[None, None, None], axis=0)[0]

@@ -17,16 +17,16 @@ class CovariateGaussian:
     covariance: np.ndarray
 
     @classmethod
-    def fit(cls, rows: np.ndarray) -> CovariateGaussian:
-        """From rows (G, V), one a person, NaN where unknown; each covariate known at least twice and varying.
+    def fit(cls, rows: np.ndarray, n_people: int) -> CovariateGaussian:
+        """From rows (R, V) of ``n_people``, NaN where unknown; each covariate known at least twice and varying.
 
-        The EM algorithm for a normal sample with gaps; correlations are shrunk by 1.2 / G, at most 0.3, so that three
-        people do not tie five covariates to each other. Source: Little & Rubin, Statistical Analysis with Missing
+        The EM algorithm for a normal sample with gaps; correlations are shrunk by 1.2 / n_people, at most 0.3, so that
+        three people do not tie five covariates to each other. Source: Little & Rubin, Statistical Analysis with Missing
         Data, sec. 11.2.
         """
         centre, spread = np.nanmean(rows, axis=0), np.nanstd(rows, axis=0)
         scaled = (rows - centre) / spread
-        patterns, rho = list(zip(*np.unique(np.isnan(scaled), axis=0, return_counts=True))), min(0.3, 1.2 / len(rows))
+        patterns, rho = list(zip(*np.unique(np.isnan(scaled), axis=0, return_counts=True))), min(0.3, 1.2 / n_people)
         guess = cls(np.zeros(rows.shape[1]), np.eye(rows.shape[1]))
         for _ in range(ROUNDS if len(patterns) > 1 or patterns[0][0].any() else 1):
             filled = guess.filled(scaled)

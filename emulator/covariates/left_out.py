@@ -30,7 +30,7 @@ class Folds:
         x = x - x.mean(axis=0)
         n_own, sums = np.bincount(groups), summed(x, groups)
         squares = summed(x[:, :, None] * x[:, None, :], groups)
-        n_others = (len(x) - n_own).astype(float)
+        n_others = np.maximum(len(x) - n_own, 1).astype(float)
         mean = (sums.sum(axis=0) - sums) / n_others[:, None]
         inner = squares.sum(axis=0) - squares - n_others[:, None, None] * mean[:, :, None] * mean[:, None, :]
         variance = np.einsum("gpp->gp", inner) / n_others[:, None]
@@ -47,7 +47,9 @@ class Folds:
         y = y - middle
         sums = summed(y, self.groups)
         mean = (sums.sum(axis=0) - sums) / self.n_others[:, None]
-        products = np.stack([summed(column[:, None] * y, self.groups) for column in self.x.T], axis=1)
+        products = np.empty((self.n_people, self.x.shape[1], y.shape[1]))
+        for p, column in enumerate(self.x.T):
+            products[:, p] = summed(column[:, None] * y, self.groups)
         inner = products.sum(axis=0) - products - (self.n_others[:, None] * self.mean)[:, :, None] * mean[:, None, :]
         scaled = inner / self.spread[:, :, None]
         return mean + middle, slopes_of_products(self.gram, scaled, n_components) / self.spread[:, :, None]

@@ -11,20 +11,51 @@ from __future__ import annotations
 
 import numpy as np
 
-from emulator.covariates.left_out import Folds
+from emulator.covariates.left_out import Folds, summed
 
 SEED, MOST, FEWEST, WORK = 20, 1000, 200, 40_000
 """The numbers are the same for the same covariates, whatever the seed of a fit: a fit has no luck of its own."""
-TAIL = 0.1
+TAIL, BEYOND = 0.10, 0.02
 
 
-def noise_r2(folds: Folds, n_components: int) -> np.ndarray:
-    """(M,) the best leave-one-out R^2 over 1, 2, ... components of M noise scores, the same in all rows of a person."""
+def noise_p(folds: Folds, y: np.ndarray, r2: np.ndarray, n_components: int) -> np.ndarray:
+    """(K,) how often noise reaches the best leave-one-out R^2 (K,) of scores y (R, K).
+
+    Where people have several rows, the noise of a score has as much in common within a person as the score has, to the
+    next quarter above: heights foretell what is common by luck far more easily than what changes from row to row.
+    """
+    if folds.n_people == len(folds.groups):
+        return p_of_noise(r2, noise_r2(folds, n_components))
+    quarters = np.ceil(np.clip(4 * common_share(y, folds.groups), 1, 4))
+    p = np.empty(len(r2))
+    for quarter in np.unique(quarters):
+        at = quarters == quarter
+        p[at] = p_of_noise(r2[at], noise_r2(folds, n_components, quarter / 4))
+    return p
+
+
+def noise_r2(folds: Folds, n_components: int, common: float = 1.0) -> np.ndarray:
+    """(M,) the best leave-one-out R^2 over 1, 2, ... components of M noise scores.
+
+    common : share of a noise score's variance that all rows of a person have in common
+    """
     rng = np.random.default_rng(SEED)
-    n = int(np.clip(WORK // folds.n_people, FEWEST, MOST))
-    noise = rng.standard_normal((folds.n_people, n))
-    blocks = (noise[folds.groups, start : start + 100] for start in range(0, n, 100))
-    return np.concatenate([best_r2(folds, block, n_components) for block in blocks])
+    n = int(np.clip(WORK // len(folds.groups), FEWEST, MOST))
+    noise = np.sqrt(common) * rng.standard_normal((folds.n_people, n))[folds.groups]
+    if common < 1:
+        noise += np.sqrt(1 - common) * rng.standard_normal(noise.shape)
+    return np.concatenate([best_r2(folds, noise[:, start : start + 100], n_components) for start in range(0, n, 100)])
+
+
+def common_share(y: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """(K,) share of the variance of y (R, K) that a person's rows have in common, by one-way analysis of variance."""
+    counts = np.bincount(groups).astype(float)
+    mean = summed(y, groups) / counts[:, None]
+    within = np.sum((y - mean[groups]) ** 2, axis=0) / max(len(y) - len(counts), 1)
+    between = counts @ (mean - y.mean(axis=0)) ** 2 / max(len(counts) - 1, 1)
+    size = (len(y) - np.sum(counts**2) / len(y)) / max(len(counts) - 1, 1)
+    shared = np.maximum((between - within) / size, 0.0)
+    return np.where(shared + within > 0, shared / np.maximum(shared + within, 1e-300), 1.0)
 
 
 def best_r2(folds: Folds, y: np.ndarray, n_components: int) -> np.ndarray:
@@ -35,14 +66,15 @@ def best_r2(folds: Folds, y: np.ndarray, n_components: int) -> np.ndarray:
 def p_of_noise(r2: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """(K,) how often noise (M,) reaches r2 (K,).
 
-    Beyond the noise's upper tenth by its exponential tail in -log(1 - R^2), which is how the tail of an R^2 of normal
-    numbers falls (there 1 - R^2 is a beta number): a few hundred draws then tell one in ten thousand.
+    Beyond the uppermost fiftieth of the noise by the exponential tail of its upper tenth in -log(1 - R^2), which is how
+    the tail of an R^2 of normal numbers falls (there 1 - R^2 is a beta number): a thousand draws then tell 1 in 10,000.
     """
     told, drawn = _strength(r2), np.sort(_strength(noise))
-    n_tail = max(int(TAIL * len(drawn)), 1)
-    edge, tail = drawn[-n_tail - 1], drawn[-n_tail:]
+    n_tail, n_beyond = max(int(TAIL * len(drawn)), 1), max(int(BEYOND * len(drawn)), 1)
+    excess = float(np.mean(drawn[-n_tail:]) - drawn[-n_tail - 1])
+    edge = drawn[-n_beyond - 1]
     counted = (1.0 + len(drawn) - np.searchsorted(drawn, told, side="left")) / (len(drawn) + 1.0)
-    beyond = n_tail / len(drawn) * np.exp(-(told - edge) / max(float(np.mean(tail) - edge), 1e-12))
+    beyond = n_beyond / len(drawn) * np.exp(-(told - edge) / max(excess, 1e-12))
     return np.where(told > edge, beyond, counted)
 
 
