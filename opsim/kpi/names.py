@@ -1,5 +1,7 @@
 """Names of the figures a scenario may list under ``outputs``; apart, so that reading a scenario needs no numpy."""
 
+from collections.abc import Iterable
+
 USUAL = (
     "throughput_per_h",
     "throughput_per_calendar_h",
@@ -16,6 +18,17 @@ USUAL = (
 )
 """What stands in front where a scenario names no outputs."""
 
+POSTURE = (
+    "trunk_beyond_60_min_per_h",
+    "trunk_beyond_20_min_per_h",
+    "trunk_flexion_mean_deg",
+    "trunk_flexion_p95_deg",
+    "trunk_flexion_share",
+    "posture_measured_share",
+)
+"""What needs the postures behind the work. They are made only where one is asked for, as decoding takes longer than a
+run; and how much of the work was measured then stands beside what was asked for."""
+
 KPIS = (
     *USUAL,
     "time_in_system_quantile_s",
@@ -31,4 +44,16 @@ KPIS = (
     "oee_factor",
     "active_period_s",
     "bottleneck",
+    *POSTURE,
 )
+
+
+def needs_postures(asked: Iterable[str]) -> bool:
+    """Whether any of some figures is one of ``POSTURE``."""
+    return not set(POSTURE).isdisjoint(asked)
+
+
+def headline(outputs: Iterable[str]) -> set[str]:
+    """What stands in front where these outputs are asked for."""
+    asked = set(outputs)
+    return asked | {"posture_measured_share"} if needs_postures(asked) else asked

@@ -1,5 +1,7 @@
 """All figures of a replication, and the samples behind the histograms."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from opsim.kpi.active import active_time
@@ -8,7 +10,9 @@ from opsim.kpi.bottleneck import bottleneck
 from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
+from opsim.kpi.names import needs_postures
 from opsim.kpi.oee import oee
+from opsim.kpi.posture import trunk_flexion
 from opsim.kpi.states import station_states, worker_states
 from opsim.kpi.takt import takt
 from opsim.kpi.walking import walked
@@ -33,9 +37,13 @@ _FUNCTIONS = (
 )
 
 
-def figures(log: EventLog, plan: Plan) -> list[Figure]:
-    """Every figure this log has, in one fixed order."""
-    return [figure._replace(value=float(figure.value)) for function in _FUNCTIONS for figure in function(log, plan)]
+def figures(log: EventLog, plan: Plan, asked: Iterable[str] = ()) -> list[Figure]:
+    """Every figure this log has, in one fixed order; those that need postures only where one of them is asked for.
+
+    Raises ValueError where a task's postures cannot be had.
+    """
+    functions = (*_FUNCTIONS, trunk_flexion) if needs_postures(asked) else _FUNCTIONS
+    return [figure._replace(value=float(figure.value)) for function in functions for figure in function(log, plan)]
 
 
 def samples(log: EventLog, plan: Plan) -> dict[tuple[str, str], np.ndarray]:

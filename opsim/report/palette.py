@@ -16,6 +16,11 @@ STATES = {
     "off": ("#bcbcbc", "#111111"),
     "wait": ("#dde1e6", "#111111"),
     "starved": ("#eceff2", "#111111"),
+    "below_20": ("#8CC5E3", "#111111"),
+    "from_20_to_60": ("#F0A830", "#111111"),
+    "beyond_60": ("#B0410B", "#ffffff"),
+    "unmeasured": ("#9AA1A9", "#111111"),
+    "not_at_work": ("#edf0f3", "#111111"),
 }
 OTHER = ("#999999", "#111111")
 
@@ -25,6 +30,11 @@ WORDS = {
     "starved": "no job",
     "blocked": "blocked by the next buffer",
     "held": "held by a blocked job",
+    "below_20": "trunk flexed less than 20°",
+    "from_20_to_60": "20° to 60°",
+    "beyond_60": "60° or more",
+    "unmeasured": "at work, posture not known",
+    "not_at_work": "walking or waiting, not measured",
 }
 
 ACCENT, INK, MUTED, GRID = "#0072B2", "#22262b", "#5c6570", "#e3e6ea"

@@ -32,6 +32,12 @@ NAMES = {
     "oee_factor": "Factors of OEE",
     "active_period_s": "Active period of the station",
     "bottleneck": "Time as the bottleneck",
+    "trunk_beyond_60_min_per_h": "Trunk flexed 60° or more",
+    "trunk_beyond_20_min_per_h": "Trunk flexed 20° or more",
+    "trunk_flexion_mean_deg": "Trunk flexion at work, mean",
+    "trunk_flexion_p95_deg": "Trunk flexion at work, 95th percentile",
+    "trunk_flexion_share": "Time by trunk flexion",
+    "posture_measured_share": "Work whose posture is known",
 }
 ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_s", "_m", "_kg", "_j", "_share")
 ABSENT = "\N{EN DASH}"
@@ -77,7 +83,7 @@ def scale_of(unit: str, value: float | None) -> tuple[float, str]:
         return 1 / 60, "min"
     if unit == "m" and size >= 2000:
         return 1 / 1000, "km"
-    return 1.0, {"1/h": "per hour", "1": ""}.get(unit, unit)
+    return 1.0, {"1/h": "per hour", "deg": "°", "1": ""}.get(unit, unit)
 
 
 def quantity(value: float | None, unit: str, half_width: float | None = None) -> str:

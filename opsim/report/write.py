@@ -11,6 +11,7 @@ from typing import Any
 from opsim.provenance import behind
 from opsim.report import figures
 from opsim.report.offline import asset, policy, template
+from opsim.report.posture import SHARES, posture_section
 from opsim.report.sentence import sentences
 from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
 from opsim.whole import write_text
@@ -47,6 +48,7 @@ def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips:
         "headline": _table([row for row in summary["kpis"] if _is_headline(row)]),
         "others": _groups([row for row in summary["kpis"] if not _is_headline(row)]),
         "states": _states(summary, drawn),
+        "posture": posture_section(summary["kpis"], drawn),
         "histograms": _histograms(summary, drawn),
         "emulated": _emulated(summary.get("tasks", []), strips),
         "made_up": [task for task in summary.get("tasks", []) if not task.get("emulated")],
@@ -63,7 +65,7 @@ def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips:
 
 
 def _is_headline(row: Mapping[str, Any]) -> bool:
-    return bool(row.get("headline")) and row["kpi"] not in STATE_KPIS
+    return bool(row.get("headline")) and row["kpi"] not in (*STATE_KPIS, SHARES)
 
 
 def _table(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:

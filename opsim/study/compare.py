@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from opsim.kpi.names import POSTURE
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
@@ -156,9 +157,16 @@ def _check(results: Mapping[str, Result], base: str) -> None:
         raise NotComparable(f"pairs need the same random numbers: {said}; run all variants with one seed")
 
 
+def _remedy(kpi: str, names: set[str]) -> str:
+    """What to do about a figure that is not there: some are made only where the scenario asks for them."""
+    if kpi in POSTURE:
+        return "it is made where the scenario's 'outputs' list it: add it there, and run again"
+    return did_you_mean(kpi, names)
+
+
 def _keys(base: Result, keys: list[Key], kpis: Sequence[str]) -> list[Key]:
     names = {key[0] for key in keys}
-    unknown = [f"no figure {kpi!r}; {did_you_mean(kpi, names)}" for kpi in kpis if kpi not in names]
+    unknown = [f"no figure {kpi!r}; {_remedy(kpi, names)}" for kpi in kpis if kpi not in names]
     if unknown:
         raise NotComparable("\n".join(unknown))
     if kpis:

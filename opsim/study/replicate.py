@@ -20,6 +20,8 @@ Progress = Callable[[int, int], None]
 
 WORTH_A_POOL_S = 4.0
 """Processes cost about two seconds to start: below this much work left, one process is sooner done."""
+LOADING_S = 3.0
+"""The first replication may also load compiled code for so long: if it took less, a second one is timed too."""
 MOST_SAMPLES = 20_000
 """Values kept of each sample for histograms; more are thinned evenly."""
 
@@ -52,16 +54,19 @@ def replicate(
     made_from: str = "",
     processes: int | None = None,
     progress: Progress | None = None,
+    outputs: Sequence[str] = (),
 ) -> list[Replicated]:
     """Run replications first .. n-1; each one's events file is whole as soon as it is there, and is not run again.
 
     made_from : names the run; an events file of another one, or one that cannot be read, is made anew
     processes : None takes one, and all cores where the work left is worth it
+    outputs   : figures that are asked for, since some are made only then
     Raises BrokenLog where a log contradicts itself, ProcessLost where a process is killed, OSError where a file cannot
     be written. Whatever stops it, Ctrl-C too, what is finished is kept.
     """
     done: list[Replicated] = []
-    with closing(_results(make_plan, range(first, replications), folder, made_from, processes)) as results:
+    runner = partial(_runner, make_plan, folder, made_from, tuple(outputs))
+    with closing(_results(runner, range(first, replications), processes)) as results:
         for result in results:
             done.append(result)
             if progress is not None:
@@ -69,7 +74,7 @@ def replicate(
     return sorted(done, key=lambda result: result.replication)
 
 
-def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "") -> Replicated:
+def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "", outputs: Sequence[str] = ()) -> Replicated:
     """One replication: run, audited, written; or read, where its file is there already and is the one asked for."""
     from opsim.engine.simpy_engine import run_plan
     from opsim.laws import audit
@@ -82,7 +87,7 @@ def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "") -> 
         audit(log, plan)
         write_events(log, path, made_from)
     kept = {key: _thinned(values) for key, values in samples(log, plan).items()}
-    return Replicated(replication, figures(log, plan), kept, locked(log, plan))
+    return Replicated(replication, figures(log, plan, outputs), kept, locked(log, plan))
 
 
 def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> EventLog | None:
@@ -99,25 +104,29 @@ def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> Event
 
 
 def _results(
-    make_plan: MakePlan, replications: Sequence[int], folder: Path, made_from: str, processes: int | None
+    runner: Callable[[], Callable[[int], Replicated]], replications: Sequence[int], processes: int | None
 ) -> Generator[Replicated, None, None]:
-    run = _runner(make_plan, folder, made_from)
+    run = runner()
     left = list(replications)
-    if processes is None and left:
+    took_s: list[float] = []
+    while processes is None and left:
         started = time.perf_counter()
         yield run(left.pop(0))
-        worth = (time.perf_counter() - started) * len(left) > WORTH_A_POOL_S
-        processes = (os.cpu_count() or 1) if worth else 1
+        took_s.append(time.perf_counter() - started)
+        if min(took_s) * len(left) <= WORTH_A_POOL_S:
+            processes = 1
+        elif len(took_s) == 2 or took_s[0] > LOADING_S:
+            processes = os.cpu_count() or 1
     processes = min(processes or 1, len(left))
     if processes > 1:
-        yield from pooled(partial(_runner, make_plan, folder, made_from), left, processes)
+        yield from pooled(runner, left, processes)
     else:
         yield from (run(replication) for replication in left)
 
 
-def _runner(make_plan: MakePlan, folder: Path, made_from: str) -> Callable[[int], Replicated]:
+def _runner(make_plan: MakePlan, folder: Path, made_from: str, outputs: tuple[str, ...]) -> Callable[[int], Replicated]:
     plan = make_plan()
-    return lambda replication: run_one(plan, replication, folder, made_from)
+    return lambda replication: run_one(plan, replication, folder, made_from, outputs)
 
 
 def _thinned(values: np.ndarray) -> np.ndarray:

@@ -29,7 +29,7 @@ def run_scenario(
         replications than are finished: the results are of the first ones, the other rows stay for later
     precision : run as many replications as these figures need, at least 10 and at most ``replications`` (or 1,000)
     Raises OtherRun where the folder holds another run, OSError where it cannot be written, BrokenLog where a run
-    contradicts itself, ProcessLost where a process is killed.
+    contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
     """
     from opsim.study.folder import open_folder, say_replications
     from opsim.study.manifest import digest
@@ -41,11 +41,19 @@ def run_scenario(
     own = MOST if precision else loaded.scenario.run.replications
     n = own if replications is None else replications
     manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
+    outputs = (*loaded.scenario.outputs, *(one.kpi for one in precision))
 
     def run(first: int, upto: int) -> list[Replicated]:
         made_from = digest(manifest)
         return replicate(
-            make_plan, upto, folder, first=first, made_from=made_from, processes=processes, progress=progress
+            make_plan,
+            upto,
+            folder,
+            first=first,
+            made_from=made_from,
+            processes=processes,
+            progress=progress,
+            outputs=outputs,
         )
 
     done, reached = replicate_until(precision, n, run) if precision else (run(0, n), [])

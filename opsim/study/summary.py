@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from opsim import __version__
+from opsim.kpi.names import headline, needs_postures
 from opsim.laws import CHECKS
 from opsim.log_store import parquet_file
 from opsim.plan import Plan
-from opsim.study.assumptions import NOTHING_ASKED, Asked, assumptions_of
+from opsim.study.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
 from opsim.study.interval import CONFIDENCE, t_interval
+from opsim.study.posture_words import posture_assumptions
 from opsim.study.precision import Reached
 from opsim.study.replicate import Replicated
 from opsim.study.sources import task_sources
@@ -41,13 +43,18 @@ def summary_of(
         ],
         "start": loaded.scenario.run.start,
         "window_s": list(plan.window_s),
-        "kpis": _intervals(done, set(loaded.scenario.outputs)),
+        "kpis": _intervals(done, headline(loaded.scenario.outputs)),
         "distributions": _distributions(done),
         "tasks": task_sources(loaded, plan),
-        "assumptions": [{"topic": topic, "says": says} for topic, says in assumptions_of(loaded, plan, asked)],
+        "assumptions": [{"topic": topic, "says": says} for topic, says in _assumptions(loaded, plan, done, asked)],
         "checks": list(CHECKS),
-        "warnings": warnings_of(done),
+        "warnings": warnings_of(done, plan),
     }
+
+
+def _assumptions(loaded, plan: Plan, done: Sequence[Replicated], asked: Asked) -> list[Assumption]:
+    measured = done and needs_postures(figure.kpi for figure in done[0].figures)
+    return [*assumptions_of(loaded, plan, asked), *(posture_assumptions(plan) if measured else ())]
 
 
 def write_kpis(done: Sequence[Replicated], path: Path) -> None:
@@ -68,12 +75,12 @@ def _as_object(column: np.ndarray) -> np.ndarray:
     return column.astype(object) if column.dtype.kind == "U" else column
 
 
-def _intervals(done: Sequence[Replicated], headline: set[str]) -> list[dict]:
+def _intervals(done: Sequence[Replicated], in_front: set[str]) -> list[dict]:
     values: dict[tuple[str, str, str, str], list[float]] = {}
     for result in done:
         for *key, value in result.figures:
             values.setdefault(tuple(key), []).append(value)  # type: ignore[arg-type]
-    return [_row(key, found, key[0] in headline) for key, found in values.items()]
+    return [_row(key, found, key[0] in in_front) for key, found in values.items()]
 
 
 def _row(key: tuple[str, str, str, str], values: list[float], headline: bool) -> dict:

@@ -92,7 +92,7 @@ def test_states_sum_to_one(text):
 
 def test_every_name_a_scenario_may_ask_for_is_computed():
     p = plan(CELL)
-    assert {figure.kpi for figure in figures(run_plan(p), p)} == set(KPIS)
+    assert {figure.kpi for figure in figures(run_plan(p), p, KPIS)} == set(KPIS)
 
 
 def test_samples_average_to_their_figures():

@@ -1,0 +1,46 @@
+"""How bent people worked: a bar a worker, and the sentence above it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from opsim.report import figures
+from opsim.report.sentence import find, with_interval
+from opsim.report.words import is_number, quantity
+
+SHARES = "trunk_flexion_share"
+Row = Mapping[str, Any]
+
+
+def posture_section(rows: Sequence[Row], drawn: dict[str, Any]) -> dict[str, Any] | None:
+    """What the page says of trunks, its figure added to ``drawn``; None where the run's postures were not asked for."""
+    shares = [row for row in rows if row["kpi"] == SHARES and row["subject"]]
+    if not shares:
+        return None
+    drawn[SHARES] = figures.states(shares)
+    said = "; ".join(f"{row['subject']} {row['part']} {quantity(row['mean'], 'share')}" for row in shares)
+    return {"id": SHARES, "legend": figures.legend(shares), "words": said, "sentences": _sentences(rows)}
+
+
+def _sentences(rows: Sequence[Row]) -> list[str]:
+    """Who worked most bent, and how much of the work has a known posture."""
+    measured = find(rows, "posture_measured_share")
+    if measured is None or measured["mean"] == 0:
+        return ["No task that was worked on has a body: nothing is known of how bent people worked."]
+    known = f"{with_interval(measured)} of the time at work has a known posture."
+    if measured["mean"] < 1:
+        known += " Nobody knows how bent the rest was (grey), so that minutes at an angle are at least these."
+    return [text for text in (_most(rows, 60), _most(rows, 20), known) if text]
+
+
+def _most(rows: Sequence[Row], limit: int) -> str:
+    kpi = f"trunk_beyond_{limit}_min_per_h"
+    people = [row for row in rows if row["kpi"] == kpi and row["subject"] and is_number(row["mean"])]
+    top = max(people, key=lambda row: row["mean"], default=None)
+    if top is None:
+        return ""
+    if top["mean"] == 0:
+        return f"Trunk flexed {limit}° or more: seen of nobody."
+    said = with_interval(top).replace(" min/h", " minutes of each hour")
+    return f"Trunk flexed {limit}° or more: {top['subject']} for longest, {said}."

@@ -1,0 +1,49 @@
+"""What measuring postures costs: an assembly line of eight hours, every performance drawn and decoded again."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from bench.cpu import best_s
+
+from opsim.engine.simpy_engine import run_plan
+from opsim.ergonomics import trunk_exposure
+from opsim.kpi.values import inside_s
+from opsim.log import WORK
+from opsim.plan import compile_plan
+from opsim.scenario import read_scenarios
+from opsim.study.posture_words import _has_body
+
+MOST_S_PER_1000, FASTER_THAN_WORK, MOST_MB = 0.2, 10_000, 64
+
+
+@pytest.fixture(scope="module")
+def day():
+    """Plan, log, its performances of workers, and how long those were at it in the window."""
+    plan = compile_plan(read_scenarios("pump_assembly")["base"])
+    log = run_plan(plan)
+    rows = np.flatnonzero((log["kind"] == WORK) & (log["worker"] >= 0))
+    worked_s = inside_s(log, rows, plan)
+    return plan, log, np.count_nonzero(worked_s), worked_s.sum()
+
+
+def test_exposure_is_measured_many_times_faster_than_the_work_is_done(day):
+    plan, log, n, worked_s = day
+    found = trunk_exposure(log, plan).together()
+    assert all(_has_body(task) for task in plan.tasks if not task.automatic)
+    assert found.measured_s[0] == pytest.approx(worked_s) and found.unmeasured_s[0] == 0
+    spent_s = best_s(lambda: trunk_exposure(log, plan), rounds=3)[0]
+    print(
+        f"\n{n} performances, {spent_s / n * 1000:.3f} s per 1,000; {worked_s / spent_s:,.0f} times as fast as the work"
+    )
+    assert spent_s / n * 1000 < MOST_S_PER_1000 and worked_s / spent_s > FASTER_THAN_WORK
+
+
+def test_exposure_holds_little_at_a_time(day):
+    plan, log, *_ = day
+    tracemalloc.start()
+    trunk_exposure(log, plan)
+    peak_mb = tracemalloc.get_traced_memory()[1] / 2**20
+    tracemalloc.stop()
+    print(f"\npeak {peak_mb:.0f} MB (target {MOST_MB})")
+    assert peak_mb < MOST_MB
