@@ -38,6 +38,12 @@ def library_tasks(path: Path) -> list[str]:
     return list(_tasks(path, status.st_mtime_ns, status.st_size))
 
 
+def library_people(path: Path) -> dict[str, tuple[str, ...]]:
+    """Names of the people each task was learned from, from the library's header alone. Raises LibraryMissing."""
+    status = path.stat()
+    return {task: _people(plain) for task, plain in _tasks(path, status.st_mtime_ns, status.st_size).items()}
+
+
 def load_library(path: Path) -> Any:
     """The library itself; ``library[task]`` is a TaskModel. Read once for as long as the file does not change."""
     status = path.stat()
@@ -52,15 +58,24 @@ def _library(path: Path, _changed: int, _size: int) -> Any:
 
 
 @lru_cache(maxsize=64)
-def _tasks(path: Path, _changed: int, _size: int) -> tuple[str, ...]:
+def _tasks(path: Path, _changed: int, _size: int) -> dict[str, Any]:
+    """What the header says of each task."""
     from emulator.library import read_header
 
     try:
-        return tuple(read_header(path)["tasks"])
+        tasks = read_header(path)["tasks"]
     except (OSError, ValueError) as error:
         raise LibraryMissing(str(error).removeprefix(f"{path.parent}/")) from None
     except (KeyError, TypeError):
-        raise LibraryMissing(f"{path.name}: a motion library without a list of tasks") from None
+        tasks = None
+    if not isinstance(tasks, dict):
+        raise LibraryMissing(f"{path.name}: a motion library without a list of tasks")
+    return tasks
+
+
+def _people(plain: Any) -> tuple[str, ...]:
+    named = plain.get("workers") if isinstance(plain, dict) else None
+    return tuple(str(name) for name in named) if isinstance(named, list) else ()
 
 
 def _libraries_below(folder: Path) -> list[Path]:

@@ -36,7 +36,7 @@ class Bodies(Performances, Protocol):
     """Performances that have bodies: what a motion emulator gives beyond the times."""
 
     def directions(self, *args: Any, **kwargs: Any) -> np.ndarray:
-        """(n, T, B, 3) unit vectors of the bones."""
+        """(n, T, B, 3) unit vectors of the bones, at ``times_s`` (T,) or (n, T) or at ``n_times`` even points."""
 
     def positions_m(self, *args: Any, **kwargs: Any) -> np.ndarray:
         """(n, T, J, 3) joints in metres, z up, floor at 0."""

@@ -43,7 +43,8 @@ class Worker:
               the path of a motion library or the name of a shipped one; a MotionLibrary is such a mapping
     workforce : number that decides who the worker is; pass the replication to have other people in each
     rating  : 1.1 means that every duration is divided by 1.1
-    body    : what is known of the body: something with ``height_m`` and ``mass_kg`` (attributes or keys), or None
+    body    : what is known of the body: something with any of ``height_m``, ``mass_kg``, ``age_years``, ``sex``,
+              ``pace`` and ``person``, the name of a recorded one (attributes or keys), or None
     log     : the WorkerLog to write into; each worker has one of its own otherwise, found as ``worker.log``
     turns   : a plain ``simpy.Resource`` of capacity 1 for models in which several processes want the same worker
 
@@ -67,7 +68,8 @@ class Worker:
         self.env, self.name, self.rating = env, name, rating
         self.log = log_or_new(name, log)
         self.turns = simpy.Resource(env, capacity=1)
-        self._luck = OwnLuck(name, task_models(tasks), seed, replication, workforce, known_body(name, body))
+        models = task_models(tasks)
+        self._luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models))
         self._next_k = dict.fromkeys(self._luck.models, 0)
         self._doing: Performance | None = None
         self._halted: dict[tuple[str, int], Performance] = {}

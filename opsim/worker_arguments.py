@@ -9,6 +9,7 @@ from typing import Any
 
 import simpy
 
+from opsim.bodies import BODY_KEYS, BODY_RANGES
 from opsim.problems import did_you_mean, shown
 from opsim.worker_log import WorkerLog
 
@@ -35,27 +36,35 @@ def log_or_new(name: str, log: Any) -> WorkerLog:
     return log
 
 
-def known_body(name: str, body: Any) -> Any:
+def known_body(name: str, body: Any, models: Mapping[str, Any]) -> Any:
     """The body as it was given, where it says something that is read. Raises TypeError or ValueError."""
-    known = ("height_m", "mass_kg")
-    said = list(body) if isinstance(body, Mapping) else [key for key in known if hasattr(body, key)]
+    said = list(body) if isinstance(body, Mapping) else [key for key in BODY_KEYS if hasattr(body, key)]
     if body is not None and not said:
-        raise TypeError(f"worker {name}: body must have height_m or mass_kg, found {shown(body)}")
+        raise TypeError(f"worker {name}: body must have one of {', '.join(BODY_KEYS)}, found {shown(body)}")
     for key in said:
-        if key not in known:
-            raise ValueError(f"worker {name}: body: no {shown(key)}; {did_you_mean(key, known)}")
-        _plausible(name, key, body[key] if isinstance(body, Mapping) else getattr(body, key))
+        if key not in BODY_KEYS:
+            raise ValueError(f"worker {name}: body: no {shown(key)}; {did_you_mean(key, BODY_KEYS)}")
+        value = body[key] if isinstance(body, Mapping) else getattr(body, key)
+        if value is not None:
+            _plausible(name, key, value, models)
     return body
 
 
-_BODIES = {"height_m": (0.5, 2.6), "mass_kg": (20.0, 400.0)}
-"""What people are; the same as a scenario allows."""
+def _plausible(name: str, key: str, value: Any, models: Mapping[str, Any]) -> None:
+    if key in BODY_RANGES:
+        _number(name, key, value, *BODY_RANGES[key])
+    elif not isinstance(value, str):
+        raise TypeError(f"worker {name}: body: {key} must be text, found {shown(value)}")
+    elif key == "person":
+        people = {one for model in models.values() for one in getattr(model, "workers", ())}
+        if value not in people:
+            hint = did_you_mean(value, people, otherwise="recorded") or "none of them is emulated"
+            raise ValueError(f"worker {name}: body: no person {shown(value)} was recorded in these tasks; {hint}")
+    elif value not in ("f", "m"):
+        raise ValueError(f"worker {name}: body: sex must be 'f' or 'm', found {shown(value)}")
 
 
-def _plausible(name: str, key: str, value: Any) -> None:
-    low, high = _BODIES[key]
-    if value is None:
-        return
+def _number(name: str, key: str, value: Any, low: float, high: float) -> None:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"worker {name}: body: {key} must be a number, found {shown(value)}")
     if not low <= float(value) <= high:

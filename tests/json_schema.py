@@ -28,9 +28,13 @@ def fine(value, schema, root):
 
 
 def _type(value, wanted, schema, root, path):
-    good = isinstance(value, TYPES[wanted]) and not (isinstance(value, bool) and wanted in ("integer", "number"))
-    if not good:
-        yield f"{path}: not a {wanted}"
+    kinds = wanted if isinstance(wanted, list) else [wanted]
+    if not any(_is_a(value, kind) for kind in kinds):
+        yield f"{path}: not a {' or '.join(kinds)}"
+
+
+def _is_a(value, kind):
+    return isinstance(value, TYPES[kind]) and not (isinstance(value, bool) and kind in ("integer", "number"))
 
 
 def _properties(value, wanted, schema, root, path):

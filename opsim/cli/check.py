@@ -38,12 +38,17 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
 def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], dict[str, list[str]]]:
     """By variant: the load of each station, and what may go wrong."""
     from opsim.plan import compile_plan, station_loads
+    from opsim.plan.unread import unread
     from opsim.scenario import read_scenarios
     from opsim.scenario.risks import risks_of
 
     loaded = read_scenarios(file, list(names) or None)
-    loads = {name: station_loads(compile_plan(variant)) for name, variant in loaded.items()}
-    return loads, {name: [*_too_much(loads[name]), *risks_of(variant.scenario)] for name, variant in loaded.items()}
+    loads, warnings = {}, {}
+    for name, variant in loaded.items():
+        plan = compile_plan(variant)
+        loads[name] = station_loads(plan)
+        warnings[name] = [*_too_much(loads[name]), *risks_of(variant.scenario), *unread(plan)]
+    return loads, warnings
 
 
 def _too_much(loads: list[Any]) -> list[str]:

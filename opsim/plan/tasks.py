@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from opsim.names import natural_key
 from opsim.task import TaskModel
+from opsim.tasks.switched import switched
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,8 +22,8 @@ class TaskPlan:
 
 
 def plan_tasks(scenario, model_of) -> tuple[TaskPlan, ...]:
-    """Tasks in natural order; ``model_of(task)`` finds the model of a scenario's task."""
+    """Tasks in natural order; ``model_of(task)`` finds a task's model, which the run's variability may switch."""
     return tuple(
-        TaskPlan(name, model_of(task), task.repeat, task.automatic)
+        TaskPlan(name, switched(model_of(task), scenario.run.variability), task.repeat, task.automatic)
         for name, task in sorted(scenario.tasks.items(), key=lambda item: natural_key(item[0]))
     )

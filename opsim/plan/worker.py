@@ -2,15 +2,25 @@
 
 from dataclasses import dataclass
 
+from opsim.bodies import BODY_KEYS
 from opsim.names import natural_key
 
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """What is known of a worker's body; None where it was not measured."""
+    """What is known of a worker's body, by the names of ``opsim.bodies.BODY_KEYS``; None where it is not known."""
 
-    height_m: float | None
-    mass_kg: float | None
+    height_m: float | None = None
+    mass_kg: float | None = None
+    age_years: float | None = None
+    sex: str | None = None
+    pace: float | None = None
+    person: str | None = None
+
+    @property
+    def said(self) -> tuple[str, ...]:
+        """The names of what is known."""
+        return tuple(key for key in BODY_KEYS if getattr(self, key) is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +47,7 @@ def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tup
             places[start_place(worker, scenario)],
             worker.walk_m_per_s,
             _ratings(worker, ranks),
-            Body(worker.height_m, worker.mass_kg),
+            Body(**{key: getattr(worker, key) for key in BODY_KEYS}),
             tuple(ranks[name] for name in worker.patrol or ()),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from opsim import units
+from opsim.bodies import BODY_RANGES
 from opsim.clock import LONGEST_S, STEP_S
 from opsim.problems import shown
 
@@ -56,6 +57,20 @@ def _as_text(kind: str) -> WithJsonSchema:
     )
 
 
+_YEARS = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*years?\s*")
+
+
+def _age_years(value: object) -> float:
+    low, high = BODY_RANGES["age_years"]
+    match = _YEARS.fullmatch(value) if isinstance(value, str) else None
+    number = float(match[1]) if match is not None else value
+    if isinstance(number, bool) or not isinstance(number, int | float):
+        raise plain_error(f"expected an age in years, found {shown(value)}", "such as 41, or '41 years'")
+    if not low <= number <= high:
+        raise plain_error(f"must be from {low:g} to {high:g} years, found {shown(value)}")
+    return float(number)
+
+
 def _name_text(value: object) -> object:
     if isinstance(value, int | float):
         raise plain_error(f"expected a name, found {shown(value)}", f"write it in quotes: '{shown(value)}'")
@@ -87,6 +102,16 @@ def _whole(value: object) -> object:
     return value
 
 
+def _body(kind: str, key: str) -> BeforeValidator:
+    return _quantity(kind, at_least=BODY_RANGES[key][0], at_most=BODY_RANGES[key][1])
+
+
+_AGE = {
+    "anyOf": [
+        {"type": "number", "minimum": BODY_RANGES["age_years"][0], "maximum": BODY_RANGES["age_years"][1]},
+        {"type": "string", "pattern": f"^{_YEARS.pattern}$"},
+    ]
+}
 _CLOCK = "the clock goes in steps of 2^-20 s up to 2^33 s (272 years)"
 _WIDEST_M = 1e6
 
@@ -94,10 +119,13 @@ Seconds = Annotated[float, _quantity("time", above=0, at_least=STEP_S, at_most=L
 SecondsOrZero = Annotated[float, _quantity("time", at_least=0, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 Length = Annotated[float, _quantity("length", at_least=-_WIDEST_M, at_most=_WIDEST_M), _as_text("length")]
 PathLength = Annotated[float, _quantity("length", at_least=0, at_most=_WIDEST_M), _as_text("length")]
-Height = Annotated[float, _quantity("length", at_least=0.5, at_most=2.6), _as_text("length")]
+Height = Annotated[float, _body("length", "height_m"), _as_text("length")]
 Speed = Annotated[float, _quantity("speed", above=0, at_least=0.01, at_most=100), _as_text("speed")]
-Mass = Annotated[float, _quantity("mass", at_least=20, at_most=400), _as_text("mass")]
+Mass = Annotated[float, _body("mass", "mass_kg"), _as_text("mass")]
+Age = Annotated[float, BeforeValidator(_age_years), WithJsonSchema(_AGE)]
+Pace = Annotated[float, Field(ge=BODY_RANGES["pace"][0], le=BODY_RANGES["pace"][1])]
 Load = Annotated[float, _quantity("mass", at_least=0, at_most=10_000), _as_text("mass")]
+Rating = Annotated[float, Field(ge=0.01, le=10)]
 NameText = Annotated[str, BeforeValidator(_name_text)]
 Name = Annotated[str, AfterValidator(_good_name)]
 Whole = Annotated[int, BeforeValidator(_whole)]

@@ -30,11 +30,12 @@ def json_schema() -> Schema:
     definitions = schema["definitions"] = {name: {"title": name, **one} for name, one in definitions.items()}
     _sharpen(properties, definitions)
     full = {section: properties[section]["additionalProperties"] for section in SECTIONS}
-    for name in {_name_of(one) for entry in full.values() for one in entry.get("anyOf", [entry])}:
+    copied = {_name_of(one) for entry in full.values() for one in entry.get("anyOf", [entry])}
+    for name in (*copied, "Workforce"):
         definitions[name]["properties"]["like"] = {"type": "string", "description": "the entry that is copied"}
     needed = {section: _unless_like(_needed(entry, definitions)) for section, entry in full.items()}
     needed["products"] = _unless_like({"anyOf": [{"required": ["route"]}, {"required": ["routing"]}]})
-    for name in [name for name, one in definitions.items() if "like" in one["properties"]]:
+    for name in copied:
         definitions[name].pop("required", None)
     required = schema.pop("required")
     return {
@@ -97,9 +98,11 @@ def _sharpen(properties: Schema, definitions: Schema) -> None:
     buffer = station["buffer"]
     whole = {"type": buffer.pop("type"), "minimum": buffer.pop("ge"), "maximum": buffer.pop("le")}
     buffer["anyOf"] = [whole, {"const": "unlimited"}]
+    for people in ("Worker", "Workforce"):
+        definitions[people]["properties"]["skills"]["additionalProperties"]["type"] = ["number", "string"]
     ways = product["routing"]["additionalProperties"]
     product["routing"]["additionalProperties"] = {"anyOf": [{"type": "string"}, ways]}
-    for named in [properties[name] for name in (*SECTIONS, "libraries")] + [layout["places"]]:
+    for named in [properties[name] for name in (*SECTIONS, "libraries", "skill_levels")] + [layout["places"]]:
         named["propertyNames"] = {"pattern": NAME_PATTERN, "maxLength": 100}
     properties["outputs"]["items"] = {"enum": list(KPIS)}
 

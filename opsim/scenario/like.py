@@ -12,7 +12,8 @@ from opsim.scenario.merging import entry_over
 from opsim.scenario.positions import Node, entries, problem, text
 
 SECTIONS = ("tasks", "stations", "products", "workers")
-
+WORKFORCE = "workforce"
+"""One block of keys for many workers: like a worker, or on the defaults of workers."""
 
 MOST_COPIED = 1_000_000
 """Keys that likes and defaults may copy altogether: a chain of thousands could copy without end."""
@@ -26,6 +27,8 @@ def without_likes(root: Node) -> tuple[Node, list[Problem]]:
         if entries(root, section):
             filled = _filled(section, entries(root, section), entries(root, "defaults", section), problems)
             top = {**top, section: top[section].with_entries(filled)}
+    if entries(root, WORKFORCE):
+        top = {**top, WORKFORCE: _workforce(root, entries(top.get("workers")), problems)}
     return root.with_entries(top), problems
 
 
@@ -100,3 +103,15 @@ def _merged(section: str, node: Node, done: dict[str, Node], defaults: dict[str,
         return entry_over(section, defaults, node) if defaults else node
     own = node.with_entries({key: below for key, below in node.value.items() if key != "like"})
     return entry_over(section, entries(done.get(text(like) or "")), own)
+
+
+def _workforce(root: Node, workers: dict[str, Node], problems: list[Problem]) -> Node:
+    """The workforce on top of the worker it is like, but for the person he is, or of the defaults of workers."""
+    node = entries(root)[WORKFORCE]
+    like = entries(node).get("like")
+    if like is not None and (not isinstance(like.value, str) or like.value not in workers):
+        hint = did_you_mean(like.value, workers) or "there are no workers by name"
+        problems.append(problem(like.place, (WORKFORCE, "like"), f"no {shown(like.value)} among the workers", hint))
+    below = entries(root, "defaults", "workers") if like is None else entries(workers.get(text(like) or ""))
+    own = node.with_entries({key: one for key, one in entries(node).items() if key != "like"})
+    return entry_over("workers", {key: one for key, one in below.items() if key != "person"}, own)

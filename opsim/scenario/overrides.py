@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.like import SECTIONS
+from opsim.scenario.like import SECTIONS, WORKFORCE
 from opsim.scenario.positions import Node, child, entries, problem, text
 from opsim.scenario.schema import Scenario
 
@@ -62,12 +62,15 @@ def _check_step(node: Node, passed: tuple[str, ...], part: str) -> None:
 
 def _inherited(root: Node, node: Node, passed: tuple[str, ...], key: str) -> Node | None:
     """What the key says in the entry that this one is like, or in the defaults, so that a part of it can be changed."""
+    section = "workers" if passed == (WORKFORCE,) else passed[0] if len(passed) == 2 else ""
+    if section not in SECTIONS:
+        return None
     seen: set[str] = set()
-    other = text(node, "like") if len(passed) == 2 and passed[0] in SECTIONS else None
+    other = text(node, "like")
     while other is not None and other not in seen:
         seen.add(other)
-        copied = entries(root, passed[0], other)
+        copied = entries(root, section, other)
         if key in copied:
             return copied[key]
         other = copied["like"].value if "like" in copied and isinstance(copied["like"].value, str) else None
-    return child(root, "defaults", passed[0], key) if len(passed) == 2 and passed[0] in SECTIONS else None
+    return child(root, "defaults", section, key)

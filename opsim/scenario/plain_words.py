@@ -135,7 +135,7 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
     keys = [field.alias or name for name, field in model.model_fields.items()]
     if model is Scenario:
         return [*keys, "include", "defaults", "overrides", "scenarios"]
-    return [*keys, "like"] if loc and loc[0] in like.SECTIONS else keys
+    return [*keys, "like"] if loc and loc[0] in (*like.SECTIONS, like.WORKFORCE) else keys
 
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:

@@ -6,6 +6,7 @@ import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain, islice
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,9 @@ from opsim.scenario.overrides import applied
 from opsim.scenario.plain_words import schema_problems
 from opsim.scenario.positions import Node, Place, Source, problem, written_paths
 from opsim.scenario.schema import Scenario
+from opsim.scenario.skill_levels import with_ratings
 from opsim.scenario.variants import variants
+from opsim.scenario.workforce import with_workforce, without_workforce
 from opsim.scenario.yaml_nodes import Budget, read_tree
 from opsim.scenario.yaml_text import read_bytes
 from opsim.shipped import find_scenario
@@ -91,7 +94,8 @@ def scenarios_in(
         problems += found_here
         if scenario is not None:
             given = frozenset(written_paths(tree))
-            loaded[variant] = Loaded(scenario, variant, file, file.parent, given, tree.plain())
+            resolved = without_workforce(tree).plain()
+            loaded[variant] = Loaded(scenario, variant, file, file.parent, given, resolved)
     if problems:
         raise ScenarioError(sorted(_unheard(problems)))
     return loaded if names is None else _chosen(loaded, names, file)
@@ -110,6 +114,9 @@ def _as_override(changes: Mapping[str, str | int]) -> Node:
 def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Node, list[Problem]]:
     """A variant's scenario (None where the schema refuses it), its tree without likes, and its problems."""
     tree, problems = without_likes(tree)
+    for step in (with_ratings, partial(with_workforce, folder=folder)):
+        tree, more = step(tree)
+        problems += more
     scenario: Scenario | None = None
     schema_found: Iterator[Problem] = iter(())
     try:

@@ -6,13 +6,23 @@ from collections.abc import Iterator
 from itertools import pairwise, product
 
 from opsim.graph import reverse, rings
+from opsim.kpi.names import POSTURE
 from opsim.names import natural_key
 from opsim.scenario.schema import Scenario
 
 
 def risks_of(scenario: Scenario) -> list[str]:
     """Every warning in a sentence."""
-    return [*_locks(scenario), *_held(scenario), *_unused_patrols(scenario), *_unused_paths(scenario)]
+    parts = (_locks, _held, _unused_patrols, _unused_paths, _no_bodies)
+    return [risk for part in parts for risk in part(scenario)]
+
+
+def _no_bodies(scenario: Scenario) -> Iterator[str]:
+    """Postures are asked for, and every task is a time without a body; what a plug-in gives is not known here."""
+    asked = [name for name in scenario.outputs if name in POSTURE]
+    may_have = [task for task in scenario.tasks.values() if hasattr(task, "emulator") or hasattr(task, "plugin")]
+    if asked and not may_have:
+        yield f"outputs: {_and(asked)} made from postures, and no task has an emulator: nothing will be measured"
 
 
 def _unused_paths(scenario: Scenario) -> Iterator[str]:

@@ -8,6 +8,7 @@ from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, sho
 from opsim.scenario.fields import is_name, not_a_name
 from opsim.scenario.overrides import applied
 from opsim.scenario.positions import Node, entries, items, problem
+from opsim.scenario.schema.workers import MOST_WORKERS, Worker
 from opsim.scenario.yaml_nodes import Budget
 
 BASE = "base"
@@ -23,7 +24,7 @@ def variants(root: Node, budget: Budget | None = None) -> tuple[Node, dict[str, 
 
     Raises ScenarioError where there are so many, of so large a file, that reading them all would take minutes.
     """
-    _refuse_too_many(root, (budget or Budget()).n_nodes)
+    _refuse_too_many(root, (budget or Budget()).n_nodes + _n_drawn(root))
     problems = [*_wrong_shape(root, "overrides", "{near: {layout.places.rack: [6 m, 1 m]}}")]
     problems += _wrong_shape(root, "scenarios", "{base: [], near: [rack_near]}")
     base = root.with_entries({key: node for key, node in entries(root).items() if key not in _NOT_IN_A_VARIANT})
@@ -44,6 +45,13 @@ def variants(root: Node, budget: Budget | None = None) -> tuple[Node, dict[str, 
     for name in overrides.keys() - used:
         problems += applied(base, name, overrides[name])[1]
     return base, trees or {BASE: base}, problems
+
+
+def _n_drawn(root: Node) -> int:
+    """Values that the workers of a workforce may come to."""
+    overrides = [path for override in entries(root, "overrides").values() for path in entries(override)]
+    has_one = "workforce" in entries(root) or any(path.startswith("workforce") for path in overrides)
+    return MOST_WORKERS * len(Worker.model_fields) if has_one else 0
 
 
 def _refuse_too_many(root: Node, n_nodes: int) -> None:

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from opsim.names import listed
 from opsim.plan import Plan
-from opsim.plan.worker import start_place
 from opsim.provenance import behind, fit_report
-from opsim.streams import stream
+from opsim.study.people import people
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +25,23 @@ Assumption = tuple[str, str]
 
 def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
-    lines = [line for part in (_times, _people, _flow, _window) for line in part(loaded, plan)]
+    lines = [line for part in (_switched, _times, people, _flow, _window) for line in part(loaded, plan)]
     return [*lines, *_run(loaded, asked)]
+
+
+_SWITCHED = {
+    "within_only": "every worker has the same mean time for a task, and his own spread about it",
+    "between_only": "a worker takes the same time whenever he does a task: his own mean",
+    "none": "a task takes the same time whoever does it: its mean",
+    "shuffled": "times are as they were drawn, each with the body of another performance by somebody else: posture and "
+    "time of a performance know nothing of each other",
+}
+
+
+def _switched(loaded, plan: Plan) -> Iterator[Assumption]:
+    variability = loaded.scenario.run.variability
+    if variability != "full":
+        yield "variability", f"{variability}: {_SWITCHED[variability]}; arrivals and ways are drawn as ever"
 
 
 def _times(loaded, plan: Plan) -> Iterator[Assumption]:
@@ -35,7 +50,7 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
         task.name for task in plan.tasks if hasattr(tasks[task.name], "dist") or hasattr(tasks[task.name], "fixed_s")
     ]
     if made_up:
-        yield "task times", f"{_list(made_up)}: from the scenario, not from recordings; no posture is known for them"
+        yield "task times", f"{listed(made_up)}: from the scenario, not from recordings; no posture is known for them"
     for task in plan.tasks:
         if hasattr(tasks[task.name], "emulator"):
             report = fit_report(task.model)
@@ -48,39 +63,11 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
     if repeated:
         yield (
             "task times",
-            f"{_list(repeated)}: one performance follows the other without a pause, each a draw of its own",
+            f"{listed(repeated)}: one performance follows the other without a pause, each a draw of its own",
         )
     loads = [name for name, task in tasks.items() if task.load_kg is not None]
     if loads:
-        yield "loads", f"{_list(loads)}: the load is kept with the task; it does not change pace or posture"
-
-
-def _people(loaded, plan: Plan) -> Iterator[Assumption]:
-    workers = loaded.scenario.workers
-    if not workers:
-        yield "workers", "none: every task is automatic"
-        return
-    if any(worker.height_m is not None or worker.mass_kg is not None for worker in workers.values()):
-        yield "bodies", "height and mass are kept with the worker; they do not change pace or posture"
-    walkers = [worker.name for worker in plan.workers if _walks(plan, worker)]
-    default_walk = [name for name in walkers if f"workers.{name}.walk" not in loaded.given]
-    if default_walk:
-        yield (
-            "walking",
-            f"{_list(default_walk)}: walking speed not given, {workers[default_walk[0]].walk_m_per_s:g} m/s assumed",
-        )
-    homeless = [
-        f"{name} at {start_place(workers[name], loaded.scenario)}" for name in walkers if workers[name].home is None
-    ]
-    if homeless:
-        yield "walking", f"at t = 0 stand {_list(homeless)} (first of their stations by name)"
-    yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
-    if any(_differ(task) for task in plan.tasks):
-        people = {
-            "fixed": "the same people work in every replication: a worker's own pace is drawn once for the study",
-            "redrawn": "other people work in each replication: every worker's own pace is drawn anew",
-        }
-        yield "workers", people[plan.staffing]
+        yield "loads", f"{listed(loads)}: the load is kept with the task; it does not change pace or posture"
 
 
 _IDLE = {
@@ -95,8 +82,9 @@ def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
     if carried:
         yield (
             "transport",
-            f"whoever did the last task at a station carries {_list(carried)} to the next at walking speed, unhampered "
-            "by the load, and waits with it while that is full; after an automatic task it passes without time",
+            f"whoever did the last task at a station carries {listed(carried)} to the next at walking speed, "
+            "unhampered by the load, and waits with it while that is full; after an automatic task it passes without "
+            "time",
         )
     if len(carried) < len(plan.products):
         yield "transport", f"{'other jobs' if carried else 'jobs'} pass between stations without time"
@@ -110,7 +98,7 @@ def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
         yield "allocation", f"idle workers {_IDLE[plan.idle]}"
     unlimited = [station.name for station in plan.stations if station.buffer == float("inf")]
     if unlimited:
-        yield "buffers", f"unlimited in front of {_list(unlimited)}"
+        yield "buffers", f"unlimited in front of {listed(unlimited)}"
     if plan.release.kind != "saturated":
         how = (
             "at random (Poisson)" if plan.release.kind == "poisson" else "with gaps of their own distribution (renewal)"
@@ -138,16 +126,3 @@ def _run(loaded, asked: Asked) -> Iterator[Assumption]:
         elif used is not None and not (in_file and used == own):
             instead = f"instead of the file's {own}" if in_file else "the file says nothing"
             yield "run", f"{name}: {used}, given with the call; {instead}"
-
-
-def _walks(plan: Plan, worker) -> bool:
-    return len({worker.place} | {plan.stations[rank].place for rank, rating in enumerate(worker.rating) if rating}) > 1
-
-
-def _differ(task) -> bool:
-    return task.model.draw_worker(stream(0, 0, "effect", "anybody", task.name, 0)) is not None
-
-
-def _list(words) -> str:
-    words = list(words)
-    return ", ".join(words) if len(words) <= 8 else ", ".join(words[:7]) + f" and {len(words) - 7} more"

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 
+from opsim.plan import Plan
+from opsim.plan.unread import unread
 from opsim.study.replicate import Replicated
 
 
-def warnings_of(done: Sequence[Replicated]) -> list[str]:
+def warnings_of(done: Sequence[Replicated], plan: Plan) -> list[str]:
     """Every warning in a sentence."""
-    return [*_locked(done)]
+    return [*_locked(done), *unread(plan)]
 
 
 def _locked(done: Sequence[Replicated]) -> Iterator[str]:

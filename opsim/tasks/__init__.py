@@ -1,4 +1,7 @@
-"""Times without a body: fixed, from a distribution, or recorded. Each satisfies the seam of ``opsim.task``."""
+"""Times without a body: fixed, from a distribution, or recorded; and switches of variability around any task model.
+
+Each satisfies the seam of ``opsim.task``.
+"""
 
 from opsim.tasks.bounded import Beta, Normal
 from opsim.tasks.model import SMALLEST_S, TimePerformances
@@ -6,6 +9,7 @@ from opsim.tasks.of_scenario import task_model, time_model
 from opsim.tasks.seen import Empirical, Recorded
 from opsim.tasks.shared import Gamma, Hyperexponential, Lognormal, Weibull
 from opsim.tasks.simple import Erlang, Exponential, Fixed, Triangular, Uniform
+from opsim.tasks.switched import switched
 
 __all__ = [
     "SMALLEST_S",
@@ -23,6 +27,7 @@ __all__ = [
     "Triangular",
     "Uniform",
     "Weibull",
+    "switched",
     "task_model",
     "time_model",
 ]

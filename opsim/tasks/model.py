@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from opsim.variability import log_variance, within_cv
 
@@ -61,6 +61,9 @@ class TimeModel:
 
     Raises TypeError or ValueError where a parameter is no time, no spread, no share or no count.
     """
+
+    body_keys: ClassVar[tuple[str, ...]] = ()
+    """Nothing of a worker's body is read."""
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():

@@ -2,7 +2,8 @@ import os
 
 import pytest
 
-from opsim.libraries import LibraryMissing, library_tasks, resolve_library
+from opsim.libraries import LibraryMissing, library_people, library_tasks, load_library, resolve_library
+from opsim.shipped import shipped_folder
 
 
 def test_the_scenario_s_folder_comes_before_the_shipped_one(tmp_path, monkeypatch):
@@ -45,3 +46,18 @@ def test_a_file_that_is_no_library_is_said_to_be_none(tmp_path):
     (tmp_path / "moves.npz").write_bytes(b"not a library")
     with pytest.raises(LibraryMissing, match=r"^moves\.npz: not a motion library"):
         library_tasks(tmp_path / "moves.npz")
+
+
+def test_the_people_of_a_library_stand_in_its_header():
+    people = library_people(resolve_library("libraries/public_movements.npz", shipped_folder()))
+    assert people["shoulder_scaption"] == ("s01", "s02", "s03", "s04", "s06")
+    assert (
+        people["deep_squat"] == load_library(shipped_folder() / "libraries/public_movements.npz")["deep_squat"].workers
+    )
+
+
+def test_a_task_whose_people_are_not_named_has_none(tmp_path, monkeypatch):
+    header = {"tasks": {"lift": {}, "carry": {"workers": "ana"}, "turn": ["ana"], "walk": {"workers": ["ana", 7]}}}
+    monkeypatch.setattr("emulator.library.read_header", lambda path: header)
+    (tmp_path / "moves.npz").write_bytes(b"")
+    assert library_people(tmp_path / "moves.npz") == {"lift": (), "carry": (), "turn": (), "walk": ("ana", "7")}

@@ -1,4 +1,5 @@
 import math
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +10,8 @@ from simpy.rt import RealtimeEnvironment
 from opsim import Worker, WorkerLog, run_plan
 from opsim.clock import on_grid
 from opsim.log import WORK
+from opsim.streams import stream
+from opsim.task_models import library_model
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, Recorded
 from opsim.worker import WorkerBusy
 from tests.plans import plan
@@ -330,7 +333,7 @@ SHORT = SimpleNamespace(
         ({"rating": -1.0}, ValueError, "rating must be a number above 0, found -1"),
         ({"rating": math.nan}, ValueError, "rating"),
         ({"rating": "1.1"}, ValueError, "rating must be a number above 0, found '1.1'"),
-        ({"body": 1.62}, TypeError, "body must have height_m or mass_kg"),
+        ({"body": 1.62}, TypeError, "body must have one of height_m, mass_kg"),
         ({"body": {"height": 1.62}}, ValueError, "did you mean 'height_m'?"),
         ({"log": []}, TypeError, "must be a WorkerLog"),
     ],
@@ -365,7 +368,35 @@ def test_workers_of_one_log_are_of_one_environment_and_replication_and_have_name
             Worker(*other[:3], replication=other[3], log=log)
 
 
-@pytest.mark.parametrize("body", [{"height_m": 170}, {"height_m": -1.0}, {"height_m": float("nan")}, {"mass_kg": 0}])
-def test_a_body_that_nobody_has_is_refused(body):
-    with pytest.raises(ValueError, match="must lie between"):
-        Worker(simpy.Environment(), "ana", {"t": Fixed(1.0)}, body=body)
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        *(({"height_m": height_m}, "must lie between") for height_m in (170, -1.0, float("nan"))),
+        ({"mass_kg": 0}, "must lie between"),
+        ({"age_years": 4}, "age_years must lie between 5 and 110, found 4"),
+        ({"pace": 11}, "pace must lie between 0.3 and 3, found 11"),
+        ({"sex": "x"}, "sex must be 'f' or 'm', found 'x'"),
+        ({"person": "s3"}, "no person 's3' was recorded in these tasks; did you mean 's03'?"),
+    ],
+)
+def test_a_body_that_nobody_has_is_refused(body, said):
+    with pytest.raises(ValueError, match=re.escape(said)):
+        Worker(simpy.Environment(), "ana", {"t": Fixed(1.0), "squat": "public_movements/deep_squat"}, body=body)
+
+
+def test_a_recorded_person_is_refused_where_nothing_was_recorded():
+    with pytest.raises(ValueError, match="no person 's03' was recorded in these tasks; none of them is emulated"):
+        Worker(simpy.Environment(), "ana", {"t": Fixed(1.0)}, body={"person": "s03"})
+
+
+def test_a_worker_who_is_a_recorded_person_moves_as_that_one():
+    squat = library_model("public_movements/deep_squat")
+    known = squat.sample(64, stream(3, 0, "duration", "squat", "ana", 0), worker="s03").duration_s
+    worker = ana({"squat": squat}, seed=3, body={"person": "s03"})
+
+    def story(worker):
+        for k in range(5):
+            done = yield worker.perform("squat")
+            assert done.drawn.duration_s == known[k]
+
+    run(worker, story)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from opsim.problems import Problem, shown
 from opsim.scenario.checks.ways import visited
-from opsim.scenario.positions import Node, child, entries, items, problem, text
+from opsim.scenario.positions import Node, Place, child, entries, items, problem, text
 
 
 def staffing_problems(tree: Node) -> Iterator[Problem]:
@@ -32,9 +32,9 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
 
 
 def patrol_problems(tree: Node) -> Iterator[Problem]:
-    """Who is to patrol needs a round, and the skills for it."""
+    """Who is to patrol needs a round, and the skills for it; of workers who share a block, the first is named."""
     idle = text(tree, "allocation", "idle")
-    for name, worker in entries(tree, "workers").items():
+    for name, worker in _blocks(tree).items():
         patrol = child(worker, "patrol")
         if idle == "patrol" and patrol is None:
             stations = list(entries(worker, "skills")) or ["pack"]
@@ -48,6 +48,15 @@ def patrol_problems(tree: Node) -> Iterator[Problem]:
                 found = f"{name} goes round by {shown(station.value)} and has no skill there"
                 hint = f"add '{station.value}: 1.0' to the skills of {name}"
                 yield problem(station.place, ("workers", name, "patrol", number), found, hint)
+
+
+def _blocks(tree: Node) -> dict[str, Node]:
+    """Workers, but one of those that a workforce makes, which all stand at one place."""
+    first: dict[Place, str] = {}
+    workers = entries(tree, "workers")
+    for name, worker in workers.items():
+        first.setdefault(worker.name_place, name)
+    return {name: workers[name] for name in first.values()}
 
 
 def _manual_task(tree: Node, station: Node) -> str | None:

@@ -10,7 +10,7 @@ from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
 from opsim.scenario.schema.task_kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Task
 from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
-from opsim.scenario.schema.workers import Allocation, Worker
+from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 
 __all__ = [
     "BLOCKS",
@@ -44,4 +44,5 @@ __all__ = [
     "Uniform",
     "Weibull",
     "Worker",
+    "Workforce",
 ]

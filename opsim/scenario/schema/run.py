@@ -37,6 +37,12 @@ class Run(Block):
     staffing: Literal["fixed", "redrawn"] = Field(
         "fixed", description="fixed: the same people in every replication; redrawn: other people in each"
     )
+    variability: Literal["full", "within_only", "between_only", "none", "shuffled"] = Field(
+        "full",
+        description="which differences of task times are left: within_only: everybody has the same mean; between_only: "
+        "each worker always takes his own mean; none: everybody always takes the mean; shuffled: times as in full, "
+        "each with the body of another performance",
+    )
 
     @property
     def start_s(self) -> float:

@@ -8,14 +8,14 @@ from pydantic import BeforeValidator, Field
 
 from opsim.kpi.names import KPIS, USUAL
 from opsim.problems import did_you_mean, shown
-from opsim.scenario.fields import Name, plain_error
+from opsim.scenario.fields import Name, Rating, plain_error
 from opsim.scenario.schema.base import Block
 from opsim.scenario.schema.layout import Layout
 from opsim.scenario.schema.material import Product, Station
 from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.task_kinds import Task
-from opsim.scenario.schema.workers import Allocation, Worker
+from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 
 
 def _known_output(value: object) -> object:
@@ -54,6 +54,10 @@ class Scenario(Block):
         min_length=1, description="what is made, and its way", examples=["{carton: {route: [pack]}}"]
     )
     release: Release = Field(description="how jobs come in", examples=["{kind: poisson, every: 55 s}"])
+    skill_levels: dict[Name, Rating] = Field(
+        {}, description="ratings by name, for the skills of workers", examples=["{learner: 0.8, expert: 1.15}"]
+    )
+    workforce: Workforce | None = Field(None, description="workers drawn beside the named ones", examples=["{n: 12}"])
     workers: dict[Name, Worker] = Field({}, description="the people who work here")
     allocation: Allocation = Field(Allocation.model_validate({}), description="the rules by which workers choose")
     outputs: list[Annotated[str, BeforeValidator(_known_output)]] = Field(
@@ -67,6 +71,7 @@ BLOCKS: dict[str, type[Block]] = {
     "stations": Station,
     "products": Product,
     "release": Release,
+    "workforce": Workforce,
     "workers": Worker,
     "allocation": Allocation,
 }

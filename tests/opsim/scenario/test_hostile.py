@@ -45,6 +45,12 @@ HOSTILE = {
         ),
         "more than can be checked",
     ),
+    "many variants of many workers": (
+        (GOOD + "workforce: {n: 500}\n").replace(
+            "scenarios: {", "scenarios: {" + "".join(f"v{i}: [near], " for i in range(2_000))
+        ),
+        "more than can be checked",
+    ),
     "unknown overrides": (GOOD.replace("near: [near]", f"near: [{'x, ' * 100_000}x]"), "no override 'x'"),
     "a long chain of likes": (lines("workers", "  w{i}: {{like: w{j}}}\n", 10_000), "no 'w10000' among the workers"),
     "likes of nobody": (lines("workers", "  w{i}: {{like: v{i}}}\n", 10_000), "no 'v0' among the workers"),

@@ -60,6 +60,11 @@ RIGHT = [
     GOOD.replace("tasks:\n", "defaults: {tasks: {load: 3 kg}, workers: {walk: 1 m/s}}\ntasks:\n"),
     "opsim: 1\ninclude: common.yaml\nworkers: {ana: {walk: 1 m/s}}\n",
     GOOD.replace("[0 m, 0 m]", "[-2 m, 1 ft 3 in]"),
+    GOOD.replace("like: ana", "like: ana, age: 41 years, sex: m, pace: 0.9"),
+    GOOD.replace(
+        "workers:\n", "workforce: {n: 12, from: population, prefix: q, like: ana, skills: {pack: 1}}\nworkers:\n"
+    ),
+    GOOD.replace("{pack: 1.1}", "{pack: expert}").replace("workers:\n", "skill_levels: {expert: 1.15}\nworkers:\n"),
 ]
 WRONG = [
     (GOOD.replace("horizon: 8 h", "horizon: 8"), ".run.horizon: not a string"),
@@ -71,6 +76,11 @@ WRONG = [
     (GOOD.replace("start: Mon 06:00", "start: '06:00'"), ".run.start: '06:00' does not look right"),
     (GOOD.replace("{pack: 1.1}", "{pack: 11}"), ".workers.ana.skills.pack: 11 is beyond 10"),
     (GOOD.replace("{route: [pack]}", "{share: 1}"), ".products.carton: none of 2 fits"),
+    (GOOD.replace("workers:\n", "workforce: {from: population}\nworkers:\n"), ".workforce: n is missing"),
+    (GOOD.replace("workers:\n", "workforce: {n: 3, person: s03}\nworkers:\n"), ".workforce: unknown key person"),
+    (GOOD.replace("like: ana", "like: ana, age: 4"), ".workers.ben.age: none of 2 fits"),
+    (GOOD.replace("like: ana", "like: ana, age: 41 y"), ".workers.ben.age: none of 2 fits"),
+    (GOOD.replace("like: ana", "like: ana, pace: 11"), ".workers.ben.pace: 11 is beyond"),
     (with_task("dist: lognormal, mean: 3 s"), ".tasks.lift: none of"),
     (with_task("dist: lognormall, mean: 3 s, cv: 0.2"), ".tasks.lift: none of"),
     (with_task("fixed: 3 kg"), ".tasks.lift: none of"),

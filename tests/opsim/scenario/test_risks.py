@@ -100,3 +100,11 @@ def test_one_worker_who_carries_between_two_stations_may_lock():
     first, _ = risks(*carried)
     assert first.startswith("with carried: true, ana can all be held at cut while drill is full")
     assert "take 'carried: false'" in first
+
+
+def test_postures_of_times_without_a_body_are_warned_of():
+    asked = "release: {kind: saturated}\noutputs: [trunk_beyond_60_min_per_h, walked_m]"
+    assert risks(("release: {kind: saturated}", asked)) == [
+        "outputs: trunk_beyond_60_min_per_h made from postures, and no task has an emulator: nothing will be measured"
+    ]
+    assert risks(("release: {kind: saturated}", asked), ("fixed: 3 s", "plugin: exponential, with: {mean: 3 s}")) == []

@@ -54,8 +54,8 @@ def test_a_killed_run_goes_on_where_it_stopped(one, tmp_path, monkeypatch):
     monkeypatch.setattr(
         replicating,
         "run_one",
-        lambda plan, r, folder, made_from: (
-            ran.append(replicating.events_file(folder, r).exists()) or run_one(plan, r, folder, made_from)
+        lambda plan, r, folder, *more: (
+            ran.append(replicating.events_file(folder, r).exists()) or run_one(plan, r, folder, *more)
         ),
     )
     finished = run_scenario(loaded(CELL), folder=tmp_path, processes=1)

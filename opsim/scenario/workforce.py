@@ -1,0 +1,91 @@
+"""``workforce: {n: 12}``: so many workers more, all with the same keys: people drawn, or people who were recorded."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from opsim.problems import Problem, shown
+from opsim.scenario.fields import is_name
+from opsim.scenario.positions import Node, child, entries, problem, text
+from opsim.scenario.recorded_people import recorded_people
+from opsim.scenario.schema.workers import MOST_WORKERS, PREFIX
+
+_NOT_OF_EACH = ("n", "from", "prefix", "person")
+"""Keys of a workforce that are not those of each of its workers; ``person`` is a mistake that the schema tells of."""
+
+
+def with_workforce(root: Node, folder: Path) -> tuple[Node, list[Problem]]:
+    """The tree with the workers of the workforce beside the named ones, ``like`` and skill levels already applied.
+
+    What the schema refuses is passed over here. The block itself stays, for the schema to read.
+    """
+    block = child(root, "workforce")
+    if block is None or not isinstance(block.value, dict):
+        return root, []
+    named = entries(root, "workers")
+    names = [f"{_prefix(block)}{number}" for number in range(1, _n(block) + 1)]
+    persons, problems = _persons(root, block, len(names), folder)
+    problems += [_clash(block, name) for name in names if name in named][:1]
+    template = _template(root, block)
+    drawn = {
+        name: Node({**template, **person}, block.place, block.key)
+        for name, person in zip(names, persons)
+        if name not in named
+    }
+    section = child(root, "workers") or block
+    return root.with_entries({**entries(root), "workers": section.with_entries({**named, **drawn})}), problems
+
+
+def without_workforce(root: Node) -> Node:
+    """The tree as it is once its workers stand in it by name."""
+    return root.with_entries({key: node for key, node in entries(root).items() if key != "workforce"})
+
+
+def _template(root: Node, block: Node) -> dict[str, Node]:
+    """The keys of each worker; who has no skills said has the rating 1 everywhere."""
+    keys = {key: node for key, node in entries(block).items() if key not in _NOT_OF_EACH}
+    if "skills" not in keys:
+        everywhere = {station: Node(1.0, block.place, block.key) for station in entries(root, "stations")}
+        keys["skills"] = Node(everywhere, block.place, block.key)
+    return keys
+
+
+def _n(block: Node) -> int:
+    """How many; one where the schema refuses the number, so that nothing else is found wrong for lack of people."""
+    n = child(block, "n")
+    whole = n is not None and isinstance(n.value, int) and not isinstance(n.value, bool)
+    return n.value if whole and n is not None and 1 <= n.value <= MOST_WORKERS else 1
+
+
+def _prefix(block: Node) -> str:
+    said = text(block, "prefix")
+    return said if said is not None and is_name(said) else PREFIX
+
+
+def _clash(block: Node, name: str) -> Problem:
+    key = "prefix" if child(block, "prefix") is not None else "n"
+    node = child(block, key) or block
+    found = f"the workforce makes a worker {shown(name)}, and a worker has that name already"
+    return problem(node.place, ("workforce", key), found, "give the workforce another prefix, such as 'prefix: p'")
+
+
+def _persons(root: Node, block: Node, n: int, folder: Path) -> tuple[list[dict[str, Node]], list[Problem]]:
+    """For each worker the recorded person he is, in natural order, passing over those who are workers by name."""
+    source = child(block, "from")
+    people = recorded_people(root, folder) if source is not None and source.value == "recorded" else None
+    if source is None or people is None:
+        return [{}] * n, []
+    taken = {text(worker, "person") for worker in entries(root, "workers").values()}
+    free = [person for person in people if person not in taken]
+    persons = [{"person": Node(person, source.place, source.key)} for person in free[:n]]
+    wrong = []
+    if not people:
+        hint = "no task is emulated; take 'from: population'"
+        wrong = [
+            problem(source.place, ("workforce", "from"), "nobody was recorded for the tasks of this scenario", hint)
+        ]
+    elif n > len(free):
+        others = f" beside {len(people) - len(free)} who are workers by name" if len(free) < len(people) else ""
+        found = f"{n} workers, and {len(free)} people were recorded for the tasks of this scenario{others}"
+        wrong = [problem((child(block, "n") or block).place, ("workforce", "n"), found, "or take 'from: population'")]
+    return [*persons, *[{}] * (n - len(persons))], wrong

@@ -1,0 +1,129 @@
+"""What the assumption sheet says of workers: who they are, what is known of their bodies, where they stand."""
+
+from collections.abc import Iterator
+
+from opsim.bodies import keys_read
+from opsim.effects import worker_effect
+from opsim.names import listed
+from opsim.plan import Plan
+from opsim.plan.tasks import TaskPlan
+from opsim.plan.unread import tasks_of, unknown_there
+from opsim.plan.worker import WorkerPlan, start_place
+from opsim.streams import stream
+
+_OWN_PACE = ("full", "between_only", "shuffled")
+"""Under these, workers differ in pace."""
+_WORDS = {"height_m": "height", "mass_kg": "mass", "age_years": "age", "sex": "sex", "pace": "pace"}
+_HOW = {"height_m": "bones are scaled to it", "pace": "times of the typical person are divided by it"}
+
+
+def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+    """Lines of (topic, what is assumed)."""
+    if not plan.workers:
+        yield "workers", "none: every task is automatic"
+        return
+    yield from _workforce(loaded.scenario.workforce)
+    yield from _bodies(plan)
+    yield from _recorded(plan)
+    levels = loaded.scenario.skill_levels
+    if levels:
+        given = listed(f"{name} {rating:g}" for name, rating in levels.items())
+        yield "skills", f"the ratings of the skill levels are the scenario's own, not measured: {given}"
+    yield from _standing(loaded, plan)
+    yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
+    if loaded.scenario.run.variability in _OWN_PACE and any(_differ(task) for task in plan.tasks):
+        drawn = {
+            "fixed": "the same people work in every replication: a worker's own pace is drawn once for the study",
+            "redrawn": "other people work in each replication: every worker's own pace is drawn anew",
+        }
+        yield "workers", drawn[plan.staffing]
+
+
+def _workforce(workforce) -> Iterator[tuple[str, str]]:
+    """Of workers who are nobody in particular."""
+    if workforce is None:
+        return
+    who = f"{workforce.prefix}1" + (f" to {workforce.prefix}{workforce.n}" if workforce.n > 1 else "")
+    if workforce.source == "population":
+        yield "workers", f"{who}: nobody in particular, drawn from the population of the recordings and distributions"
+    if not workforce.skills:
+        yield "workers", f"{who}: skills not given; everybody can work at every station, with the rating 1"
+
+
+def _bodies(plan: Plan) -> Iterator[tuple[str, str]]:
+    """What is known of bodies, and which tasks make use of it."""
+    useless = []
+    for key, word in _WORDS.items():
+        who = [worker for worker in plan.workers if key in worker.body.said]
+        tasks = {w.name: {task.name: key in keys_read(task.model) for task in tasks_of(plan, w)} for w in who}
+        users = [name for name, used in tasks.items() if any(used.values())]
+        others = [name for name in tasks if name not in users]
+        if users:
+            yield "bodies", f"{word} of {listed(users)}: {_use(key, [tasks[name] for name in users])}"
+        if others:
+            useless.append(f"{word} of {listed(others)}" if users else word)
+    if useless:
+        yield "bodies", f"{listed(useless)}: kept with the worker; no task there changes pace or posture with it"
+    clamped = [
+        f"{worker.name} in {task.name}: {line}"
+        for worker in plan.workers
+        if worker.body.said
+        for task in tasks_of(plan, worker)
+        for line in _said(plan, worker, task)
+        if "(clamped)" in line
+    ]
+    if clamped:
+        yield "bodies", f"unlike the bodies that were recorded, and taken as the nearest of them: {listed(clamped)}"
+
+
+def _use(key: str, tasks: list[dict[str, bool]]) -> str:
+    """How a number is used, in which of the workers' tasks it is and in which it is not."""
+    using, leaving = (
+        listed(dict.fromkeys(name for own in tasks for name, used in own.items() if used is wanted))
+        for wanted in (True, False)
+    )
+    how = _HOW.get(key, "pace and posture change as the recordings explain them by it")
+    return f"{how} in {using}" + (f", not in {leaving}" if leaving else "")
+
+
+def _said(plan: Plan, worker: WorkerPlan, task: TaskPlan) -> tuple[str, ...]:
+    """What an emulator says of the body that it was asked for."""
+    effect = worker_effect(task.model, task.name, worker.name, plan.seed, 0, worker.body)
+    return tuple(getattr(getattr(effect, "effect", effect), "said", ()))
+
+
+def _recorded(plan: Plan) -> Iterator[tuple[str, str]]:
+    known = [worker for worker in plan.workers if worker.body.person is not None]
+    if known:
+        who = listed(f"{worker.name} as {worker.body.person}" for worker in known)
+        lacking = listed(dict.fromkeys(name for worker in known for name in unknown_there(plan, worker)))
+        elsewhere = f"; not everybody in {lacking}, where some move as people drawn from the population"
+        yield (
+            "workers",
+            f"move as people who were recorded, in emulated tasks and in every replication: {who}"
+            f"{elsewhere if lacking else ''}",
+        )
+
+
+def _standing(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+    workers = loaded.scenario.workers
+    walkers = [worker.name for worker in plan.workers if _walks(plan, worker)]
+    default_walk = [name for name in walkers if f"workers.{name}.walk" not in loaded.given]
+    if default_walk:
+        yield (
+            "walking",
+            f"{listed(default_walk)}: walking speed not given, {workers[default_walk[0]].walk_m_per_s:g} m/s assumed",
+        )
+    homeless = [
+        f"{name} at {start_place(workers[name], loaded.scenario)}" for name in walkers if workers[name].home is None
+    ]
+    if homeless:
+        yield "walking", f"at t = 0 stand {listed(homeless)} (first of their stations by name)"
+
+
+def _walks(plan: Plan, worker: WorkerPlan) -> bool:
+    return len({worker.place} | {plan.stations[rank].place for rank, rating in enumerate(worker.rating) if rating}) > 1
+
+
+def _differ(task: TaskPlan) -> bool:
+    return task.model.draw_worker(stream(0, 0, "effect", "anybody", task.name, 0)) is not None
