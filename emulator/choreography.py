@@ -126,6 +126,16 @@ def _lift(a: np.ndarray, mark: np.ndarray) -> Keys:
     return [(0.0, {}), (mark[0], low), (mark[1], up), (1.0, {})]
 
 
+def _stoop(a: np.ndarray, mark: np.ndarray) -> Keys:
+    """Bending down over straight legs: what lifting guides warn of, and people do."""
+    low: dict[str, object] = {
+        "pelvis": (-0.16, 0.0, 0.86 - 0.02 * a[3]), "pitch": 1.25 + 0.13 * a[0], "nod": -0.35,
+        "right_wrist": (0.42 + 0.02 * a[2], -0.15 - 0.03 * a[1], 0.36 - 0.07 * a[0]),
+        "left_wrist": (0.42 + 0.02 * a[2], 0.15 - 0.03 * a[1], 0.36 - 0.07 * a[0]),
+    }  # fmt: skip
+    return [(0.0, {}), (mark[0], low), (mark[1], low), (1.0, _HOLD)]
+
+
 def _stand(a: np.ndarray, mark: np.ndarray) -> Keys:
     return [(0.0, {}), (1.0, {})]
 
@@ -198,6 +208,7 @@ TASKS = {
     "fasten": Choreography(("start", "stop"), (0.20, 0.82), 6.5, 0.25, _fasten, _turn_tool),
     "inspect": Choreography(("raised", "turned"), (0.25, 0.75), 4.5, 0.28, _inspect),
     "lift": Choreography(("grasp", "set_down"), (0.40, 0.84), 3.4, 0.20, _lift),
+    "stoop": Choreography(("grasp", "lift_off"), (0.38, 0.60), 2.8, 0.24, _stoop),
     "carry": Choreography(("halfway",), (0.50,), 4.2, 0.15, _hold_load, stepping(6, False)),
     "walk": Choreography(("halfway",), (0.50,), 3.8, 0.12, _stand, stepping(6, True)),
 }

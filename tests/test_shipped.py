@@ -12,7 +12,7 @@ from opsim.plan import compile_plan, station_loads
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder, shipped_scenarios
 
-LIBRARIES = {"public_movements": 7, "bench_work": 8}
+LIBRARIES = {"public_movements": 7, "bench_work": 9}
 
 
 @pytest.mark.parametrize("name", shipped_scenarios())

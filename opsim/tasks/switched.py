@@ -26,8 +26,9 @@ def switched(model: TaskModel, variability: str) -> TaskModel:
     within_only  : a worker's own times, times the population's mean over his own: everybody has the same mean
     between_only : a worker always takes his own mean
     none         : everybody always takes the population's mean
-    shuffled     : durations as in full, to the bit; the body of each is that of another performance, of somebody drawn
-                   anew, so that posture and duration know nothing of each other. Times without a body are as in full
+    shuffled     : durations as in full, to the bit; the body of each is that of another performance of the same worker:
+                   each keeps his own times and his own postures, and neither tells of the other any more. Times
+                   without a body are as in full
     A trace of recorded times has no workers and no bodies: none and between_only give its mean, the others the trace.
     Raises ValueError for any other word.
     """
@@ -145,7 +146,7 @@ class Shuffled(Switched):
         drawn: Performances = self._model.sample(n, rng, worker=worker)
         if drawn.skeleton is None:
             return drawn
-        return retimed(self._model.sample(n, rng), drawn.duration_s)
+        return retimed(self._model.sample(n, rng, worker=worker), drawn.duration_s)
 
 
 def _all_of(body: Performances, n: int, duration_s: float) -> Retimed:
