@@ -3,13 +3,14 @@
 ``distances`` feeds ``energy_u``, ``disco``, ``mds`` and ``novelty``; ``roughness`` looks at postures; ``compare`` asks
 all of them; the controls must be seen to fail. ``Quantization`` labels postures for ``variability`` and
 ``transition_matrices``; ``two_level`` tries schemes on a known law; ``plausibility`` looks at bodies.
+``held_out_table`` makes one table of it all on held-out repetitions, ``paper`` the tables of the paper.
 """
 
 from emulator.judge.compare import Comparison, compare
 from emulator.judge.controls import jittered_resampler, resampler
 from emulator.judge.disco import Disco, disco
 from emulator.judge.distance import distances
-from emulator.judge.energy import energy_stratified, energy_u, energy_v, pooled
+from emulator.judge.energy import energy_of_size, energy_stratified, energy_u, energy_v, pooled
 from emulator.judge.joint_angles import LIMITS_DEG, joint_angles_deg
 from emulator.judge.likelihood import LikelihoodComparison, compare_likelihood, qq_points
 from emulator.judge.mds import Mds, mds, mds_of_two
@@ -36,6 +37,7 @@ __all__ = [
     "compare_likelihood",
     "disco",
     "distances",
+    "energy_of_size",
     "energy_stratified",
     "energy_u",
     "energy_v",

@@ -26,12 +26,14 @@ class Plausibility:
     """What was found of n performances.
 
     outside       : share of frames outside each joint limit of ``LIMITS_DEG``, left and right counted singly
+    frames_outside: share of frames outside any of them
     beyond_deg    : how far the farthest frame lies outside, 0 where none does
     speed_m_per_s : the greatest speed of any joint in each performance (n,)
     skate_cm      : way of a foot over the floor while it is low in each performance (n,), the mean over ankles and toes
     """
 
     outside: dict[str, float]
+    frames_outside: float
     beyond_deg: dict[str, float]
     speed_m_per_s: np.ndarray
     skate_cm: np.ndarray
@@ -57,6 +59,7 @@ def plausibility(
     excess = {name: _excess(together[name], *limits) for name, limits in LIMITS_DEG.items()}
     return Plausibility(
         {name: float(np.mean(e > 0)) for name, e in excess.items()},
+        _frames_outside(angles, zero),
         {name: float(e.max()) for name, e in excess.items()},
         np.array([_top_speed(p, s) for p, s in zip(positions_m, duration_s)]),
         np.array([_skate_cm(skeleton, p) for p in positions_m]),
@@ -99,6 +102,15 @@ def plausibility_rows(emulated: Plausibility, recorded: Plausibility) -> list[tu
 def _excess(angles: np.ndarray, low: float, high: float) -> np.ndarray:
     """Degrees outside the limits, 0 inside and where there is no angle."""
     return np.nan_to_num(np.maximum(np.maximum(low - angles, angles - high), 0.0), nan=0.0)
+
+
+def _frames_outside(angles: Sequence[Mapping[str, np.ndarray]], zero: Mapping[str, float]) -> float:
+    """Share of the frames of all performances in which any angle (T, 1 or 2) is outside its limits."""
+    outside = [
+        np.any([(_excess(one[n] - zero.get(n, 0.0), *LIMITS_DEG[n]) > 0).any(axis=-1) for n in LIMITS_DEG], axis=0)
+        for one in angles
+    ]
+    return float(np.mean(np.concatenate(outside)))
 
 
 def _top_speed(positions_m: np.ndarray, duration_s: float) -> float:

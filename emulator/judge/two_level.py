@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from hashlib import blake2b
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +16,7 @@ from emulator.judge.disco import disco
 from emulator.judge.distance import distances
 from emulator.judge.energy import energy_u, pooled
 from emulator.judge.likelihood import qq_points
+from emulator.judge.streams import stream
 
 
 class FittedScheme(Protocol):
@@ -64,20 +64,14 @@ def two_level(
     Source: Chen, Park & Srivastava sec. 5.3, table 3, figure 19 (there 60 sequences, 1,000 drawn, 800/200).
     """
     truth = fit(level_one, sequences)
-    known = truth.sample(n_train + n_test, _stream(seed, "level one", level_one))
+    known = truth.sample(n_train + n_test, stream(seed, "level one", level_one))
     train, test = known[:n_train], known[n_train:]
     among_test, likely = distances(test), truth.log_likelihood(test)
     rows = []
     for name in level_two:
-        drawn = fit(name, train).sample(n_drawn, _stream(seed, "level two", level_one, name))
+        drawn = fit(name, train).sample(n_drawn, stream(seed, "level two", level_one, name))
         parts = distances(drawn, test), distances(drawn), among_test
-        tested = disco(pooled(*parts), n_drawn, _stream(seed, "permutations", level_one, name), n_permutations)
+        tested = disco(pooled(*parts), n_drawn, stream(seed, "permutations", level_one, name), n_permutations)
         qq = qq_points(likely, truth.log_likelihood(drawn))
         rows.append(TwoLevelRow(level_one, name, tested.p, energy_u(*parts), qq))
     return rows
-
-
-def _stream(seed: int, *name: str) -> np.random.Generator:
-    """A stream of random numbers of its own for each name, so that no part's numbers depend on another part."""
-    words = (int.from_bytes(blake2b(part.encode(), digest_size=8).digest(), "big") for part in name)
-    return np.random.default_rng([seed, *words])

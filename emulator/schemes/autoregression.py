@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import floor, log10
 
 import numpy as np
 
@@ -87,9 +88,10 @@ class VAR:
         Raises ValueError where the model explodes (companion modulus from 1 on), unless ``allow_unstable``.
         """
         if not allow_unstable and self.modulus >= 1:
+            calmer = "a lower order" if self.sequence is None else "VAR-pooled or a lower order"
             raise ValueError(
-                f"VAR({self.order}): its companion modulus is {self.modulus:.4f}, from 1 on sequences explode; "
-                "fit VAR-pooled or a lower order, or ask with allow_unstable=True"
+                f"VAR({self.order}): its companion modulus is {_beside_one(self.modulus)}, from 1 on sequences "
+                f"explode; fit {calmer}, or in Python ask with allow_unstable=True"
             )
         p, d = self.lags.shape[:2]
         scores = np.empty((n, self.n_times, d))
@@ -100,7 +102,8 @@ class VAR:
             for t in range(p, self.n_times):
                 scores[:, t] += scores[:, t - p : t].reshape(n, p * d) @ newest_last
         if not np.isfinite(scores).all():
-            raise ValueError(f"VAR({p}): exploded beyond all numbers; its companion modulus is {self.modulus:.4f}")
+            found = f"its companion modulus is {_beside_one(self.modulus)}"
+            raise ValueError(f"VAR({p}): exploded beyond all numbers; {found}")
         return scores, self.start.sample(n, rng)
 
     def log_likelihood(self, scores: np.ndarray, start: np.ndarray) -> np.ndarray:
@@ -111,6 +114,14 @@ class VAR:
         error = now - before @ np.concatenate([self.intercept[None], np.swapaxes(self.lags, 1, 2).reshape(p * d, d)])
         inner = self.noise.log_likelihood(error).reshape(len(sequences), -1).sum(axis=1)
         return np.asarray(inner.reshape(scores.shape[:-2]) + self.start.log_likelihood(start))
+
+
+def _beside_one(modulus: float) -> str:
+    """With four decimals, or as many more as it takes to see on which side of 1 it lies; 1 itself is "1"."""
+    apart = abs(modulus - 1.0)
+    if apart == 0 or apart > 100:
+        return f"{modulus:g}"
+    return f"{modulus:.{max(4, -floor(log10(apart)))}f}"
 
 
 def _lagged(sequences: np.ndarray, p: int) -> tuple[np.ndarray, np.ndarray]:

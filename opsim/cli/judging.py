@@ -3,10 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 N_STEPS = 6
 """Steps of one class."""
+
+
+def judged(sets: Sequence[Any], out: Path, seed: int) -> tuple[Path, dict[str, Any]]:
+    """Write the tables, figures and the page into ``out``; the page, and the rows of each class."""
+    from opsim.cli.progress import progress
+    from opsim.report.paper.write import write_paper
+
+    made = []
+    with progress("judge") as report:
+        total = N_STEPS * len(sets)
+        for n, (section, label) in enumerate(_steps(sections(sets, seed)), 1):
+            report(min(n, total), total, label)
+            made += [] if section is None else [section]
+    words = [f"{m.task}: {len(m)} repetitions of {len(m.workers)} people, {m.selection}; {m.source}" for m in sets]
+    page = write_paper(out, "Schemes of human motion, judged", words, made)
+    return page, {s.name: {f"table {t.number}": [list(row) for row in t.rows] for t in s.tables} for s in made}
+
+
+def _steps(found: Iterator[Any]) -> Iterator[tuple[Any, str]]:
+    """Sections as they come, and names of the steps between."""
+    for item in found:
+        yield (None, item) if isinstance(item, str) else (item, f"{item.name} done")
 
 
 def sections(sets: Sequence[Any], seed: int) -> Iterator[Any]:

@@ -1,49 +1,87 @@
-"""``opsim motion judge``: the schemes of Chen, Park & Srivastava and ours, judged on recordings as they judged."""
+"""``opsim motion judge``: schemes judged on held-out repetitions, or as Chen, Park & Srivastava judged theirs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.verbs import Mistake, mistakes
 
 FEWEST = 12
 """Repetitions below which sequences cannot be tested against one another."""
+USUAL_SPLITS = 5
 
 
 @click.command("judge")
 @click.argument("files", nargs=-1, required=True, metavar="FILE.npz...")
-@click.option("--paper", is_flag=True, required=True, help="The paper's tables and figures, our scheme beside theirs.")
-@click.option("-o", "--out", type=click.Path(path_type=Path), required=True, help="The folder to write.")
+@click.option(
+    "--scheme",
+    "schemes",
+    multiple=True,
+    metavar="NAME",
+    help="Which to judge; may be given several times.  [default: SIEM/JointPCA/Smoothed and SIEM/SequentialPCA/MVG]",
+)
+@click.option("--paper", is_flag=True, help="Instead the paper's tables and figures, our scheme beside theirs.")
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path), help="A .csv file or a folder; with --paper the folder to write."
+)
 @click.option("--where", default="all", help="Which repetitions, such as 'cov_correct==1'.  [default: all]")
-@click.option("--seed", type=click.IntRange(min=0), default=0, help="Decides the draws.")
+@click.option("--splits", type=click.IntRange(1, 100), help="How often to deal out the halves.  [default: 5]")
+@click.option("--seed", type=click.IntRange(min=0), default=0, help="Decides the halves and the draws.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
-def command(files: tuple[str, ...], paper: bool, out: Path, where: str, seed: int, as_json: bool) -> None:
-    """Judge the schemes of the paper, and ours, on each recording FILE; write tables, figures and a page."""
-    from opsim.cli.console import print_json
+def command(
+    files: tuple[str, ...],
+    schemes: tuple[str, ...],
+    paper: bool,
+    out: Path | None,
+    where: str,
+    splits: int | None,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Judge schemes on each recording FILE: fitted to half of everybody's repetitions, held against the other half.
+
+    A name such as SIEM/JointPCA/MVG, for which there is an emulator, means the emulator; all others mean the scheme of
+    the paper on aligned postures. Two controls, which copy, must be seen to fail.
+    """
+    from opsim.cli.judged_table import table_file
 
     with mistakes():
-        sets = _read(files, where)
-        _folder(out)
-        page, tables = _judged(sets, out, seed)
-    if as_json:
-        print_json({"page": str(page), "tables": tables})
-        return
-    click.echo(f"page: {page}")
+        wrong = _misfits(schemes, paper, out, splits)
+        sets = _read(files, where, paper, wrong)
+        if paper and out is not None:
+            _folder(out)
+            _show_paper(sets, out, seed, as_json)
+            return
+        target = table_file(out)
+    _show_held_out(sets, schemes, splits or USUAL_SPLITS, seed, target, as_json)
 
 
-def _read(files: Sequence[str], where: str) -> list[Any]:
+def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int | None) -> list[str]:
+    """Options that are wrong, or do not go together."""
+    if not paper:
+        from emulator.judge.drawers import unknown_names
+
+        return unknown_names(schemes)
+    wrong = [] if out is not None else ["--paper: expected a folder to write into, -o FOLDER"]
+    given = {"--scheme": bool(schemes), "--splits": splits is not None}
+    return wrong + [f"{name}: does not go with --paper, which has schemes of its own" for name in given if given[name]]
+
+
+def _read(files: Sequence[str], where: str, paper: bool, wrong: list[str]) -> list[Any]:
     """The repetitions of each file. Raises ValueError with all that speaks against judging, before anything is done."""
     from emulator import read_motions
+    from emulator.judge.held_out_table import refuse
 
     sets: list[Any] = []
-    wrong: list[str] = []
     for file in files:
         try:
             motions = read_motions(file, where=None if where == "all" else where)
+            if not paper and len(motions) >= FEWEST:
+                refuse(motions, ())
         except (ValueError, OSError) as error:
             wrong.append(str(error))
             continue
@@ -65,23 +103,59 @@ def _folder(out: Path) -> None:
     ready(out / "index.html", ".html")
 
 
-def _judged(sets: Sequence[Any], out: Path, seed: int) -> tuple[Path, dict[str, Any]]:
-    from opsim.cli.judging import N_STEPS, sections
+def _show_held_out(
+    sets: Sequence[Any], schemes: Sequence[str], n_splits: int, seed: int, target: Path | None, as_json: bool
+) -> None:
+    """Table after table, as they are found; a file that cannot be judged takes nothing from the others."""
+    from opsim.cli.console import print_json
+    from opsim.cli.judged_table import as_plain, print_judged, print_meaning, write_judged
+
+    judged: list[Any] = []
+    failed: list[str] = []
+    for motions in sets:
+        try:
+            with mistakes():
+                judged.append(_held_out(motions, schemes, n_splits, seed))
+                if not as_json:
+                    print_judged(judged[-1], f"{_who(motions)}, halves dealt out {_times(n_splits)}")
+                if target is not None:
+                    write_judged(target, judged)
+        except Mistake as mistake:
+            failed.append(f"{motions.task}: {mistake.message.removeprefix(f'{motions.task}: ')}")
+    if as_json:
+        print_json({"out": None if target is None else str(target), "tasks": {j.task: as_plain(j) for j in judged}})
+    elif judged:
+        print_meaning()
+        if target is not None:
+            click.echo(f"table: {target}")
+    if failed:
+        raise Mistake("\n".join(failed))
+
+
+def _held_out(motions: Any, schemes: Sequence[str], n_splits: int, seed: int) -> Any:
+    from emulator.judge.held_out_table import USUAL, judge_held_out
     from opsim.cli.progress import progress
-    from opsim.report.paper.write import write_paper
 
-    made = []
     with progress("judge") as report:
-        total = N_STEPS * len(sets)
-        for n, (section, label) in enumerate(_steps(sections(sets, seed)), 1):
-            report(min(n, total), total, label)
-            made += [] if section is None else [section]
-    words = [f"{m.task}: {len(m)} repetitions of {len(m.workers)} people, {m.selection}; {m.source}" for m in sets]
-    page = write_paper(out, "Schemes of human motion, judged", words, made)
-    return page, {s.name: {f"table {t.number}": [list(row) for row in t.rows] for t in s.tables} for s in made}
+        return judge_held_out(motions, schemes or USUAL, n_splits, seed, report)
 
 
-def _steps(found: Iterator[Any]) -> Iterator[tuple[Any, str]]:
-    """Sections as they come, and names of the steps between."""
-    for item in found:
-        yield (None, item) if isinstance(item, str) else (item, f"{item.name} done")
+def _times(n: int) -> str:
+    return "once" if n == 1 else f"{n} times"
+
+
+def _who(motions: Any) -> str:
+    n_people = len(motions.workers)
+    people = "one person" if n_people == 1 else f"{n_people} people"
+    return f"{motions.task}: {len(motions)} repetitions of {people} ({motions.selection})"
+
+
+def _show_paper(sets: Sequence[Any], out: Path, seed: int, as_json: bool) -> None:
+    from opsim.cli.console import print_json
+    from opsim.cli.judging import judged
+
+    page, tables = judged(sets, out, seed)
+    if as_json:
+        print_json({"page": str(page), "tables": tables})
+        return
+    click.echo(f"page: {page}")

@@ -10,8 +10,9 @@ from emulator import sphere
 from emulator.judge.disco import disco
 from emulator.judge.distance import distances
 from emulator.judge.energy import pooled
-from emulator.judge.paper.prepared import PaperClass, stream
+from emulator.judge.paper.prepared import PaperClass
 from emulator.judge.reconstruction import reconstruction_error
+from emulator.judge.streams import stream
 from emulator.schemes import Scheme
 from emulator.schemes.siem import SIEM
 from emulator.schemes.velocity import ISTVF, MTVF, STVF
@@ -72,7 +73,7 @@ def first_score(c: PaperClass) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def errors_by_size(c: PaperClass) -> dict[str, tuple[list[int], list[float]]]:
     """Figure 9: numbers a sequence, and the error (eq. 5) of the fitted sequences, for each reduction."""
     most = len(c.aligned) - 1
-    pairs = [(d1, min(d2, most)) for d1, d2 in SIZES]
+    pairs = list(dict.fromkeys((d1, min(d2, most)) for d1, d2 in SIZES))
     joint = [size for size in JOINT_SIZES if size <= most]
     tried: dict[str, Any] = {"SequentialPCA": pairs, "MPCA": pairs, "JointPCA": joint}
     found = {}

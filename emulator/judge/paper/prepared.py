@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from hashlib import blake2b
 
 import numpy as np
 
 from emulator.fit_settings import FitSettings
 from emulator.judge.alike import draw_alike
+from emulator.judge.streams import stream
 from emulator.model import SCHEME, MotionEmulator
 from emulator.motion import MotionSet
 from emulator.registered import registered
@@ -52,9 +52,3 @@ def prepared(motions: MotionSet, seed: int = 0, progress: Callable[[int, int, st
     settings = FitSettings(SCHEME, None, N_TIMES, N_KNOTS, landmarks=0.0, seed=seed, command="")
     emulator = MotionEmulator.fit(motions, n_times=N_TIMES, n_knots=N_KNOTS, seed=seed, progress=progress)
     return PaperClass(motions, registered(motions, settings, None).directions, emulator, seed)
-
-
-def stream(seed: int, *name: str) -> np.random.Generator:
-    """Random numbers of their own for each name."""
-    words = (int.from_bytes(blake2b(part.encode(), digest_size=8).digest(), "big") for part in name)
-    return np.random.default_rng([seed, *words])

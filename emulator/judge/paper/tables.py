@@ -11,9 +11,10 @@ from emulator import sphere
 from emulator.judge.disco import disco
 from emulator.judge.distance import distances
 from emulator.judge.energy import pooled
-from emulator.judge.paper.prepared import IS_TVF, OURS, PWI, SIEM, VAR, PaperClass, stream
+from emulator.judge.paper.prepared import IS_TVF, OURS, PWI, SIEM, VAR, PaperClass
 from emulator.judge.quantization import Quantization, sampled_postures
 from emulator.judge.reconstruction import reconstruction_error
+from emulator.judge.streams import stream
 from emulator.judge.transitions import transition_distance, transition_matrices, uniform_transitions
 from emulator.judge.two_level import TwoLevelRow, two_level
 from emulator.judge.variability import variability

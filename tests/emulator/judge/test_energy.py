@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from emulator.judge import energy_stratified, energy_u, energy_v, pooled
+from emulator.judge import energy_of_size, energy_stratified, energy_u, energy_v, pooled
 from tests.emulator.judge.made import parts
 from tests.recordings import reference
 
@@ -51,6 +51,32 @@ def test_a_person_with_one_repetition_is_given_the_others_spread():
     given = parts(np.array([[0.0], [1.0]]), np.array([[0.0], [2.0], [7.0]]))
     among_b = (2 / 3) ** 2 * 2 + (1 / 3) ** 2 * 2 + 2 * (2 / 9) * 6
     assert np.isclose(energy_stratified(*given, np.array([0, 0, 1]), None), 2 * given[0].mean() - 1 - among_b)
+
+
+def test_the_energy_of_a_size_is_the_v_statistic_of_samples_of_that_size():
+    x, y = np.random.default_rng(3).normal(size=(2, 12, 3))
+    assert np.isclose(energy_of_size(*parts(x, y), 12), energy_v(*parts(x, y)))
+    rng = np.random.default_rng(4)
+    few = [energy_v(*parts(rng.choice(x, 5), y)) for _ in range(4000)]
+    again = parts(np.repeat(x, 60, axis=0), y)
+    assert abs(energy_of_size(*again, 5) - np.mean(few)) < 3 * np.std(few) / np.sqrt(4000)
+
+
+def test_the_energy_of_a_size_allows_for_people_dealt_out_evenly():
+    """Against independent items, which people dealt out evenly stand for: else it would be too small."""
+    rng = np.random.default_rng(5)
+    strata = np.repeat(np.arange(5), 4)
+    dealt = [parts(people(rng, 4), people(rng, 4)) for _ in range(300)]
+    free = [parts(*(rng.choice(np.linspace(-4, 4, 5), (2, 20, 1)) + rng.normal(size=(2, 20, 1)))) for _ in range(300)]
+    fair = np.array([energy_of_size(*d, 20, strata, strata) for d in dealt])
+    independent = np.array([energy_v(*d) for d in free])
+    assert abs(fair.mean() - independent.mean()) < 3 * independent.std() / np.sqrt(300)
+    assert np.mean([energy_v(*d) for d in dealt]) < 0.7 * independent.mean()
+
+
+def test_where_everybody_has_one_repetition_all_are_independent():
+    given = parts(*np.random.default_rng(6).normal(size=(2, 9, 3)))
+    assert np.isclose(energy_stratified(*given, np.arange(9), np.arange(9)), energy_u(*given))
 
 
 def test_pooled_puts_the_first_sample_first():

@@ -13,7 +13,7 @@ def still(n_times=11, **moved):
 
 def test_one_who_stands_does_nothing_wrong():
     found = plausibility(SKELETON, [still()], np.array([1.0]))
-    assert set(found.outside) == set(LIMITS_DEG) and not any(found.outside.values())
+    assert set(found.outside) == set(LIMITS_DEG) and not any(found.outside.values()) and found.frames_outside == 0
     assert found.speed_m_per_s.tolist() == [0] and found.skate_cm.tolist() == [0]
 
 
@@ -22,6 +22,15 @@ def test_a_knee_bent_backwards_in_half_of_the_frames_is_a_quarter_of_the_knees()
     positions[5:, SKELETON.index("left_ankle")] = [0.2, 0.1, 0.5 - 0.2 * np.sqrt(3)]
     found = plausibility(SKELETON, [positions], np.array([1.0]))
     assert found.outside["knee flexion"] == 0.25 and np.isclose(found.beyond_deg["knee flexion"], 20)
+
+
+def test_a_frame_is_outside_once_however_many_joints_are():
+    positions = still(10)
+    for side, at in (("left", slice(5, 10)), ("right", slice(4, 7))):
+        sign = 1 if side == "left" else -1
+        positions[at, SKELETON.index(f"{side}_ankle")] = [0.2, 0.1 * sign, 0.5 - 0.2 * np.sqrt(3)]
+    found = plausibility(SKELETON, [positions, still(10)], np.ones(2))
+    assert found.frames_outside == 6 / 20 and found.outside["knee flexion"] == 8 / 40
 
 
 def test_speed_is_the_way_between_frames_over_their_time():
@@ -46,7 +55,8 @@ def test_limits_count_from_standing():
     bent = still(neck=[0.2 * np.tan(np.radians(-30)), 0, 1.5])
     assert np.isclose(standing_deg(SKELETON, [bent])["trunk flexion"], -30)
     strict, fair = (plausibility(SKELETON, [bent], np.ones(1), zero) for zero in (None, standing_deg(SKELETON, [bent])))
-    assert strict.outside["trunk flexion"] == 1 and fair.outside["trunk flexion"] == 0
+    assert strict.outside["trunk flexion"] == strict.frames_outside == 1
+    assert fair.outside["trunk flexion"] == fair.frames_outside == 0
     assert plausibility(SKELETON, [stooped], np.ones(1)).outside["trunk side bend"] == 1
 
 

@@ -4,13 +4,19 @@ import numpy as np
 
 from tests.emulator.judge.made import sequences
 
-__all__ = ["flat_case", "sequences", "series_case", "walks"]
+__all__ = ["flat_case", "grid_case", "sequences", "series_case", "walks"]
 
 
 def flat_case(n=9, n_times=14, n_channels=6):
     """(n, T, C) flattened sequences by a formula, without chance."""
     i, t, c = np.ogrid[1 : n + 1, 1 : n_times + 1, 1 : n_channels + 1]
     return np.sin(1.3 * i * c + 0.2 * t * c) + 0.5 * np.cos(0.7 * i * t) + 0.1 * ((7 * i + 3 * t * t + 5 * c * t) % 11)
+
+
+def grid_case(n, n_channels):
+    """(n, C) points by a formula, without chance."""
+    i, c = np.ogrid[1 : n + 1, 1 : n_channels + 1]
+    return np.sin(1.3 * i * c) + 0.1 * ((7 * i + 3 * c * c) % 11)
 
 
 def series_case(n_times=80):

@@ -1,5 +1,8 @@
 """The law of all densities, and what is particular to one."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,9 +12,11 @@ from emulator.schemes.autoregression import VAR
 from emulator.schemes.kernel import KernelDensity
 from emulator.schemes.pointwise import Pointwise
 from emulator.schemes.vectors import VectorModel
-from tests.emulator.schemes.cases import series_case, walks
+from tests.emulator.schemes.cases import grid_case, series_case, walks
 
 N = 20_000
+LAZY = np.eye(2)[None]
+"""Each score as it was: the modulus is 1."""
 
 
 def rows(n=30, k=3):
@@ -105,6 +110,24 @@ def test_a_kernel_keeps_covariances_and_draws_as_far_off_as_a_sequence_left_out(
 
 
 @pytest.mark.parametrize(
+    ("share", "theirs"),
+    [
+        (0.3, [-2.545075733208, -2.394804858722, -11.531889910038, -25.45084226741]),
+        (0.05, [-3.217561591664, -0.122911253384, -46.033931237367, -121.315398733217]),
+    ],
+)
+def test_a_kernel_density_is_that_of_scikit_learn(share, theirs):
+    """scikit-learn 1.9.1, of the centres and in the coordinates in which our noise is round:
+
+    w = inv(cholesky(cov(x.T))).T; centres = mean + sqrt((1 - share) * 12 / 11) * (x - mean)
+    KernelDensity(bandwidth=sqrt(share), rtol=0, atol=0).fit(centres @ w).score_samples(asked @ w) + log(det(w))
+    """
+    x = grid_case(12, 3)
+    asked = np.array([x.mean(axis=0), x[4], x[0] + 1, x[7] - [3, 0, 2]])
+    assert np.allclose(KernelDensity.fit(x, share).log_likelihood(asked), theirs, rtol=1e-10)
+
+
+@pytest.mark.parametrize(
     ("order", "modulus", "first_lag"),
     [
         (2, 0.953085459930861, [[1.023139, -0.03820799, 0.23715259], [-0.03916006, 1.49276554, -0.06992852]]),
@@ -147,6 +170,46 @@ def test_an_exploding_var_is_not_drawn_from_unless_asked():
         model.sample(3, np.random.default_rng(0))
     scores, _ = model.sample(3, np.random.default_rng(0), allow_unstable=True)
     assert np.all(scores[:, -1] > 4 * scores[:, 0])
+
+
+@pytest.mark.parametrize(
+    ("rate", "said"),
+    [
+        (1.00002, "1.00002"),
+        (1.0000004, "1.0000004"),
+        (1.00996, "1.0100"),
+        (1.0, "1"),
+        (1 + 2**-52, "1.0000000000000002"),
+    ],
+)
+def test_a_modulus_is_said_with_the_digits_that_tell_it_from_one(rate, said):
+    """A rule that is refused for 1.0000 reads like a mistake of ours."""
+    model = replace(
+        VAR.fit(paths(), np.zeros((30, 0)), np.random.default_rng(0), pooled=True, order=1), lags=rate * LAZY
+    )
+    with pytest.raises(ValueError, match=rf"modulus is {re.escape(said)}, from 1 on"):
+        model.sample(3, np.random.default_rng(0))
+
+
+def test_a_modulus_just_below_one_is_drawn_from():
+    model = VAR.fit(paths(), np.zeros((30, 0)), np.random.default_rng(0), pooled=True, order=1)
+    below = replace(model, lags=0.999999 * LAZY)
+    assert np.isfinite(below.sample(3, np.random.default_rng(0))[0]).all()
+
+
+def test_the_advice_is_another_one_for_a_rule_that_is_pooled_already():
+    y, none = paths(), np.zeros((30, 0))
+    for pooled, advice in ((True, "fit a lower order, or"), (False, "fit VAR-pooled or a lower order, or")):
+        model = VAR.fit(y, none, np.random.default_rng(0), pooled=pooled, order=1)
+        with pytest.raises(ValueError, match=advice):
+            replace(model, lags=1.1 * LAZY).sample(3, np.random.default_rng(0))
+
+
+def test_numbers_beyond_all_numbers_are_refused_even_when_asked_for():
+    model = VAR.fit(paths(), np.zeros((30, 0)), np.random.default_rng(0), pooled=True, order=1)
+    beyond = replace(model, lags=1e200 * LAZY, n_times=20)
+    with pytest.raises(ValueError, match=r"exploded beyond all numbers; its companion modulus is 1e\+200"):
+        beyond.sample(3, np.random.default_rng(0), allow_unstable=True)
 
 
 def test_a_var_takes_the_order_that_the_points_allow_and_refuses_more():

@@ -3,7 +3,7 @@ import pytest
 
 from emulator.schemes import MPCA, SIEM, parallel_analysis, search_dimensions
 from emulator.schemes.reductions import fitted
-from tests.emulator.schemes.cases import flat_case, walks
+from tests.emulator.schemes.cases import flat_case, grid_case, walks
 
 RNG = np.random.default_rng(0)
 
@@ -39,6 +39,31 @@ def test_mpca_captures_as_much_as_tensorly(dims, energy):
     assert np.isclose(np.sum(kept.forward(flat) ** 2), energy, rtol=1e-9)
     assert np.allclose(kept.spatial @ kept.spatial.T, np.eye(dims[0]), atol=1e-12)
     assert np.allclose(kept.temporal @ kept.temporal.T, np.eye(dims[1]), atol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "shape"), [("JointPCA", (8, 5, 1)), ("SpatialPCA", (8, 1, 5))])
+def test_principal_components_are_those_of_scikit_learn(name, shape):
+    """scikit-learn 1.9.1: p = PCA(3).fit(grid_case(8, 5)); p.components_, p.transform(x)[:3], and what comes back."""
+    components = [
+        [0.034227353519, -0.494667065999, 0.796216883956, 0.293149500029, -0.185027096455],
+        [0.697604745289, 0.015770430545, 0.175490449784, -0.662655453113, -0.207821474746],
+        [0.550609123111, -0.116425065237, -0.408667948844, 0.594982151188, -0.402817011914],
+    ]
+    scores = [
+        [-1.419787194817, 1.63701603672, 0.568946252352],
+        [1.598673886337, 0.975606067914, -0.135650554526],
+        [-0.916358260338, -1.037525641578, -0.346010515447],
+    ]
+    x = grid_case(8, 5).reshape(shape)
+    kept = fitted(name, x, 3, RNG)
+    ours = kept.pca.basis if name == "JointPCA" else kept.basis
+    sign = np.sign(np.sum(ours * components, axis=1))
+    assert np.allclose(sign[:, None] * ours, components, atol=1e-10)
+    assert np.allclose(sign * kept.forward(x).reshape(8, 3)[:3], scores, atol=1e-10)
+    again = [0.614407192016, 0.044943643, 0.984899845026, 1.139039892872, 0.936512918005]
+    assert np.allclose(kept.inverse(kept.forward(x)).reshape(8, 5)[4], again, atol=1e-10)
+    if name == "JointPCA":
+        assert np.isclose(kept.pca.explained_variance, 0.442598632903 + 0.355785472186 + 0.136672214702, rtol=1e-10)
 
 
 def test_mpca_captures_no_less_than_components_of_each_mode_alone():
