@@ -156,7 +156,11 @@ class MotionEmulator:
         return WorkerEffect(self.workforce.effects[self.workers.index(name)], name)
 
     def draw_worker(
-        self, rng: np.random.Generator, body: Any = None, people: Callable[[str], float] | None = None
+        self,
+        rng: np.random.Generator,
+        body: Any = None,
+        people: Callable[[str], float] | None = None,
+        slowness: float | None = None,
     ) -> WorkerEffect | None:
         """A worker of the population, or None if the recordings were of one person and nothing is known of a body.
 
@@ -166,11 +170,13 @@ class MotionEmulator:
                  person is a recorded one: that worker, if this task has him, at ``pace`` times his own
         people : a standard normal number for the name of each recorded person: the worker's leaning to him. The same
                  numbers in two tasks of the same people give effects correlated as those people's are
+        slowness : how far the worker's log moving time is from the typical one, in standard deviations between workers;
+                 the rest follows by regression. None: by luck. A pace that is asked for goes before it
         Raises BodyError for a body that cannot be.
         """
         from emulator.newcomers import drawn_worker
 
-        return drawn_worker(self, rng, body, people)
+        return drawn_worker(self, rng, body, people, slowness)
 
     def new_worker(
         self,
@@ -193,6 +199,11 @@ class MotionEmulator:
     @property
     def knows_people(self) -> bool:
         """``draw_worker`` takes ``people``."""
+        return True
+
+    @property
+    def knows_slowness(self) -> bool:
+        """``draw_worker`` takes ``slowness``."""
         return True
 
     @property

@@ -22,7 +22,7 @@ _CROWN_AND_SOLE_M = 0.20
 
 
 def drawn_worker(
-    model: MotionEmulator, rng: np.random.Generator, body: Any, people: People | None
+    model: MotionEmulator, rng: np.random.Generator, body: Any, people: People | None, slowness: float | None
 ) -> WorkerEffect | None:
     """See ``MotionEmulator.draw_worker``."""
     person = body.get("person") if isinstance(body, Mapping) else getattr(body, "person", None)
@@ -31,7 +31,8 @@ def drawn_worker(
         return _as_asked(model, model.known_worker(person), known)
     if not model.workforce.has_worker_effect and known == Body():
         return None
-    return _drawn(model, rng, known, people, "clamp")
+    drawn = _drawn(model, rng, known, people, "clamp")
+    return drawn if slowness is None or known.pace is not None else _this_slow(model, drawn, known, slowness)
 
 
 def new_worker(
@@ -82,6 +83,14 @@ def _as_asked(model: MotionEmulator, effect: WorkerEffect, body: Body) -> Worker
     return effect if body.height_m is None else replace(effect, scale=_scale(model, effect.z, body.height_m))
 
 
+def _this_slow(model: MotionEmulator, effect: WorkerEffect, body: Body, slowness: float) -> WorkerEffect:
+    """The worker at so many standard deviations of log moving time from the mean of those with his body."""
+    own = model.workforce.about(body)
+    at = model.scale.block("duration").start
+    z = _moved(effect.z, own.covariance_with(at), at, own.mean[at] + slowness * own.spread[at])
+    return replace(effect, z=z)
+
+
 def at_pace(model: MotionEmulator, z: np.ndarray, centre: np.ndarray, pace: float) -> np.ndarray:
     """A worker's mean z (K,), moved so that he is ``pace`` times as fast as ``centre`` (K,) in median moving time.
 
@@ -92,6 +101,11 @@ def at_pace(model: MotionEmulator, z: np.ndarray, centre: np.ndarray, pace: floa
     column = between if between[at] > 1e-12 else within
     usual = model.margin.inverse((model.scale.raw(centre[None], "duration"))[:, 0])
     wanted = model.duration_z(usual - np.log(pace))[0]
+    return _moved(z, column, at, wanted)
+
+
+def _moved(z: np.ndarray, column: np.ndarray, at: int, wanted: float) -> np.ndarray:
+    """z (K,) with its coordinate ``at`` as wanted, the rest by its regression: covariances ``column`` (K,) with it."""
     slope = column / column[at] if column[at] > 1e-12 else np.zeros_like(column)
     slope[at] = 1.0
     return np.asarray(z + (wanted - z[at]) * slope)

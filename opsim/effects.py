@@ -7,19 +7,34 @@ from typing import Any
 
 from opsim.streams import stream
 
+ACROSS_TASKS = ("as_recorded", "same_pace")
+"""How a worker's effects in different tasks go together; see ``worker_effect``."""
 
-def worker_effect(model: Any, task: str, worker: str, seed: int, workforce: int, body: Any = None) -> Any:
+
+def worker_effect(
+    model: Any,
+    task: str,
+    worker: str,
+    seed: int,
+    workforce: int,
+    body: Any = None,
+    across_tasks: str = "as_recorded",
+) -> Any:
     """What ``model.draw_worker`` gives this worker; ``workforce`` keys it: 0, or the replication where redrawn.
 
-    A model with ``knows_people`` is also given the worker's leanings: a standard normal number for each recorded
-    person. They are the same in every task, so that effects of tasks that the same people did go together as theirs.
+    as_recorded : a model with ``knows_people`` is also given the worker's leanings, a standard normal number for each
+                  recorded person. They are the same in every task, so that effects in tasks that the same people did
+                  go together as theirs; effects in other tasks know nothing of each other
+    same_pace   : a model with ``knows_slowness`` is also given how slow the worker is, one standard normal number: who
+                  is among the slowest tenth in one task is so in all
     """
     own = stream(seed, workforce, "effect", worker, task, 0)
-    if not getattr(model, "knows_people", False):
-        return model.draw_worker(own, body)
 
     @cache
     def leaning(person: str) -> float:
         return float(stream(seed, workforce, "leaning", worker, person, 0).standard_normal())
 
-    return model.draw_worker(own, body, people=leaning)
+    more: dict[str, Any] = {"people": leaning} if getattr(model, "knows_people", False) else {}
+    if across_tasks == "same_pace" and getattr(model, "knows_slowness", False):
+        more["slowness"] = float(stream(seed, workforce, "slowness", worker, 0).standard_normal())
+    return model.draw_worker(own, body, **more)

@@ -20,11 +20,18 @@ class OwnLuck:
     """
 
     def __init__(
-        self, worker: str, models: Mapping[str, Any], seed: int, replication: int, workforce: int = 0, body: Any = None
+        self,
+        worker: str,
+        models: Mapping[str, Any],
+        seed: int,
+        replication: int,
+        workforce: int = 0,
+        body: Any = None,
+        across_tasks: str = "as_recorded",
     ):
         self.models = dict(models)
         self._worker, self._seed, self._replication, self._body = worker, seed, replication, body
-        self._workforce = workforce
+        self._workforce, self._across_tasks = workforce, across_tasks
         self._items: dict[str, Items] = {}
 
     def performance(self, task: str, k: int) -> Drawn:
@@ -37,7 +44,8 @@ class OwnLuck:
     def _draw(self, task: str) -> Callable[[np.random.Generator, int], list[Drawn]]:
         model = self.models[task]
         with one_blas_thread():
-            effect = worker_effect(model, task, self._worker, self._seed, self._workforce, self._body)
+            who = (self._worker, self._seed, self._workforce, self._body, self._across_tasks)
+            effect = worker_effect(model, task, *who)
 
         def draw(rng: np.random.Generator, number: int) -> list[Drawn]:
             with one_blas_thread():

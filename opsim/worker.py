@@ -42,6 +42,7 @@ class Worker:
     tasks   : name -> TaskModel (an emulator, ``opsim.tasks``, your own), or the text "library/task", where library is
               the path of a motion library or the name of a shipped one; a MotionLibrary is such a mapping
     workforce : number that decides who the worker is; pass the replication to have other people in each
+    across_tasks : "as_recorded", or "same_pace": who is slow in one task is as slow in all
     rating  : 1.1 means that every duration is divided by 1.1
     body    : what is known of the body: something with any of ``height_m``, ``mass_kg``, ``age_years``, ``sex``,
               ``pace`` and ``person``, the name of a recorded one (attributes or keys), or None
@@ -60,16 +61,17 @@ class Worker:
         seed: int = 0,
         replication: int = 0,
         workforce: int = 0,
+        across_tasks: str = "as_recorded",
         rating: float = 1.0,
         body: Any = None,
         log: WorkerLog | None = None,
     ):
-        check_arguments(env, name, rating, seed=seed, replication=replication, workforce=workforce)
+        check_arguments(env, name, rating, across_tasks, seed=seed, replication=replication, workforce=workforce)
         self.env, self.name, self.rating = env, name, rating
         self.log = log_or_new(name, log)
         self.turns = simpy.Resource(env, capacity=1)
         models = task_models(tasks)
-        self._luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models))
+        self._luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models), across_tasks)
         self._next_k = dict.fromkeys(self._luck.models, 0)
         self._doing: Performance | None = None
         self._halted: dict[tuple[str, int], Performance] = {}

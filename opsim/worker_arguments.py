@@ -10,12 +10,13 @@ from typing import Any
 import simpy
 
 from opsim.bodies import BODY_KEYS, BODY_RANGES
+from opsim.effects import ACROSS_TASKS
 from opsim.problems import did_you_mean, shown
 from opsim.worker_log import WorkerLog
 
 
-def check_arguments(env: Any, name: Any, rating: Any, **whole: Any) -> None:
-    """Raises TypeError or ValueError for an environment, a name, a rating or a whole number that is none."""
+def check_arguments(env: Any, name: Any, rating: Any, across_tasks: Any, **whole: Any) -> None:
+    """Raises TypeError or ValueError for an environment, a name, a rating, a word or a whole number that is none."""
     if not isinstance(env, simpy.Environment):
         raise TypeError(f"worker: expected a simpy.Environment first, found {shown(env)}")
     if not isinstance(name, str) or not name.strip():
@@ -23,6 +24,9 @@ def check_arguments(env: Any, name: Any, rating: Any, **whole: Any) -> None:
     for word, number in whole.items():
         if isinstance(number, bool) or not isinstance(number, Integral) or number < 0:
             raise ValueError(f"worker {name}: {word} must be a whole number from 0, found {shown(number)}")
+    if across_tasks not in ACROSS_TASKS:
+        known = did_you_mean(str(across_tasks), ACROSS_TASKS)
+        raise ValueError(f"worker {name}: across_tasks: no {shown(across_tasks)}; {known}")
     if isinstance(rating, bool) or not isinstance(rating, int | float) or not 0 < rating < math.inf:
         raise ValueError(f"worker {name}: rating must be a number above 0, found {shown(rating)}")
 

@@ -50,7 +50,7 @@ def drawn_again(pieces: Pieces, replication: int, plan: Plan) -> Iterator[tuple[
     workforce = replication if plan.staffing == "redrawn" else 0
     for rank in np.unique(pieces.worker).tolist():
         person, own = plan.workers[rank], pieces.some(pieces.worker == rank)
-        luck = OwnLuck(person.name, models, plan.seed, replication, workforce, person.body)
+        luck = OwnLuck(person.name, models, plan.seed, replication, workforce, person.body, plan.across_tasks)
         for rows in _alike(own.task, own.k // BLOCK):
             some = own.some(rows)
             yield luck.performance(plan.tasks[some.task[0]].name, int(some.k[0])).block, some

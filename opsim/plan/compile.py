@@ -35,6 +35,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         when_blocked=scenario.allocation.when_blocked,
         idle=scenario.allocation.idle,
         staffing=scenario.run.staffing,
+        across_tasks=scenario.run.across_tasks,
     )
 
 

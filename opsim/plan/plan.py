@@ -17,6 +17,7 @@ class Plan:
     distance_m : (P, P) metres between places
     rule, when_blocked, idle : named rules of allocation
     staffing : ``fixed`` (the same people in every replication) or ``redrawn``
+    across_tasks : how a worker's effects in different tasks go together, one of ``opsim.effects.ACROSS_TASKS``
     """
 
     name: str
@@ -34,6 +35,7 @@ class Plan:
     when_blocked: str
     idle: str
     staffing: str
+    across_tasks: str
 
     @property
     def window_s(self) -> tuple[float, float]:

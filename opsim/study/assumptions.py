@@ -33,8 +33,8 @@ _SWITCHED = {
     "within_only": "every worker has the same mean time for a task, and his own spread about it",
     "between_only": "a worker takes the same time whenever he does a task: his own mean",
     "none": "a task takes the same time whoever does it: its mean",
-    "shuffled": "times are as they were drawn, each with the body of another performance of the same worker: posture and "
-    "time of a performance know nothing of each other",
+    "shuffled": "times are as they were drawn, each with the body of another performance of the same worker: posture "
+    "and time of a performance know nothing of each other",
 }
 
 

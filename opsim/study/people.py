@@ -17,6 +17,13 @@ _WORDS = {"height_m": "height", "mass_kg": "mass", "age_years": "age", "sex": "s
 _HOW = {"height_m": "bones are scaled to it", "pace": "times of the typical person are divided by it"}
 
 
+_ACROSS = {
+    "as_recorded": "a worker's own pace in tasks of the same recorded people goes together as theirs did; in other tasks "
+    "he may be quick in one and slow in the next",
+    "same_pace": "a worker who is slow in one task is as slow in all, among his like: not measured",
+}
+
+
 def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     """Lines of (topic, what is assumed)."""
     if not plan.workers:
@@ -37,6 +44,7 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
             "redrawn": "other people work in each replication: every worker's own pace is drawn anew",
         }
         yield "workers", drawn[plan.staffing]
+        yield "workers", _ACROSS[plan.across_tasks]
 
 
 def _workforce(workforce) -> Iterator[tuple[str, str]]:

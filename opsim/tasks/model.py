@@ -126,8 +126,17 @@ class SharedTime(TimeModel):
     def mean_duration_s(self, worker: float | None = None) -> float:
         return self.mean_s if worker is None else self.mean_s * math.exp(worker - self._between / 2)
 
-    def draw_worker(self, rng: np.random.Generator, body: Any = None) -> float | None:
-        return float(rng.normal(0.0, math.sqrt(self._between))) if self.between_share else None
+    @property
+    def knows_slowness(self) -> bool:
+        """``draw_worker`` takes ``slowness``."""
+        return True
+
+    def draw_worker(self, rng: np.random.Generator, body: Any = None, slowness: float | None = None) -> float | None:
+        """The shift b of a worker's log time; ``slowness``: at so many standard deviations from the mean, no luck."""
+        if not self.between_share:
+            return None
+        spread = math.sqrt(self._between)
+        return float(rng.normal(0.0, spread)) if slowness is None else spread * slowness
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: float | None) -> np.ndarray:
         import numpy as np

@@ -122,3 +122,23 @@ def test_only_what_changes_something_is_read(emulator):
 def test_a_body_that_cannot_be_is_refused_with_all_its_mistakes(emulator, body, words):
     with pytest.raises(BodyError, match=words):
         emulator.new_worker(rng(), **body)
+
+
+@pytest.mark.parametrize("slowness", [-1.5, 0.0, 2.0])
+def test_slowness_is_kept_in_standard_deviations_whatever_the_luck(emulator, slowness):
+    at, between = emulator.scale.block("duration").start, emulator.workforce.between
+    for seed in range(3):
+        z = emulator.draw_worker(rng(seed), None, numbers(seed), slowness).z
+        assert z[at] == pytest.approx(between.mean[at] + slowness * between.spread[at])
+
+
+def test_slowness_by_luck_is_the_law_of_any_worker(emulator):
+    between = emulator.workforce.between
+    slow = rng(1).standard_normal(4000)
+    drawn = np.stack([emulator.draw_worker(rng(i), None, None, float(s)).z for i, s in enumerate(slow)])
+    assert np.abs(np.cov(drawn.T) - between.covariance).max() < 0.1 * between.spread.max() ** 2
+
+
+def test_a_pace_that_is_asked_for_goes_before_slowness(emulator):
+    one, other = (emulator.draw_worker(rng(4), {"pace": 1.2}, None, s) for s in (None, 2.0))
+    assert np.array_equal(one.z, other.z)

@@ -332,6 +332,7 @@ SHORT = SimpleNamespace(
         ({"replication": 0.5}, ValueError, "replication must be a whole number"),
         ({"rating": -1.0}, ValueError, "rating must be a number above 0, found -1"),
         ({"rating": math.nan}, ValueError, "rating"),
+        ({"across_tasks": "same_pase"}, ValueError, "across_tasks: no 'same_pase'; did you mean 'same_pace'"),
         ({"rating": "1.1"}, ValueError, "rating must be a number above 0, found '1.1'"),
         ({"body": 1.62}, TypeError, "body must have one of height_m, mass_kg"),
         ({"body": {"height": 1.62}}, ValueError, "did you mean 'height_m'?"),

@@ -68,8 +68,8 @@ class Draws:
 
     def _of_worker(self, task: int, worker: int) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
-        body = self._plan.workers[worker].body
-        effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body)
+        body, across = self._plan.workers[worker].body, self._plan.across_tasks
+        effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body, across)
         return self._items(("duration", plan.name, name), _performed(plan.model, effect))
 
     def _items(self, name, draw) -> Items:

@@ -37,6 +37,11 @@ class Run(Block):
     staffing: Literal["fixed", "redrawn"] = Field(
         "fixed", description="fixed: the same people in every replication; redrawn: other people in each"
     )
+    across_tasks: Literal["as_recorded", "same_pace"] = Field(
+        "as_recorded",
+        description="how a worker's own pace in one task goes with that in others: as_recorded: as with the people "
+        "recorded in both, else not at all; same_pace: who is slow in one task is as slow in all",
+    )
     variability: Literal["full", "within_only", "between_only", "none", "shuffled"] = Field(
         "full",
         description="which differences of task times are left: within_only: everybody has the same mean; between_only: "
