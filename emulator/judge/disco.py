@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_BLOCK = 100
+_BLOCK = 200
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,8 @@ def disco(distances: np.ndarray, n_first: int, rng: np.random.Generator, n_permu
     """Test the first ``n_first`` of N items against the rest, from their distances (N, N), all at once.
 
     The permutations come out of matrix products: with Z (P, N) the 0/1 members of the first sample, the sums within it
-    are the row sums of (Z D) * Z; ``_BLOCK`` permutations at a time stay in the cache.
+    are the row sums of (Z D) * Z, for which three quarters of D are enough; ``_BLOCK`` permutations at a time stay in
+    the cache.
     Raises ValueError where a sample is empty.
     Source: Rizzo & Szekely (2010); Chen, Park & Srivastava sec. 4.4.
     """
@@ -47,17 +48,32 @@ def disco(distances: np.ndarray, n_first: int, rng: np.random.Generator, n_permu
 
 
 def _divisions(size: int, n: int, n_first: int, rng: np.random.Generator) -> np.ndarray:
-    """Random divisions (size, n): 1 for the items with the ``n_first`` smallest of n random keys."""
-    keys = rng.random((size, n))
-    return (keys <= np.sort(keys, axis=1)[:, n_first - 1, None]).astype(float)
+    """Random divisions (size, n): 1 for the items with the ``n_first`` smallest of n random keys.
+
+    Keys of 24 bits are drawn and sorted in half the time; a row in which two tie for the last place is drawn again.
+    """
+    keys = rng.random((size, n), dtype=np.float32)
+    members = (keys <= np.sort(keys, axis=1)[:, n_first - 1, None]).astype(float)
+    tied = np.flatnonzero(members.sum(axis=1) != n_first)
+    if len(tied):
+        members[tied] = _divisions(len(tied), n, n_first, rng)
+    return members
 
 
 def _energies(distances: np.ndarray, members: np.ndarray, n_first: int) -> tuple[np.ndarray, np.ndarray]:
     """Energy distances (P,) of each division ``members`` (P, N), and their dispersions within."""
     n_second = len(distances) - n_first
-    rows = members @ distances
-    inside, touching = np.einsum("pn,pn->p", rows, members), rows.sum(axis=1)
+    inside, touching = _inside(distances, members), members @ distances.sum(axis=1)
     across = touching - inside
     outside = distances.sum() - inside - 2 * across
     energy = 2 * across / (n_first * n_second) - inside / n_first**2 - outside / n_second**2
     return energy, inside / (2 * n_first) + outside / (2 * n_second)
+
+
+def _inside(distances: np.ndarray, members: np.ndarray) -> np.ndarray:
+    """(P,) sums of the symmetric distances within the first sample: both corners, and one side of them doubled."""
+    half = len(distances) // 2
+    left, right = np.ascontiguousarray(members[:, :half]), np.ascontiguousarray(members[:, half:])
+    corner = left @ distances[:half, :half]
+    other = left @ (2.0 * distances[:half, half:]) + right @ distances[half:, half:]
+    return np.asarray(np.einsum("pn,pn->p", corner, left) + np.einsum("pn,pn->p", other, right))

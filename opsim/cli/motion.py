@@ -13,7 +13,8 @@ from opsim.cli.verbs import Verbs
         "sample": "opsim.cli.motion_sample",
         "show": "opsim.cli.motion_show",
         "judge": "opsim.cli.motion_judge",
+        "people": "opsim.cli.motion_people",
     },
 )
 def command() -> None:
-    """Train motion emulators on recordings, draw performances, look at them, judge them."""
+    """Train motion emulators on recordings, draw performances, look at them, judge them, tell people apart."""

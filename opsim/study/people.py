@@ -18,8 +18,8 @@ _HOW = {"height_m": "bones are scaled to it", "pace": "times of the typical pers
 
 
 _ACROSS = {
-    "as_recorded": "a worker's own pace in tasks of the same recorded people goes together as theirs did; in other tasks "
-    "he may be quick in one and slow in the next",
+    "as_recorded": "a worker's own pace in tasks of the same recorded people goes together as theirs did; in other "
+    "tasks he may be quick in one and slow in the next",
     "same_pace": "a worker who is slow in one task is as slow in all, among his like: not measured",
 }
 

@@ -18,7 +18,10 @@ MEANING = {
     "R2 (p)": "what a covariate alone foretells of a person left out, below 0: worse than the others' mean does; "
     "how often noise does as well, * for less than 5 % with all quantities corrected for one another",
 }
-UNITS = "Energy scores are over the mean distance of two repetitions, so that postures and log duration can be added."
+UNITS = (
+    "Energy scores are over the mean distance of two repetitions, so that postures and log duration can be added; "
+    "draws that know the task but not the worker come to about a half of each."
+)
 
 
 def title(one: Any) -> str:
