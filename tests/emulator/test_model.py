@@ -173,7 +173,7 @@ def test_an_unknown_condition_is_refused(emulator):
 
 def test_all_mistakes_of_a_condition_are_named_at_once(emulator):
     wrong = {"duration_s": 0.0, "log_duration_shift": np.nan, "pace": -1.0}
-    with pytest.raises(ValueError, match="positive seconds\\n.*a finite number\\n.*a positive ratio"):
+    with pytest.raises(ValueError, match=r"positive seconds\n.*a finite number\n.*a positive ratio"):
         emulator.sample(1, rng(), condition=wrong)
 
 

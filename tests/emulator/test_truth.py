@@ -11,10 +11,10 @@ import pytest
 
 from emulator import synthetic
 from emulator.align import resample
+from emulator.anova import anova
 from emulator.held_out import holm
 from emulator.model import MotionEmulator
 from emulator.sphere import angle
-from emulator.anova import anova
 from tests.emulator import truths
 from tests.emulator.truths import BOTH, Crew
 
