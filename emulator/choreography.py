@@ -133,7 +133,12 @@ def _stoop(a: np.ndarray, mark: np.ndarray) -> Keys:
         "right_wrist": (0.42 + 0.02 * a[2], -0.15 - 0.03 * a[1], 0.36 - 0.07 * a[0]),
         "left_wrist": (0.42 + 0.02 * a[2], 0.15 - 0.03 * a[1], 0.36 - 0.07 * a[0]),
     }  # fmt: skip
-    return [(0.0, {}), (mark[0], low), (mark[1], low), (1.0, _HOLD)]
+    off = low | {
+        "pitch": 1.12 + 0.13 * a[0],
+        "right_wrist": (0.40, -0.15 - 0.03 * a[1], 0.47 - 0.05 * a[0]),
+        "left_wrist": (0.40, 0.15 - 0.03 * a[1], 0.47 - 0.05 * a[0]),
+    }
+    return [(0.0, {}), (mark[0], low), (mark[1], off), (1.0, _HOLD)]
 
 
 def _stand(a: np.ndarray, mark: np.ndarray) -> Keys:
