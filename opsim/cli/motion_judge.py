@@ -28,7 +28,9 @@ USUAL_SPLITS = 5
 @click.option(
     "-o", "--out", type=click.Path(path_type=Path), help="A .csv file or a folder; with --paper the folder to write."
 )
-@click.option("--where", default="all", help="Which repetitions, such as 'cov_correct==1'.  [default: all]")
+@click.option(
+    "--where", help="Which repetitions, such as 'cov_correct==1'; 'all' takes all.  [default: the correct ones]"
+)
 @click.option("--splits", type=click.IntRange(1, 100), help="How often to deal out the halves.  [default: 5]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="Decides the halves and the draws.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
@@ -37,7 +39,7 @@ def command(
     schemes: tuple[str, ...],
     paper: bool,
     out: Path | None,
-    where: str,
+    where: str | None,
     splits: int | None,
     seed: int,
     as_json: bool,
@@ -71,15 +73,16 @@ def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int 
     return wrong + [f"{name}: does not go with --paper, which has schemes of its own" for name in given if given[name]]
 
 
-def _read(files: Sequence[str], where: str, paper: bool, wrong: list[str]) -> list[Any]:
+def _read(files: Sequence[str], where: str | None, paper: bool, wrong: list[str]) -> list[Any]:
     """The repetitions of each file. Raises ValueError with all that speaks against judging, before anything is done."""
     from emulator import read_motions
     from emulator.judge.held_out_table import refuse
 
+    chosen = {} if where is None else {"where": None if where == "all" else where}
     sets: list[Any] = []
     for file in files:
         try:
-            motions = read_motions(file, where=None if where == "all" else where)
+            motions = read_motions(file, **chosen)
             if not paper and len(motions) >= FEWEST:
                 refuse(motions, ())
         except (ValueError, OSError) as error:

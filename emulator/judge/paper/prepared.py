@@ -33,13 +33,15 @@ class PaperClass:
     def task(self) -> str:
         return self.motions.task
 
-    def draw(self, name: str, n: int, span: slice = slice(None), dims: tuple[int, int] | None = None) -> np.ndarray:
+    def draw(
+        self, name: str, n: int, span: slice = slice(None), dims: tuple[int, int] | None = None, again: int = 0
+    ) -> np.ndarray:
         """n sequences of a scheme fitted to the part ``span`` of the clock, or of ours, of which the part is taken.
 
         Our emulator draws the people of the recordings, each as often as there. An exploding VAR is drawn all the
-        same; functions of time are cut to what the recordings span.
+        same; functions of time are cut to what the recordings span. ``again`` : other draws of the same law.
         """
-        rng = stream(self.seed, self.task, name, str(span.start), str(n))
+        rng = stream(self.seed, self.task, name, str(span.start), str(n), *([str(again)] if again else []))
         if name == OURS:
             scores = draw_alike(self.emulator, self.motions, n, rng).scores
             return self.emulator.aligned_directions(scores)[:, span]

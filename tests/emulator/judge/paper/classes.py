@@ -32,7 +32,7 @@ class Drawing(PaperClass):
 
     drawn: np.ndarray
 
-    def draw(self, name, n, span=slice(None), dims=None):
+    def draw(self, name, n, span=slice(None), dims=None, again=0):
         return self.drawn[np.arange(n) % len(self.drawn)][:, span]
 
 

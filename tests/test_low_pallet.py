@@ -1,0 +1,46 @@
+"""The shipped ``low_pallet.yaml``: what its variants claim."""
+
+import functools
+
+import numpy as np
+import pytest
+
+from opsim.engine.simpy_engine import run_plan
+from opsim.kpi import figures
+from opsim.plan import compile_plan
+from opsim.scenario import read_scenarios
+from opsim.study.interval import t_interval
+
+BENT = "trunk_beyond_60_min_per_h"
+N = 6
+
+
+@functools.cache
+def replications(variant):
+    """(N,) minutes bent an hour, and (N,) throughput, of the first replications."""
+    plan = compile_plan(read_scenarios("low_pallet", [variant])[variant])
+    rows = []
+    for replication in range(N):
+        found = figures(run_plan(plan, replication), plan, asked=(BENT,))
+        rows.append(
+            [next(f.value for f in found if f.kpi == kpi and not f.subject) for kpi in (BENT, "throughput_per_h")]
+        )
+    return np.array(rows).T
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("low pallet")
+def test_drawing_times_and_postures_apart_misses_bent_time_and_no_throughput():
+    """Who bends deeper takes longer: apart, the deep postures are given shorter times."""
+    bent, rate = replications("base")
+    bent_apart, rate_apart = replications("times_apart_from_bodies")
+    assert np.array_equal(rate, rate_apart)
+    missed = t_interval(bent - bent_apart, 0.95)
+    assert missed.low > 0
+    assert 0.01 < missed.mean / bent.mean() < 0.12
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("low pallet")
+def test_a_raised_pallet_takes_the_bending_away():
+    assert replications("pallet_raised")[0].max() < 0.05 * replications("base")[0].min()
