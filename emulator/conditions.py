@@ -48,7 +48,8 @@ def shifted(model: MotionEmulator, z: np.ndarray, column: np.ndarray, shift: flo
     log_duration = model.margin.inverse(model.scale.raw(z, "duration")[:, 0])
     slope = column / column[at] if column[at] > 0 else np.zeros_like(column)
     slope[at] = 1.0
-    return np.asarray(z + (model.duration_z(log_duration + np.asarray(shift)) - z[:, at])[:, None] * slope)
+    moved = z + (model.duration_z(log_duration + np.asarray(shift)) - z[:, at])[:, None] * slope
+    return np.where(np.broadcast_to(shift, len(z))[:, None] == 0, z, moved)  # no shift: the same bits
 
 
 def _checked(condition: Mapping[str, Any]) -> dict[str, Any]:

@@ -36,7 +36,9 @@ def conditioned(
     slope = _gradient_s(model, effect) * model.scale.spread[at]
     direction = np.sum([g * model.covariance_with(i, effect) for g, i in zip(slope, at.tolist())], axis=0)
     given_s = condition["duration_s"] if "duration_s" in condition else whole_s(model, z)
-    return _lasting(model, z, direction, given_s * np.exp(np.broadcast_to(condition.get("log_duration_shift", 0.0), n)))
+    shift = np.broadcast_to(condition.get("log_duration_shift", 0.0), n)
+    moved = _lasting(model, z, direction, given_s * np.exp(shift))
+    return moved if "duration_s" in condition else np.where(shift[:, None] == 0, z, moved)  # no shift: the same bits
 
 
 def _near(model: MotionEmulator, law: Law, n: int, rng: np.random.Generator, duration_s: Any) -> np.ndarray:

@@ -43,6 +43,7 @@ class FitReport:
                          recording left out; near 0 is a copy
     disco_p            : permutation test of emulated against recorded postures; small says that they differ
     times              : duration and marks, emulated beside recorded
+    fastest_m_per_s    : greatest speed of any joint in a recorded performance
     """
 
     task: str
@@ -71,6 +72,7 @@ class FitReport:
     roughness_new_ratio: float = math.nan
     disco_p: float = math.nan
     times: tuple[TimeFit, ...] = ()
+    fastest_m_per_s: float = math.nan
 
     def rows(self) -> list[tuple[str, str]]:
         """Label and text of each figure, in the order to print them."""
@@ -85,6 +87,7 @@ class FitReport:
             ("duration", f"{self.duration_mean_s:.3f} s, CV {self.duration_cv:.3f}, {self.duration_margin}"),
             ("ICC of log duration", icc),
             ("roughness, emulated / recorded", f"{_figure(self.roughness_ratio)} {_new(self.roughness_new_ratio)}"),
+            ("fastest joint, recorded", _figure(self.fastest_m_per_s, " m/s")),
             ("novelty, emulated / recorded", _figure(self.novelty_ratio)),
             ("DISCO, emulated against recorded", f"p = {_figure(self.disco_p)}"),
             *((f"{fit.name}, emulated / recorded", _time(fit)) for fit in self.times),

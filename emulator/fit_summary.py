@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from emulator import fit_people
 from emulator.align import resample
 from emulator.anova import intraclass_correlation
 from emulator.dwell_fit import HOLDS_METHOD, said
@@ -22,7 +22,9 @@ from emulator.judge.energy import pooled
 from emulator.judge.novelty import novelty
 from emulator.judge.roughness import roughness
 from emulator.model import SCHEME, SCHEMES, MotionEmulator
+from emulator.motion import MotionSet
 from emulator.performances import MotionPerformances
+from emulator.quickness import recorded_m_per_s
 from emulator.registered import Registered
 from emulator.workforce import BETWEEN_METHOD, Workforce
 
@@ -43,13 +45,19 @@ TWINS_NOTE = (
     "half of the repetitions or more are copies of another one, so novelty cannot be estimated and the draws vary too "
     "little; is one recording in the file several times?"
 )
+ONCE_NOTE = (
+    "one repetition of each worker: what changes from one to the next is not known, so a worker does the same every "
+    "time, and all variation lies between workers"
+)
 ALIKE_NOTE = (
     "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
     "is one recording in the file several times?"
 )
 
 
-def summary(made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings) -> FitReport:
+def summary(
+    made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings, covariates: Sequence[str]
+) -> FitReport:
     """The report before the draws are judged."""
     whole = made.whole
     duration_s, nan = whole.duration_s, float("nan")
@@ -76,9 +84,13 @@ def summary(made: Registered, parts: Parts, workforce: Workforce, settings: FitS
         licence=whole.licence,
         where=whole.selection,
         command=settings.command,
-        methods=_methods(made, parts, workforce, settings),
-        notes=(*whole.notes, *said(parts.dwells, made.holds)),
+        methods=_methods(made, parts, workforce, settings) | _told(covariates),
+        notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole)),
     )
+
+
+def _once(whole: MotionSet) -> tuple[str, ...]:
+    return (ONCE_NOTE,) if 1 < len(whole) == len(whole.workers) else ()
 
 
 def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> FitReport:
@@ -98,6 +110,7 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
         roughness_new_ratio=rough_new,
         novelty_ratio=new_to_recorded,
         disco_p=p,
+        fastest_m_per_s=recorded_m_per_s(made.moving),
         times=_times(many, made),
         notes=model.report.notes
         + twins
@@ -150,9 +163,13 @@ def _methods(made: Registered, parts: Parts, workforce: Workforce, settings: Fit
         "density": GAUSSIAN.format(rho=f"{workforce.within.rho:.3f}") if workforce.smoothed is None else SMOOTHED,
         "workers": BETWEEN_METHOD.format(rho=f"{workforce.between.rho:.3f}"),
         "marks": "; ".join(f"{n}: {m.name}" for n, m in zip(made.whole.mark_names, parts.mark_margins)),
-        "icc": "Shrout & Fleiss ICC(1,1) of log duration, exact F interval, 95 %",
+        "icc": "Shrout & Fleiss ICC(1,1) of log duration, 95 % interval of Thomas & Hultquist",
         "root": "rides on the feet; slip, clearance and heading modelled",
     }
     holds = {"holds": HOLDS_METHOD} if len(parts.dwells) else {}
     marks = {"landmarks": f"marks drawn together with strength {settings.landmarks:g}"} if settings.landmarks else {}
-    return methods | holds | marks | fit_people.said(parts, made.moving)
+    return methods | holds | marks
+
+
+def _told(covariates: Sequence[str]) -> dict[str, str]:
+    return {"covariates": "; ".join(covariates)} if covariates else {}

@@ -8,9 +8,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from emulator.bandwidth import smoothed
+from emulator.covariates.table import table_of
 from emulator.fit_choice import choose
 from emulator.fit_parts import Parts, parts_of
-from emulator.fit_people import explained
+from emulator.fit_people import Covariates, covariates_of
 from emulator.fit_settings import AUTO, FitSettings, Progress
 from emulator.fit_summary import judged, summary
 from emulator.model import SCHEME, MotionEmulator
@@ -27,6 +28,7 @@ def fit(motions: MotionSet, settings: FitSettings, progress: Progress = None) ->
     if len(motions) < FEWEST:
         raise ValueError(f"{motions.task}: a model needs at least {FEWEST} repetitions, found {len(motions)}")
     refuse_unsound(motions)
+    table_of(motions)  # its mistakes name the task and the repetition themselves
     with threadpool_limits(1, user_api="blas"):  # one thread: the same recordings give the same bytes everywhere
         try:
             return _fit(motions.in_order(), settings, progress)
@@ -50,7 +52,8 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     """The emulator of registered recordings, its report without a judgement of draws."""
     motions = made.whole
     parts = parts_of(made, settings)
-    workforce = _workforce(parts, made.moving, settings)
+    covariates = covariates_of(parts, made.moving)
+    workforce = _workforce(parts, made.moving, settings, covariates)
     return MotionEmulator(
         motions.task,
         motions.skeleton,
@@ -65,21 +68,20 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         parts.mark_margins,
         parts.scale,
         workforce,
-        summary(made, parts, workforce, settings),
+        summary(made, parts, workforce, settings, covariates.lines),
         parts.dwells,
     )
 
 
-def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings) -> Workforce:
-    index, n_workers = motions.worker_index, len(motions.workers)
-    rho = shrinkages(len(parts.z), n_workers)
-    crew = Workforce.fit(parts.z, index, motions.workers, *rho, explained(parts, motions))
+def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: Covariates) -> Workforce:
+    index, n_workers, z = motions.worker_index, len(motions.workers), parts.z - covariates.within
+    crew = Workforce.fit(z, index, motions.workers, *shrinkages(len(z), n_workers), covariates.told)
     crew = replace(crew, group=motions.source)
-    if settings.scheme != SCHEME or len(parts.z) == n_workers or parts.posture.n_components == 0:
+    if settings.scheme != SCHEME or len(z) == n_workers or parts.posture.n_components == 0:
         return crew
     centred, block = parts.flat - parts.posture.mean, parts.scale.block("posture")
     size, bend = parts.scale.spread[block], _bending(parts, settings.n_times)
-    return replace(crew, smoothed=smoothed(parts.z, index, crew.within.spread, block, size, centred @ centred.T, bend))
+    return replace(crew, smoothed=smoothed(z, index, crew.within.spread, block, size, centred @ centred.T, bend))
 
 
 def _bending(parts: Parts, n_times: int) -> np.ndarray:

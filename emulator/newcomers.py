@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emulator.covariates.body import Body
+from emulator.density import LowRankNormal
+from emulator.quickness import no_faster
 from emulator.workforce import WorkerEffect
 
 if TYPE_CHECKING:
@@ -17,8 +19,11 @@ if TYPE_CHECKING:
 People = Callable[[str], float]
 """A standard normal number of one worker for each recorded person's name: the same in all tasks that he does."""
 BODY_KEYS = ("height_m", "mass_kg", "age_years", "sex", "pace", "person")
+ALWAYS = ("height_m", "pace", "person")
+"""What is read whatever the recordings tell: bones are scaled, times moved, and the person looked for."""
 _CROWN_AND_SOLE_M = 0.20
 """Ankle above the floor and crown above the head joint, in a body whose height is asked for."""
+_CHAIN = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
 
 
 def drawn_worker(
@@ -28,11 +33,10 @@ def drawn_worker(
     person = body.get("person") if isinstance(body, Mapping) else getattr(body, "person", None)
     known = _body(model, body)
     if person in model.workers:
-        return _as_asked(model, model.known_worker(person), known)
+        return _recorded(model, rng, person, known)
     if not model.workforce.has_worker_effect and known == Body():
         return None
-    drawn = _drawn(model, rng, known, people, "clamp")
-    return drawn if slowness is None or known.pace is not None else _this_slow(model, drawn, known, slowness)
+    return _drawn(model, rng, known, people, slowness, "clamp")
 
 
 def new_worker(
@@ -41,67 +45,79 @@ def new_worker(
     """See ``MotionEmulator.new_worker``."""
     known = _body(model, body)
     if rng is not None:
-        return _drawn(model, rng, known, people, outside)
-    return _as_asked(
-        model, WorkerEffect(model.workforce.about(known, outside).mean, said=_said(model, known, outside)), known
-    )
+        return _drawn(model, rng, known, people, None, outside)
+    law = model.workforce.about(known, outside)
+    return _as_asked(model, law.mean, law, known, outside)
 
 
 def body_keys(model: MotionEmulator) -> tuple[str, ...]:
     """See ``MotionEmulator.body_keys``."""
-    always = ("height_m", "pace", "person")
-    return tuple(name for name in BODY_KEYS if name in always or name in model.workforce.reads)
-
-
-def _drawn(
-    model: MotionEmulator, rng: np.random.Generator, body: Body, people: People | None, outside: str
-) -> WorkerEffect:
-    crew = model.workforce
-    own = crew.about(body, outside)
-    if people is None:
-        z = own.sample(1, rng)[0]
-    else:
-        z = own.of(np.array([people(f"{crew.group}/{name}") for name in crew.names]) @ crew.by_person, rng)
-    return _as_asked(model, WorkerEffect(z, said=_said(model, body, outside)), body)
-
-
-def _said(model: MotionEmulator, body: Body, outside: str) -> tuple[str, ...]:
-    return () if body == Body() else model.workforce.said_of(body, outside)
+    return tuple(name for name in BODY_KEYS if name in ALWAYS or name in model.workforce.telling)
 
 
 def _body(model: MotionEmulator, body: Any) -> Body:
     if isinstance(body, Mapping):
         body = {name: value for name, value in body.items() if name != "person"}
-    return Body.of(body, model.workforce.covariate_names)
+    told = model.workforce.told
+    return Body.of(body, () if told is None else told.model.names)
 
 
-def _as_asked(model: MotionEmulator, effect: WorkerEffect, body: Body) -> WorkerEffect:
-    """With the pace and the height asked for, where no covariates have given them yet."""
-    if body.pace is not None and "pace" not in model.workforce.covariate_names:
-        centre = effect.z if effect.name else model.workforce.between.mean
-        effect = replace(effect, z=at_pace(model, effect.z, centre, body.pace))
-    return effect if body.height_m is None else replace(effect, scale=_scale(model, effect.z, body.height_m))
+def _recorded(model: MotionEmulator, rng: np.random.Generator, person: str, body: Body) -> WorkerEffect:
+    """A recorded person: his shrunk mean, and what his few repetitions leave open; at ``pace`` times his own."""
+    crew, effect = model.workforce, model.known_worker(person)
+    unit = (crew.between.sample(1, rng)[0] - crew.between.mean) / np.where(
+        crew.between.spread > 0, crew.between.spread, 1
+    )
+    z = effect.z + crew.doubt[crew.names.index(person)] * unit
+    if body.pace is not None:
+        z = at_pace(model, z, crew.between, z, body.pace)
+    scale = 1.0 if body.height_m is None else _scale(model, z, body.height_m)
+    return replace(effect, z=z, scale=scale)
 
 
-def _this_slow(model: MotionEmulator, effect: WorkerEffect, body: Body, slowness: float) -> WorkerEffect:
-    """The worker at so many standard deviations of log moving time from the mean of those with his body."""
-    own = model.workforce.about(body)
-    at = model.scale.block("duration").start
-    z = _moved(effect.z, own.covariance_with(at), at, own.mean[at] + slowness * own.spread[at])
-    return replace(effect, z=z)
+def _drawn(
+    model: MotionEmulator,
+    rng: np.random.Generator,
+    body: Body,
+    people: People | None,
+    slowness: float | None,
+    outside: str,
+) -> WorkerEffect:
+    """Somebody with this body; ``people`` lean on the first rows of the law, what else there is goes by luck."""
+    crew = model.workforce
+    law = crew.about(body, outside)
+    if people is None:
+        z = law.sample(1, rng)[0]
+    else:
+        numbers = np.array([people(f"{crew.group}/{name}") for name in crew.names])
+        more = len(law.factor) - len(numbers)
+        of_rows = numbers @ crew.by_person if law is crew.between else np.append(numbers, rng.standard_normal(more))
+        z = law.of(of_rows, rng)
+    if slowness is not None and body.pace is None:
+        at = model.scale.block("duration").start
+        z = _moved(z, law.covariance_with(at), at, law.mean[at] + slowness * law.spread[at])
+    return _as_asked(model, no_faster(model, z, law), law, body, outside)
 
 
-def at_pace(model: MotionEmulator, z: np.ndarray, centre: np.ndarray, pace: float) -> np.ndarray:
-    """A worker's mean z (K,), moved so that he is ``pace`` times as fast as ``centre`` (K,) in median moving time.
+def _as_asked(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, body: Body, outside: str) -> WorkerEffect:
+    """At the pace and as tall as was asked for; what was done with the rest of the body in words."""
+    if body.pace is not None:
+        z = at_pace(model, z, law, model.workforce.between.mean, body.pace)
+    told = model.workforce.told
+    said = () if told is None or body == Body() else told.model.explain(body, outside, elsewhere=ALWAYS).lines
+    scale = 1.0 if body.height_m is None else _scale(model, z, body.height_m)
+    return WorkerEffect(z, scale=scale, said=tuple(said))
 
-    The rest of z follows log duration by its regression between workers (where they do not differ: within workers).
+
+def at_pace(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, usual: np.ndarray, pace: float) -> np.ndarray:
+    """A worker's mean z (K,), moved so that he is ``pace`` times as fast as ``usual`` (K,) in median moving time.
+
+    The rest of z follows log duration by its regression in ``law`` (where workers do not differ: within workers).
     """
     at = model.scale.block("duration").start
-    between, within = (normal.covariance_with(at) for normal in (model.workforce.between, model.workforce.within))
-    column = between if between[at] > 1e-12 else within
-    usual = model.margin.inverse((model.scale.raw(centre[None], "duration"))[:, 0])
-    wanted = model.duration_z(usual - np.log(pace))[0]
-    return _moved(z, column, at, wanted)
+    between, within = (normal.covariance_with(at) for normal in (law, model.workforce.within))
+    log_s = model.margin.inverse(model.scale.raw(usual[None], "duration")[:, 0])
+    return _moved(z, between if between[at] > 1e-12 else within, at, model.duration_z(log_s - np.log(pace))[0])
 
 
 def _moved(z: np.ndarray, column: np.ndarray, at: int, wanted: float) -> np.ndarray:
@@ -112,7 +128,23 @@ def _moved(z: np.ndarray, column: np.ndarray, at: int, wanted: float) -> np.ndar
 
 
 def _scale(model: MotionEmulator, z: np.ndarray, height_m: float) -> float:
-    """What makes the bones of z (K,) those of somebody ``height_m`` tall: the chain ankle to head plus 0.20 m."""
+    """What makes the bones of z (K,) those of somebody ``height_m`` tall.
+
+    Where the recordings tell bones by height, only what lies beyond them is left to scale; else the chain from ankle to
+    head is to be the height less 0.20 m for sole and crown, which is right to 1-5 %. 1 for a skeleton without it.
+    """
+    told = model.workforce.told
+    if told is not None and "height_m" in told.model.telling and _bones_told(model):
+        i = told.model.names.index("height_m")
+        return float(height_m / np.clip(height_m, told.model.low[i], told.model.high[i]))
     length = dict(zip(model.skeleton.bone_names, model.bone_length_m(z[None])[0]))
-    chain = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
-    return (height_m - _CROWN_AND_SOLE_M) / float(sum(length.get(name, 0.0) for name in chain))
+    if not set(_CHAIN) <= set(length):
+        return 1.0
+    return (height_m - _CROWN_AND_SOLE_M) / float(sum(length[name] for name in _CHAIN))
+
+
+def _bones_told(model: MotionEmulator) -> bool:
+    """Whether height tells the bones' first score."""
+    told, bones = model.workforce.told, model.scale.block("bones")
+    assert told is not None
+    return bool(told.model.explained[bones][:1].any())

@@ -36,6 +36,7 @@ def pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         "centre": model.scale.centre,
         "spread": model.scale.spread,
         "effects": model.workforce.effects,
+        "doubt": model.workforce.doubt,
     }
     if len(model.dwells):
         plain["dwell_slopes"] = [margin.slope for margin in model.dwells.margins]
@@ -53,9 +54,10 @@ def pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         pca: JointPCA = getattr(model, name)
         whole, exponent = encode(np.concatenate([pca.mean[None], pca.basis]), bits(model.n_times))
         arrays |= {f"{name}_whole": _steps(whole, model.n_times), f"{name}_exponent": exponent}
-    if model.workforce.covariates is not None:
-        plain["covariates"], told = stored.pack(model.workforce.covariates)
+    if model.workforce.told is not None:
+        plain["covariates"], told = stored.pack(model.workforce.told.model)
         arrays |= {f"covariates_{name}": value for name, value in told.items()}
+        arrays["told_fitted"] = model.workforce.told.fitted
     if model.workforce.smoothed is not None:
         arrays |= {f"smoothed_{name}": getattr(model.workforce.smoothed, name) for name in SMOOTHED}
     return plain, arrays

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from emulator.covariates import stored
-from emulator.covariates.model import CovariateModel
 from emulator.density import LowRankNormal
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
@@ -23,6 +22,7 @@ from emulator.reduce import JointPCA
 from emulator.skeleton import Skeleton
 from emulator.smoothed import SmoothedScores
 from emulator.storage import decode
+from emulator.told import Told
 from emulator.workforce import Workforce
 
 
@@ -131,9 +131,13 @@ class _Parts:
         smoothed = self._smoothed(len(names)) if f"{self.task}/smoothed_scores" in self.arrays else None
         group = str(self.plain.get("group", self.plain["report"]["source"]))
         between, within = self._normal("between"), self._normal("within")
-        return Workforce(between, within, names, effects, smoothed, group, self._covariates())
+        there = f"{self.task}/doubt" in self.arrays  # a library of before says nothing of it
+        doubt = self.array("doubt", len(names), self.k) if there else np.zeros_like(effects)
+        if np.any(doubt < 0):
+            raise ValueError(f"{self.task}/doubt: found a negative standard deviation")
+        return Workforce(between, within, names, effects, doubt, smoothed, group, self._told(len(names)))
 
-    def _covariates(self) -> CovariateModel | None:
+    def _told(self, n_workers: int) -> Told | None:
         if "covariates" not in self.plain:
             return None
         head = f"{self.task}/covariates_"
@@ -141,7 +145,7 @@ class _Parts:
         model = stored.unpack(self.plain["covariates"], arrays)
         if model.r2.shape != (self.k,):
             raise ValueError(f"{self.task}: covariates of {model.r2.size} coordinates, expected {self.k}")
-        return model
+        return Told(model, self.array("told_fitted", n_workers, self.k))
 
     def _normal(self, name: str) -> LowRankNormal:
         factor, spread = self.array(f"{name}_factor", -1, self.k), self.array(f"{name}_spread", self.k)

@@ -16,7 +16,7 @@ from emulator.smoothed import SmoothedScores
 
 if TYPE_CHECKING:
     from emulator.covariates.body import Body
-    from emulator.covariates.model import CovariateModel
+    from emulator.told import Told
 
 BETWEEN_METHOD = (
     "variances by ANOVA (a negative one is 0); correlations of people's means, shrunk to 0 by rho = {rho}; "
@@ -51,19 +51,20 @@ class Workforce:
     """Between-worker Gaussian of u, within-worker Gaussian of e, and the people seen in training.
 
     between, within : LowRankNormal over K coordinates (within has mean 0)
-    names : W worker names; effects : (W, K) their shrunk means
+    names : W worker names; effects : (W, K) their shrunk means; doubt : (W, K) standard deviations about these
     smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
     group : whose names these are: two tasks of one group were done by the same people where names agree
-    covariates : what a body says of z, or None
+    told : what bodies say of z, or None
     """
 
     between: LowRankNormal
     within: LowRankNormal
     names: tuple[str, ...]
     effects: np.ndarray
+    doubt: np.ndarray
     smoothed: SmoothedScores | None = None
     group: str = ""
-    covariates: CovariateModel | None = None
+    told: Told | None = None
 
     @classmethod
     def fit(
@@ -73,11 +74,11 @@ class Workforce:
         names: tuple[str, ...],
         rho_between: float,
         rho_within: float,
-        covariates: Explained | None = None,
+        told: Told | None = None,
     ) -> Workforce:
         """Moment (ANOVA) estimates from z (N, K) and worker_index (N,) into ``names`` (each with a repetition).
 
-        covariates : what bodies say of the workers' means; a known worker is then drawn towards those of his body
+        told : what bodies say of the workers' means; a known worker is then drawn towards those of his body
         """
         parts = anova(z, worker_index)
         means = np.stack([z[worker_index == w].mean(axis=0) for w in range(len(names))])
@@ -87,12 +88,10 @@ class Workforce:
             np.zeros(z.shape[1]), within_worker(z, worker_index) / np.sqrt(residual_df), rho_within
         )
         between = LowRankNormal.of_rows(centre, _between_rows(means - centre, parts.between), rho_between)
-        told, left = np.zeros_like(means), np.ones(z.shape[1])
-        if covariates is not None:
-            told, left = covariates.fitted, _left(covariates.model)
-        foretold = centre + told
-        effects = foretold + parts.reliability(np.bincount(worker_index), left**2) * (means - foretold)
-        return cls(between, within, names, effects, None, "", None if covariates is None else covariates.model)
+        foretold, left = (centre, np.ones(z.shape[1])) if told is None else (centre + told.fitted, told.left)
+        sure = parts.reliability(np.bincount(worker_index), left**2)
+        doubt = np.sqrt(parts.between * left**2 * (1.0 - sure))
+        return cls(between, within, names, foretold + sure * (means - foretold), doubt, told=told)
 
     @property
     def has_worker_effect(self) -> bool:
@@ -123,45 +122,28 @@ class Workforce:
         return np.asarray(u @ vt)
 
     @property
-    def covariate_names(self) -> tuple[str, ...]:
-        """The numeric covariates of the recorded people that say something of how they move."""
-        return () if self.covariates is None else self.covariates.names
-
-    @property
-    def reads(self) -> tuple[str, ...]:
-        """The same and the category, if people were of two or more."""
-        sex = () if self.covariates is None or not self.covariates.levels else (self.covariates.category,)
-        return self.covariate_names + sex
+    def telling(self) -> tuple[str, ...]:
+        """What of a body tells how somebody moves here: the names of covariates, and of the category."""
+        return () if self.told is None else self.told.model.telling
 
     def about(self, body: Body, outside: str = "clamp") -> LowRankNormal:
-        """How new workers with this body differ: the mean by the covariates, and the variance that these leave."""
-        if self.covariates is None or not (set(body.known) | ({"sex"} if body.sex else set())) & set(self.reads):
-            return self.between
-        left = _left(self.covariates)
-        mean = self.between.mean + self.covariates.predict(body, outside)
-        return LowRankNormal(mean, self.between.factor * left, self.between.spread * left, self.between.rho)
+        """How new workers with this body differ: the mean that it tells, and what it leaves, known in part as it is.
 
-    def said_of(self, body: Body, outside: str = "clamp") -> tuple[str, ...]:
-        """What is done with a body, in words."""
-        return () if self.covariates is None else tuple(self.covariates.explain(body, outside).lines)
+        Rows of the factor: first the W recorded people, as far as their bodies do not tell them apart; then what the
+        unknown of the body leaves open. ``between`` itself for a body that tells nothing.
+        """
+        if self.told is None or not self.told.hears(body):
+            return self.between
+        own = self.effects - self.effects.mean(axis=0) - self.told.fitted
+        people = _between_rows(own, (self.between.spread * self.told.left) ** 2)
+        rows = np.concatenate([people, self.told.unsure_rows(body)])
+        mean = self.between.mean + self.told.model.predict(body, outside)
+        return LowRankNormal(mean, rows, np.linalg.norm(rows, axis=0), self.between.rho)
 
     @cached_property
     def _known_laws(self) -> tuple[Law, ...]:
         assert self.smoothed is not None
         return tuple(self.smoothed.known(w, effect) for w, effect in enumerate(self.effects))
-
-
-@dataclass(frozen=True, eq=False)
-class Explained:
-    """A model of covariates, and what it says of the W recorded people: shifts (W, K) of their means."""
-
-    model: CovariateModel
-    fitted: np.ndarray
-
-
-def _left(covariates: CovariateModel) -> np.ndarray:
-    """(K,) share of the between-worker standard deviation that covariates leave, by leave-one-person-out R^2."""
-    return np.asarray(np.sqrt(1.0 - np.clip(covariates.r2, 0.0, 1.0)))
 
 
 def _between_rows(deviations: np.ndarray, variance: np.ndarray) -> np.ndarray:

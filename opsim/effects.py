@@ -26,7 +26,10 @@ def worker_effect(
                   recorded person. They are the same in every task, so that effects in tasks that the same people did
                   go together as theirs; effects in other tasks know nothing of each other
     same_pace   : a model with ``knows_slowness`` is also given how slow the worker is, one standard normal number: who
-                  is among the slowest tenth in one task is so in all
+                  is among the slowest tenth in one task is so in all. That is said of moving time: the pauses of an
+                  emulated task have luck of their own, and follow it only as far as they did in the recordings
+
+    Streams: ``effect, worker, task``; ``leaning, worker, person``; ``slowness, worker``; all of the workforce.
     """
     own = stream(seed, workforce, "effect", worker, task, 0)
 

@@ -9,14 +9,14 @@ from importlib import import_module
 from typing import Any
 
 _HOME = {
-    "Agreement": "validation",
+    "Agreement": "validated",
     "Body": "body",
     "BodyError": "body",
     "CovariateModel": "model",
     "CovariateTable": "table",
     "CovariateUse": "explained",
     "Prediction": "explained",
-    "Validation": "validation",
+    "Validation": "validated",
     "bone_lengths_m": "bones",
     "icc_2_1": "agreement",
     "leave_one_worker_out": "validation",

@@ -14,6 +14,14 @@ FEWEST_PEOPLE = 2
 """A level of one person would be that person."""
 
 
+def words_of_people(category: Sequence[str | None], groups: np.ndarray) -> list[str | None]:
+    """The first known word of each of the G people whose rows (R,) ``groups`` numbers; None where none is known."""
+    words: list[str | None] = [None] * (int(groups.max()) + 1 if len(groups) else 0)
+    for word, g in zip(category, groups):
+        words[g] = word if words[g] is None else words[g]
+    return words
+
+
 def levels_of(category: Sequence[str | None] | None) -> tuple[str, ...]:
     """The levels that ``FEWEST_PEOPLE`` have, in order of the alphabet; none if fewer than two levels do."""
     said = [one for one in category or () if one is not None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from emulator.covariates.model import CovariateModel
 
 OUTSIDE = ("clamp", "refuse")
+NOT_THERE = "not in the recordings"
 
 
 @dataclass(frozen=True)
@@ -31,8 +33,8 @@ class CovariateUse:
 
     def __str__(self) -> str:
         asked = "unknown" if self.asked is None else f"asked {_word(self.asked)}"
-        if self.how == "not in the recordings":
-            return f"{self.name}: {asked}, not in the recordings: it changes nothing here"
+        if self.how == NOT_THERE:
+            return f"{self.name}: {asked}, {NOT_THERE}: it changes nothing here"
         known = f"recorded {self.low:.4g} to {self.high:.4g}" if self.low is not None else "recorded"
         return f"{self.name}: {asked}, {known}, used {_word(self.used)} ({self.how})"
 
@@ -51,15 +53,15 @@ class Prediction:
 
     @property
     def unused(self) -> tuple[str, ...]:
-        """Names of covariates that were asked for and are not in the recordings."""
-        return tuple(use.name for use in self.uses if use.how == "not in the recordings")
+        """Names of covariates that were asked for, are not in the recordings and change nothing elsewhere either."""
+        return tuple(use.name for use in self.uses if use.how == NOT_THERE)
 
     @property
     def lines(self) -> list[str]:
         return [str(use) for use in self.uses]
 
 
-def explain(model: CovariateModel, body: Body, outside: str) -> Prediction:
+def explain(model: CovariateModel, body: Body, outside: str, elsewhere: Collection[str] = ()) -> Prediction:
     """See ``CovariateModel.explain``. Raises BodyError for a body outside the range where that is refused."""
     from emulator.covariates.model import level_shares, logged
 
@@ -75,10 +77,9 @@ def explain(model: CovariateModel, body: Body, outside: str) -> Prediction:
     values = np.concatenate([logged(model.names, clamped[None]), level_shares([sex], model.levels)], axis=1)
     filled = model.gaussian.filled(values)
     uses = _numbers(model, asked, clamped, filled[0]) + _sex(model, body, filled[0])
-    uses += [
-        CovariateUse(n, v, None, None, None, "not in the recordings") for n, v in known.items() if n not in model.names
-    ]
-    return Prediction(model.of_values(filled)[0], tuple(uses))
+    uses += [CovariateUse(n, v, None, None, None, NOT_THERE) for n, v in known.items() if n not in model.names]
+    told = tuple(use for use in uses if use.how != NOT_THERE or use.name not in elsewhere)
+    return Prediction(model.of_values(filled)[0], told)
 
 
 def _outside(model: CovariateModel, asked: np.ndarray, body: Body) -> list[str]:
@@ -108,7 +109,7 @@ def _numbers(model: CovariateModel, asked: np.ndarray, clamped: np.ndarray, fill
 
 def _sex(model: CovariateModel, body: Body, filled: np.ndarray) -> list[CovariateUse]:
     if not model.levels:
-        return [] if body.sex is None else [CovariateUse("sex", body.sex, None, None, None, "not in the recordings")]
+        return [] if body.sex is None else [CovariateUse("sex", body.sex, None, None, None, NOT_THERE)]
     if body.sex in model.levels:
         return [CovariateUse(model.category, body.sex, None, None, body.sex, "as asked")]
     later = np.clip(filled[len(model.names) :], 0.0, 1.0)

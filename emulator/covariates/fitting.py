@@ -39,11 +39,11 @@ def fit(
     groups = np.arange(len(means)) if groups is None else np.asarray(groups)
     known = Ready.of(numeric, names, category, groups)
     numbers = _numbers(known, means, level, keep, families)
-    sexes = _sexes(known, means, numbers, level, keep, families)
-    errors, within = sexes.errors, sexes.residual
-    total = of_people(means, groups) - of_people(means, groups).mean(axis=0)
-    variance = np.sum(total**2, axis=0) / max(len(total) - 1, 1)
-    ratio = _ratio(np.sum(errors**2, axis=0), np.sum(sexes.plain**2, axis=0))
+    return _model(known, category_name, numbers, _sexes(known, means, numbers, level, keep, families), means)
+
+
+def _model(known: Ready, category: str, numbers: _Numbers, sexes: _Sexes, means: np.ndarray) -> CovariateModel:
+    """What both steps found, and how well it foretells."""
     return CovariateModel(
         names=known.names,
         low=known.low,
@@ -51,7 +51,7 @@ def fit(
         left_out=known.left_out,
         centre=known.x.mean(axis=0),
         slope=numbers.slope,
-        category=category_name,
+        category=category,
         levels=known.levels,
         level_effect=sexes.effect,
         gaussian=known.gaussian,
@@ -59,10 +59,20 @@ def fit(
         n_components=numbers.n_components,
         noise_p=numbers.p,
         category_p=sexes.p,
-        r2=1.0 - ratio,
-        error_spread=np.sqrt(variance * ratio),
-        inflation=np.maximum(_ratio(ratio, _ratio(np.sum(within**2, axis=0), np.sum(total**2, axis=0))), 1.0),
+        **_accuracy(sexes, of_people(means, known.folds.groups)),
     )
+
+
+def _accuracy(sexes: _Sexes, people: np.ndarray) -> dict[str, np.ndarray]:
+    """r2, error_spread and inflation, each (K,), of the whole model; people (G, K) are their mean scores."""
+    total = np.sum((people - people.mean(axis=0)) ** 2, axis=0)
+    ratio = _ratio(np.sum(sexes.errors**2, axis=0), np.sum(sexes.plain**2, axis=0))
+    within = _ratio(np.sum(sexes.residual**2, axis=0), total)
+    return {
+        "r2": 1.0 - ratio,
+        "error_spread": np.sqrt(total / max(len(people) - 1, 1) * ratio),
+        "inflation": np.maximum(_ratio(ratio, within), 1.0),
+    }
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ in what is known of a person are filled by the conditional mean.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -87,6 +87,12 @@ class CovariateModel:
         """(K,) whether the covariates say anything of a score."""
         return np.any(self.slope != 0, axis=0) | np.any(self.level_effect != 0, axis=0)
 
+    @property
+    def telling(self) -> tuple[str, ...]:
+        """The covariates, and the category, that say something of some score; ``names`` are all that could be asked."""
+        numbers = tuple(name for name, slope in zip(self.names, self.slope) if np.any(slope != 0))
+        return numbers + ((self.category,) if np.any(self.level_effect != 0) else ())
+
     def predict(self, body: Any, outside: str = "clamp") -> np.ndarray:
         """(K,) how this body's mean coordinates are expected to differ from the mean of the training people.
 
@@ -95,9 +101,12 @@ class CovariateModel:
         """
         return self.explain(body, outside).mean
 
-    def explain(self, body: Any, outside: str = "clamp") -> Prediction:
-        """The same with what became of each covariate: asked, range, used."""
-        return explain(self, Body.of(body, self.names), outside)
+    def explain(self, body: Any, outside: str = "clamp", *, elsewhere: Collection[str] = ()) -> Prediction:
+        """The same with what became of each covariate: asked, range, used.
+
+        elsewhere : covariates that do something outside this model; where it has them not, nothing is said of them
+        """
+        return explain(self, Body.of(body, self.names), outside, elsewhere)
 
     def shifts(self, numeric: np.ndarray, category: Sequence[str | None] | None = None) -> np.ndarray:
         """(R, K) the shifts of rows of covariates (R, P) in the order of ``names``; NaN and None are filled."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.covariates.category import levels_of, members
+from emulator.covariates.category import levels_of, members, words_of_people
 from emulator.covariates.gaussian import CovariateGaussian
 from emulator.covariates.left_out import Folds, summed
 from emulator.covariates.model import level_shares, logged
@@ -37,13 +37,13 @@ class Ready:
         use, left_out = _usable(numeric, names, groups)
         chosen = tuple(names[i] for i in use)
         raw, x = numeric[:, use], logged(chosen, numeric[:, use])
-        first = [int(np.argmax(groups == g)) for g in range(int(groups.max()) + 1)]
-        people = [category[i] for i in first] if category is not None else None
+        n_people = int(groups.max()) + 1
+        people = words_of_people(category, groups) if category is not None else [None] * n_people
         levels = levels_of(people)
-        shares = level_shares(people or [None] * len(first), levels)
-        gaussian = CovariateGaussian.fit(np.concatenate([x, shares[groups]], axis=1), len(first))
+        shares = level_shares(people, levels)
+        gaussian = CovariateGaussian.fit(np.concatenate([x, shares[groups]], axis=1), n_people)
         x = gaussian.filled(np.concatenate([x, shares[groups]], axis=1))[:, : len(use)]
-        member = members(people, levels) if levels else np.zeros((len(first), 0))
+        member = members(people, levels) if levels else np.zeros((n_people, 0))
         low, high = np.nanmin(raw, axis=0, initial=np.inf), np.nanmax(raw, axis=0, initial=-np.inf)
         return cls(chosen, low, high, left_out, x, Folds.of(x, groups), levels, member, gaussian)
 

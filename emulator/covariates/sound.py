@@ -35,6 +35,12 @@ def mistakes_of(
     wrong += [f"covariates: {name!r} is named twice" for name in dict.fromkeys(names) if list(names).count(name) > 1]
     if "pace" in names and numeric.shape[1] == len(names) and np.any(numeric[:, list(names).index("pace")] <= 0):
         wrong.append("covariates: pace: found 0 or less, expected ratios above 0")
+    wrong += _of_settings(means.shape[1], families, level, keep)
+    return wrong + _of_people(len(means), category, groups)
+
+
+def _of_settings(n_scores: int, families: np.ndarray | None, level: float, keep: str) -> list[str]:
+    wrong = []
     if not 0.5 <= level < 1:
         wrong.append(f"covariates: level: found {level}, expected a share from 0.5 to below 1")
     if keep not in KEEPS:
@@ -42,9 +48,9 @@ def mistakes_of(
         wrong.append(
             f"covariates: keep: no {keep!r}; " + (f"did you mean {near[0]!r}?" if near else "known: fdr, each")
         )
-    if families is not None and np.shape(families) != (means.shape[1],):
-        wrong.append(f"covariates: families: found {np.shape(families)}, expected ({means.shape[1]},)")
-    return wrong + _of_people(len(means), category, groups)
+    if families is not None and np.shape(families) != (n_scores,):
+        wrong.append(f"covariates: families: found {np.shape(families)}, expected ({n_scores},)")
+    return wrong
 
 
 def _of_people(n_rows: int, category: Sequence[str | None] | None, groups: np.ndarray | None) -> list[str]:
@@ -60,7 +66,7 @@ def _of_people(n_rows: int, category: Sequence[str | None] | None, groups: np.nd
         return [*wrong, "covariates: groups: expected each number from 0 to the largest"]
     if category is not None and len(category) == n_rows:
         for g in range(int(groups.max()) + 1):
-            own = sorted({str(word) for word, of in zip(category, groups) if of == g})
+            own = sorted({str(word) for word, of in zip(category, groups) if of == g and word is not None})
             if len(own) > 1:
                 wrong.append(f"covariates: person {g} is of {len(own)} categories: {', '.join(own)}")
     return wrong

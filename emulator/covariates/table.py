@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from emulator.covariates.body import ALIASES, RANGES, number_mistake, sex_word
+from emulator.covariates.category import words_of_people
 from emulator.motion import Motion, MotionSet
 
 PREFIX = "cov_"
@@ -41,14 +42,13 @@ class CovariateTable:
         )
 
     def of_people(self) -> CovariateTable:
-        """One row a worker: means of the numbers that are known."""
-        first = [int(np.argmax(self.groups == g)) for g in range(len(self.workers))]
+        """One row a worker: means of the numbers that are known, the first word that is."""
         own = [self.numeric[self.groups == g] for g in range(len(self.workers))]
         return CovariateTable(
             self.workers,
             self.names,
             np.array([_known_mean(rows) for rows in own]).reshape(len(own), len(self.names)),
-            tuple(self.category[i] for i in first),
+            tuple(words_of_people(self.category, self.groups)),
             np.arange(len(self.workers)),
         )
 
@@ -65,7 +65,7 @@ def table_of(motions: MotionSet, names: Sequence[str] | None = None, category: s
     names    : numeric covariates to take, with or without "cov_"; None: those of a Body that any repetition has
     category : the covariate that is a word
     Raises ValueError that names task, repetition and covariate, for every number that cannot be, a name that no
-    repetition has (with the nearest), and a worker of two categories.
+    repetition has (with the nearest), and a worker of two categories; one who is of none in some repetitions is not.
     """
     rows = [_named(motion) for motion in motions.motions]
     there = set().union(*rows)
@@ -79,9 +79,9 @@ def table_of(motions: MotionSet, names: Sequence[str] | None = None, category: s
     words = tuple(_word(row.get(_plain(category))) for row in rows)
     groups = motions.worker_index
     wrong += [
-        f"{motions.task}: worker {name!r}: {category}: found {' and '.join(sorted(map(str, own)))}, expected one"
+        f"{motions.task}: worker {name!r}: {category}: found {' and '.join(sorted(own))}, expected one"
         for g, name in enumerate(motions.workers)
-        if len(own := {words[i] for i in np.flatnonzero(groups == g)}) > 1
+        if len(own := {word for word, of in zip(words, groups) if of == g and word is not None}) > 1
     ]
     if wrong:
         raise ValueError("\n".join(wrong))

@@ -47,7 +47,7 @@ def drawn_again(pieces: Pieces, replication: int, plan: Plan) -> Iterator[tuple[
     Raises ValueError where a task's model draws what is no time.
     """
     models = {task.name: task.model for task in plan.tasks}
-    workforce = replication if plan.staffing == "redrawn" else 0
+    workforce = plan.workforce_of(replication)
     for rank in np.unique(pieces.worker).tolist():
         person, own = plan.workers[rank], pieces.some(pieces.worker == rank)
         luck = OwnLuck(person.name, models, plan.seed, replication, workforce, person.body, plan.across_tasks)

@@ -9,6 +9,9 @@ from opsim.plan.station import StationPlan
 from opsim.plan.tasks import TaskPlan
 from opsim.plan.worker import WorkerPlan
 
+FIXED_WORKFORCE = 0
+"""The number of the people who work in every replication, where staffing is fixed."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -41,6 +44,10 @@ class Plan:
     def window_s(self) -> tuple[float, float]:
         """What the figures count: from the end of the warm-up to the horizon."""
         return self.warm_up_s, self.horizon_s
+
+    def workforce_of(self, replication: int) -> int:
+        """The number that keys who the workers of a replication are: the same in all where staffing is fixed."""
+        return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
 
     @property
     def operations(self) -> tuple[str, ...]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
+from opsim.names import listed
 from opsim.problems import Problem, shown
 from opsim.scenario.fields import is_name
 from opsim.scenario.positions import Node, child, entries, problem, text
@@ -70,22 +72,38 @@ def _clash(block: Node, name: str) -> Problem:
 
 
 def _persons(root: Node, block: Node, n: int, folder: Path) -> tuple[list[dict[str, Node]], list[Problem]]:
-    """For each worker the recorded person he is, in natural order, passing over those who are workers by name."""
+    """For each worker the recorded person he is: the k-th worker is the k-th person, whoever else there is."""
     source = child(block, "from")
     people = recorded_people(root, folder) if source is not None and source.value == "recorded" else None
     if source is None or people is None:
         return [{}] * n, []
-    taken = {text(worker, "person") for worker in entries(root, "workers").values()}
-    free = [person for person in people if person not in taken]
-    persons = [{"person": Node(person, source.place, source.key)} for person in free[:n]]
-    wrong = []
-    if not people:
-        hint = "no task is emulated; take 'from: population'"
-        wrong = [
-            problem(source.place, ("workforce", "from"), "nobody was recorded for the tasks of this scenario", hint)
-        ]
-    elif n > len(free):
-        others = f" beside {len(people) - len(free)} who are workers by name" if len(free) < len(people) else ""
-        found = f"{n} workers, and {len(free)} people were recorded for the tasks of this scenario{others}"
-        wrong = [problem((child(block, "n") or block).place, ("workforce", "n"), found, "or take 'from: population'")]
+    persons = [{"person": Node(person, source.place, source.key)} for person in people[:n]]
+    wrong = [*_too_few(block, source, n, len(people)), *_twice(root, source, people[:n])]
     return [*persons, *[{}] * (n - len(persons))], wrong
+
+
+def _too_few(block: Node, source: Node, n: int, n_people: int) -> Iterator[Problem]:
+    if not n_people:
+        found = "nobody was recorded for the tasks of this scenario"
+        hint = "no task is emulated; take 'from: population'"
+        yield problem(source.place, ("workforce", "from"), found, hint)
+    elif n > n_people:
+        found = f"{n} workers, and {n_people} people were recorded for the tasks of this scenario"
+        yield problem((child(block, "n") or block).place, ("workforce", "n"), found, "or take 'from: population'")
+
+
+def _twice(root: Node, source: Node, people: list[str]) -> Iterator[Problem]:
+    """People whom the workforce takes and who are workers by name.
+
+    NOTE: passing them over would make every later worker another person, so a worker more would change the others.
+    """
+    named = {name: text(worker, "person") for name, worker in entries(root, "workers").items()}
+    already = [(person, name) for name, person in named.items() if person in people]
+    if already:
+        found = f"the workforce takes {_so_many(people)}, and {listed(f'{p} is {name} already' for p, name in already)}"
+        hint = f"give {listed(dict.fromkeys(name for _, name in already))} another person, or take 'from: population'"
+        yield problem(source.place, ("workforce", "from"), found, hint)
+
+
+def _so_many(people: list[str]) -> str:
+    return people[0] if len(people) == 1 else f"{people[0]} to {people[-1]}"

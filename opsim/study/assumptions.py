@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
-from opsim.study.people import people
+from opsim.study.people import asked_for_pace, people
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,9 @@ _SWITCHED = {
 def _switched(loaded, plan: Plan) -> Iterator[Assumption]:
     variability = loaded.scenario.run.variability
     if variability != "full":
-        yield "variability", f"{variability}: {_SWITCHED[variability]}; arrivals and ways are drawn as ever"
+        paced = variability in ("within_only", "none") and asked_for_pace(plan)
+        pace = f"; {listed(paced)}: divided by the pace asked for in tasks that read it" if paced else ""
+        yield "variability", f"{variability}: {_SWITCHED[variability]}{pace}; arrivals and ways are drawn as ever"
 
 
 def _times(loaded, plan: Plan) -> Iterator[Assumption]:

@@ -14,13 +14,16 @@ from opsim.streams import stream
 _OWN_PACE = ("full", "between_only", "shuffled")
 """Under these, workers differ in pace."""
 _WORDS = {"height_m": "height", "mass_kg": "mass", "age_years": "age", "sex": "sex", "pace": "pace"}
-_HOW = {"height_m": "bones are scaled to it", "pace": "times of the typical person are divided by it"}
-
+_HOW = {"height_m": "bones are scaled to it", "pace": "moving times of the typical person are divided by it"}
+_PACE_OF_PERSONS = "moving times of the typical person, or of the recorded one who is named, are divided by it"
+_PACE_OF_ALL = "the mean of everybody's times is divided by it"
+_EXPLAINED = "pace and posture change as the recordings explain them by it"
 
 _ACROSS = {
     "as_recorded": "a worker's own pace in tasks of the same recorded people goes together as theirs did; in other "
     "tasks he may be quick in one and slow in the next",
-    "same_pace": "a worker who is slow in one task is as slow in all, among his like: not measured",
+    "same_pace": "a worker who is slow in one task is as slow in all, among his like and in moving time; pauses of an "
+    "emulated task follow only as far as recorded: not measured",
 }
 
 
@@ -30,7 +33,7 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
         yield "workers", "none: every task is automatic"
         return
     yield from _workforce(loaded.scenario.workforce)
-    yield from _bodies(plan)
+    yield from _bodies(plan, loaded.scenario.run.variability)
     yield from _recorded(plan)
     levels = loaded.scenario.skill_levels
     if levels:
@@ -47,6 +50,12 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
         yield "workers", _ACROSS[plan.across_tasks]
 
 
+def asked_for_pace(plan: Plan) -> list[str]:
+    """The workers for whose pace there is a task that reads it."""
+    paced = [worker for worker in plan.workers if worker.body.pace is not None]
+    return [w.name for w in paced if any("pace" in keys_read(task.model) for task in tasks_of(plan, w))]
+
+
 def _workforce(workforce) -> Iterator[tuple[str, str]]:
     """Of workers who are nobody in particular."""
     if workforce is None:
@@ -58,8 +67,15 @@ def _workforce(workforce) -> Iterator[tuple[str, str]]:
         yield "workers", f"{who}: skills not given; everybody can work at every station, with the rating 1"
 
 
-def _bodies(plan: Plan) -> Iterator[tuple[str, str]]:
+def _bodies(plan: Plan, variability: str) -> Iterator[tuple[str, str]]:
     """What is known of bodies, and which tasks make use of it."""
+    how = _HOW | _how_paced(plan, variability)
+    said = {
+        (worker.name, task.name): _said(plan, worker, task)
+        for worker in plan.workers
+        if worker.body.said
+        for task in tasks_of(plan, worker)
+    }
     useless = []
     for key, word in _WORDS.items():
         who = [worker for worker in plan.workers if key in worker.body.said]
@@ -67,31 +83,46 @@ def _bodies(plan: Plan) -> Iterator[tuple[str, str]]:
         users = [name for name, used in tasks.items() if any(used.values())]
         others = [name for name in tasks if name not in users]
         if users:
-            yield "bodies", f"{word} of {listed(users)}: {_use(key, [tasks[name] for name in users])}"
+            using = _use(how.get(key, _EXPLAINED), [tasks[name] for name in users])
+            yield "bodies", f"{word} of {listed(users)}: {using}{_beside(key, said)}"
         if others:
             useless.append(f"{word} of {listed(others)}" if users else word)
     if useless:
         yield "bodies", f"{listed(useless)}: kept with the worker; no task there changes pace or posture with it"
     clamped = [
-        f"{worker.name} in {task.name}: {line}"
-        for worker in plan.workers
-        if worker.body.said
-        for task in tasks_of(plan, worker)
-        for line in _said(plan, worker, task)
-        if "(clamped)" in line
+        f"{worker} in {task}: {line}" for (worker, task), lines in said.items() for line in lines if "(clamped)" in line
     ]
     if clamped:
-        yield "bodies", f"unlike the bodies that were recorded, and taken as the nearest of them: {listed(clamped)}"
+        nearest = "what these explain is as with the nearest of them"
+        yield "bodies", f"unlike the bodies that were recorded; {nearest}: {listed(clamped)}"
 
 
-def _use(key: str, tasks: list[dict[str, bool]]) -> str:
+def _how_paced(plan: Plan, variability: str) -> dict[str, str]:
+    """What a pace does where it is not only the typical person's."""
+    if variability not in _OWN_PACE:
+        return {"pace": _PACE_OF_ALL}
+    both = any({"pace", "person"} <= set(worker.body.said) for worker in plan.workers)
+    return {"pace": _PACE_OF_PERSONS} if both else {}
+
+
+def _use(how: str, tasks: list[dict[str, bool]]) -> str:
     """How a number is used, in which of the workers' tasks it is and in which it is not."""
     using, leaving = (
         listed(dict.fromkeys(name for own in tasks for name, used in own.items() if used is wanted))
         for wanted in (True, False)
     )
-    how = _HOW.get(key, "pace and posture change as the recordings explain them by it")
     return f"{how} in {using}" + (f", not in {leaving}" if leaving else "")
+
+
+def _beside(key: str, said: dict[tuple[str, str], tuple[str, ...]]) -> str:
+    """Where the recordings explain by a number, too, that is used whatever they explain."""
+    there = dict.fromkeys(
+        task
+        for (_, task), lines in said.items()
+        for line in lines
+        if line.startswith(f"{key}: asked") and line.endswith(("(as asked)", "(clamped)"))
+    )
+    return f"; {_EXPLAINED} in {listed(there)}" if key in _HOW and there else ""
 
 
 def _said(plan: Plan, worker: WorkerPlan, task: TaskPlan) -> tuple[str, ...]:

@@ -2,16 +2,18 @@
 
 Each is a TaskModel around another one, with the same mean over the population, fed by the same random numbers. An
 automatic run has no worker, and models of times may know none: all their spread counts as that within a worker.
+A pace that is asked of a worker is no variability: no switch takes it away where the model reads it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from opsim.problems import did_you_mean, shown
-from opsim.tasks.retimed import Retimed, retimed
+from opsim.tasks.retimed import retimed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,6 +31,8 @@ def switched(model: TaskModel, variability: str) -> TaskModel:
     shuffled     : durations as in full, to the bit; the body of each is that of another performance of the same worker:
                    each keeps his own times and his own postures, and neither tells of the other any more. Times
                    without a body are as in full
+    Who is asked for a ``pace`` that the model reads (``body_keys``) has the population's mean divided by it under
+    within_only and none; under the others it is in his own times, as in full.
     A trace of recorded times has no workers and no bodies: none and between_only give its mean, the others the trace.
     Raises ValueError for any other word.
     """
@@ -41,10 +45,15 @@ def switched(model: TaskModel, variability: str) -> TaskModel:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Own:
-    """A worker's effect beside his mean duration, which is asked for once: an emulator's costs many draws."""
+    """A worker's effect beside what is asked for once: the mean of an emulator costs many draws.
+
+    mean_s  : his mean duration under the switch
+    stretch : that over his own mean, where his own times are kept
+    """
 
     effect: Any
     mean_s: float
+    stretch: float = 1.0
 
 
 class Switched:
@@ -80,59 +89,71 @@ class Switched:
     def _mean_s(self) -> float:
         return float(self._model.mean_duration_s())
 
-
-class NoSpread(Switched):
-    """Everybody always takes the population's mean."""
-
-    def mean_duration_s(self, worker: Any = None) -> float:
-        """The population's mean, whoever works."""
-        return self._mean_s
-
-    def _sample(self, n: int, rng: np.random.Generator, worker: Any) -> Retimed:
-        return _all_of(self._model.sample(n, rng, worker=worker), n, self._mean_s)
+    def _pace(self, body: Any) -> float:
+        """The pace that is asked of a worker with this body, a mapping or an object; 1 where none is, or none read."""
+        reads = "pace" in getattr(self._model, "body_keys", ())
+        pace = body.get("pace") if isinstance(body, Mapping) else getattr(body, "pace", None)
+        return 1.0 if pace is None or not reads else float(pace)
 
 
 class _KnowsMeans(Switched):
-    """A switch that needs each worker's mean."""
+    """A switch that says what each worker's mean is."""
 
     def draw_worker(self, rng: np.random.Generator, body: Any = None, **more: Any) -> Own | None:
         """The model's effect, from the same numbers, with the worker's mean; None where workers do not differ."""
         effect = self._model.draw_worker(rng, body, **more)
-        return None if effect is None else self._own(effect)
-
-    def _own(self, worker: Any) -> Own:
-        if isinstance(worker, Own):
-            return worker
-        return Own(worker, self._mean_s if worker is None else float(self._model.mean_duration_s(worker)))
-
-
-class BetweenOnly(_KnowsMeans):
-    """A worker always takes his own mean."""
+        return None if effect is None else self._own(effect, self._pace(body))
 
     def mean_duration_s(self, worker: Any = None) -> float:
-        """The model's own mean, of this worker."""
+        """Of this worker under the switch, at the pace that is asked of him; without a worker the population's."""
         return self._own(worker).mean_s
 
-    def _sample(self, n: int, rng: np.random.Generator, worker: Any) -> Retimed:
+    def _own(self, worker: Any, pace: float = 1.0) -> Own:
+        if worker is None or isinstance(worker, Own):
+            return worker or Own(None, self._mean_s)
+        return self._of(worker, self._mean_s / pace)
+
+    def _of(self, effect: Any, paced_s: float) -> Own:
+        """With this effect of the model; ``paced_s``: the population's mean at the pace that is asked of him."""
+        raise NotImplementedError
+
+
+class _NoneWithin(_KnowsMeans):
+    """A switch under which a worker always takes the same time."""
+
+    def _sample(self, n: int, rng: np.random.Generator, worker: Any) -> Performances:
+        import numpy as np
+
         own = self._own(worker)
-        return _all_of(self._model.sample(n, rng, worker=own.effect), n, own.mean_s)
+        return retimed(self._model.sample(n, rng, worker=own.effect), np.full(n, own.mean_s))
+
+
+class NoSpread(_NoneWithin):
+    """Everybody always takes the population's mean."""
+
+    def _of(self, effect: Any, paced_s: float) -> Own:
+        return Own(effect, paced_s)
+
+
+class BetweenOnly(_NoneWithin):
+    """A worker always takes his own mean."""
+
+    def _of(self, effect: Any, paced_s: float) -> Own:
+        return Own(effect, float(self._model.mean_duration_s(effect)))
 
 
 class WithinOnly(_KnowsMeans):
     """A worker's own spread, about the population's mean."""
 
-    def mean_duration_s(self, worker: Any = None) -> float:
-        """The population's mean, whoever works."""
-        return self._mean_s
+    def _of(self, effect: Any, paced_s: float) -> Own:
+        return Own(effect, paced_s, paced_s / float(self._model.mean_duration_s(effect)))
 
     def _sample(self, n: int, rng: np.random.Generator, worker: Any) -> Performances:
         import numpy as np
 
         own = self._own(worker)
         drawn: Performances = self._model.sample(n, rng, worker=own.effect)
-        if own.effect is None:
-            return drawn
-        return retimed(drawn, np.asarray(drawn.duration_s) * (self._mean_s / own.mean_s))
+        return drawn if own.effect is None else retimed(drawn, np.asarray(drawn.duration_s) * own.stretch)
 
 
 class Shuffled(Switched):
@@ -147,12 +168,6 @@ class Shuffled(Switched):
         if drawn.skeleton is None:
             return drawn
         return retimed(self._model.sample(n, rng, worker=worker), drawn.duration_s)
-
-
-def _all_of(body: Performances, n: int, duration_s: float) -> Retimed:
-    import numpy as np
-
-    return retimed(body, np.full(n, duration_s))
 
 
 _SWITCHES: dict[str, type[Switched]] = {

@@ -1,4 +1,5 @@
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,16 +80,31 @@ def test_a_shift_moves_log_duration_by_just_that_and_nothing_at_zero(emulator):
     assert np.allclose(same.scores, plain.scores, atol=1e-12)
 
 
-def test_a_body_height_is_kept_from_the_ankles_to_the_head(emulator):
-    chain = [
-        emulator.skeleton.bone_names.index(f) for f in ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
-    ]
-    tall, short = (emulator.new_worker(height_m=h) for h in (1.9, 1.5))
-    for worker, height_m in ((tall, 1.9), (short, 1.5)):
-        bones_m = emulator.performances(worker.z[None], worker.scale).bone_length_m[0]
-        assert bones_m[chain].sum() == pytest.approx(height_m - 0.2)
-    top = emulator.sample(1, rng(), worker=tall).positions_m()[0, 0, :, 2].max()
-    assert 1.6 < top < 1.85
+CHAIN = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
+
+
+def chain_m(model, effect):
+    """From the ankles to the head of a worker."""
+    length = dict(zip(model.skeleton.bone_names, model.performances(effect.z[None], effect.scale).bone_length_m[0]))
+    return sum(length[name] for name in CHAIN)
+
+
+def test_where_nobody_was_measured_a_height_is_kept_from_the_ankles_to_the_head():
+    bare = [replace(motion, covariates={}) for motion in made("lift")[0].motions]
+    model = MotionEmulator.fit(replace(made("lift")[0], motions=tuple(bare)), n_times=21, n_knots=8)
+    for height_m in (1.5, 1.9):
+        assert chain_m(model, model.new_worker(height_m=height_m)) == pytest.approx(height_m - 0.2)
+        assert chain_m(model, model.draw_worker(rng(1), {"height_m": height_m})) == pytest.approx(height_m - 0.2)
+
+
+def test_where_people_were_measured_a_height_has_the_bones_of_those_as_tall_and_beyond_them_in_proportion(emulator):
+    heights = {motion.worker: motion.covariates["stature_m"] for motion in made("lift")[0].motions}
+    for name, height_m in heights.items():
+        own, asked = emulator.known_worker(name), emulator.new_worker(height_m=float(height_m))
+        assert chain_m(emulator, asked) == pytest.approx(chain_m(emulator, own), rel=0.03)
+    tallest = float(max(heights.values()))
+    giant = emulator.new_worker(height_m=1.1 * tallest)
+    assert chain_m(emulator, giant) == pytest.approx(1.1 * chain_m(emulator, emulator.new_worker(height_m=tallest)))
 
 
 def test_recordings_of_one_person_have_no_worker_effect():

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 
 from emulator.smoothed import SmoothedScores
@@ -53,7 +55,7 @@ def test_without_noise_an_own_repetition_comes_back_as_it_was():
 def test_the_workforce_takes_own_repetitions_for_names_it_knows_and_all_for_others():
     blurred = smoothed()
     crew = Workforce.fit(blurred.scores, blurred.owner, tuple(f"w{i}" for i in range(5)), 0.2, 0.1)
-    crew = Workforce(crew.between, crew.within, crew.names, crew.effects, blurred)
+    crew = replace(crew, smoothed=blurred)
     known = crew.law(WorkerEffect(crew.effects[3], "w3"))
     drawn = crew.law(WorkerEffect(crew.effects[3]))
     assert len(known.weight) == len(drawn.weight) + 8

@@ -1,9 +1,14 @@
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from opsim.effects import worker_effect
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
+from opsim.streams import stream
+from opsim.task_models import library_model
 from opsim.tasks import Fixed, Lognormal
 
 PUBLIC = load_library(shipped_folder() / "libraries" / "public_movements.npz")
@@ -55,3 +60,39 @@ def test_tasks_of_the_same_people_go_together_as_recorded():
 def test_a_task_of_which_workers_do_not_differ_has_no_effect_at_any_pace():
     assert worker_effect(Fixed(5.0), "wait", "ana", 3, 0, None, "same_pace") is None
     assert worker_effect(Lognormal(5.0, 0.3), "wait", "ana", 3, 0, None, "same_pace") is None
+
+
+class LeansOn:
+    """A model that tells what it is given: how far the worker leans to two people, and how slow he is."""
+
+    knows_people = knows_slowness = True
+
+    def draw_worker(self, rng, body, people=None, slowness=None):
+        return people("s01"), people("s02"), slowness
+
+
+def test_leanings_and_slowness_are_streams_of_the_workforce_and_the_same_in_all_tasks():
+    for workforce in (0, 1):
+        given = worker_effect(LeansOn(), "fold", "ana", 3, workforce, None, "same_pace")
+        names = [("leaning", "ana", "s01", 0), ("leaning", "ana", "s02", 0), ("slowness", "ana", 0)]
+        assert given == tuple(stream(3, workforce, *name).standard_normal() for name in names)
+        assert given == worker_effect(LeansOn(), "pack", "ana", 3, workforce, None, "same_pace")
+
+
+def test_every_stream_of_a_worker_stands_in_the_design():
+    """``effect``, ``leaning`` and ``slowness``, as they stand in the code."""
+    root = Path(__file__).parents[2]
+    (randomness,) = [part for part in (root / "DESIGN.md").read_text("utf-8").split("\n\n") if "Used now:" in part]
+    names = re.findall(r'stream\(seed, workforce, "(\w+)", (\w+)', (root / "opsim" / "effects.py").read_text("utf-8"))
+    assert len(names) == 3
+    assert not [name for name in names if ", ".join(name) not in randomness]
+
+
+def test_how_slow_a_worker_is_says_how_long_he_moves_and_not_how_long_he_pauses():
+    """Stoops were made with pauses that are nobody's own: a slow worker's are those of the usual one."""
+    model = library_model("bench_work/stoop")
+    at, dwells = model.scale.block("duration").start, model.scale.block("dwells")
+    usual, slow = (model.draw_worker(np.random.default_rng(0), slowness=s).z for s in (0.0, 2.0))
+    spread = model.workforce.between.spread[at]
+    assert slow[at] - usual[at] == pytest.approx(2 * spread)
+    assert len(model.dwells) and np.abs(slow[dwells] - usual[dwells]).max() < 0.2 * spread

@@ -10,17 +10,13 @@ from opsim.effects import worker_effect
 from opsim.plan import Plan
 from opsim.streams import BLOCK, Items, Scattered
 
-FIXED_WORKFORCE = 0
-"""Where staffing is fixed, workers' own effects belong to workforce 0: the same people work in every replication.
-Where it is redrawn, each replication has a workforce of its own."""
-
 
 class Draws:
     """Looks up item after item of the named streams of one replication."""
 
     def __init__(self, plan: Plan, replication: int):
         self._plan, self._replication = plan, replication
-        self._workforce = replication if plan.staffing == "redrawn" else FIXED_WORKFORCE
+        self._workforce = plan.workforce_of(replication)
         release = plan.release
         gap = _exponential(release.every_s) if release.gap is None else _performed(release.gap, None)
         self._gaps = self._items(("interarrival", release.name), gap)

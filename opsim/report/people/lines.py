@@ -11,7 +11,8 @@ from opsim.report.people.tables import KINDS
 NOTHING, BOTH = "-", "posture + duration"
 MOST_COVARIATES = 3
 MEANING = {
-    "ICC": "share of the variance that lies between people, with its 95 % interval (Shrout & Fleiss 1979, case 1)",
+    "ICC": "share of the variance that lies between people, with its 95 % interval (Shrout & Fleiss 1979, case 1; "
+    "interval by Thomas & Hultquist 1978)",
     "known": "energy score of draws of the repetition's own worker, that repetition left out: small is good",
     "pooled": "of draws of that same fit which ask for nobody",
     "new": "of draws of new people, the repetition's worker left out whole",

@@ -40,13 +40,13 @@ class Run(Block):
     across_tasks: Literal["as_recorded", "same_pace"] = Field(
         "as_recorded",
         description="how a worker's own pace in one task goes with that in others: as_recorded: as with the people "
-        "recorded in both, else not at all; same_pace: who is slow in one task is as slow in all",
+        "recorded in both, else not at all; same_pace: who is slow in one task is as slow in all, in moving time",
     )
     variability: Literal["full", "within_only", "between_only", "none", "shuffled"] = Field(
         "full",
         description="which differences of task times are left: within_only: everybody has the same mean; between_only: "
         "each worker always takes his own mean; none: everybody always takes the mean; shuffled: times as in full, "
-        "each with the body of another performance",
+        "each with the body of another performance of the same worker",
     )
 
     @property

@@ -53,7 +53,8 @@ class Workforce(Person):
     source: Literal["population", "recorded"] = Field(
         "population",
         alias="from",
-        description="population: new people, drawn; recorded: each is a recorded person, in natural order of names",
+        description="population: new people, drawn; recorded: the k-th is the k-th recorded person in natural order of "
+        "names",
     )
     prefix: Name = Field(PREFIX, description="what their names begin with", examples=["w"])
 

@@ -39,6 +39,22 @@ def test_what_the_recordings_do_not_know_is_named_and_changes_nothing(model):
     assert np.array_equal(said.mean, model.predict({"height_m": 1.6}))
 
 
+def test_of_what_is_taken_care_of_elsewhere_nothing_is_said_unless_the_recordings_know_it(model):
+    body = {"height_m": 1.6, "pace": 1.05, "other": {"grip": 300, "reach_m": 0.7}}
+    plain, silent = model.explain(body), model.explain(body, elsewhere=("height_m", "pace", "grip"))
+    assert [use.name for use in plain.uses if use not in silent.uses] == ["grip"]
+    assert silent.unused == ("reach_m",)
+    assert "height_m: asked 1.6, recorded 1.5 to 1.83, used 1.6 (as asked)" in silent.lines
+    assert np.array_equal(silent.mean, plain.mean)
+
+
+def test_a_model_of_sex_alone_says_nothing_of_a_height_that_scales_the_bones():
+    alone = CovariateModel.fit(np.tile([1.0, 2.0], 4)[:, None], np.zeros((8, 0)), (), ["f", "m"] * 4)
+    body = {"height_m": 1.6, "sex": "f"}
+    assert [use.name for use in alone.explain(body).uses] == ["sex", "height_m"]
+    assert [use.name for use in alone.explain(body, elsewhere=("height_m", "pace")).uses] == ["sex"]
+
+
 def test_an_unrecorded_category_is_a_mix_of_the_recorded(model):
     use = model.explain({"sex": "diverse"}).uses[-1]
     assert use.how == "expected"

@@ -1,4 +1,5 @@
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -66,6 +67,25 @@ def test_people_who_were_not_there_are_foretold_better_than_by_the_mean():
         said.append(model.error_spread[:3] ** 2)
     assert np.mean(left) < 0.25 * np.mean(plain)
     assert 0.7 < np.mean(said) / np.mean(left) < 1.3
+
+
+def test_telling_are_only_the_covariates_that_move_some_score():
+    model, y, x, sex = fitted()
+    slope, effect = np.zeros_like(model.slope), np.zeros_like(model.level_effect)
+    slope[2, 5] = 0.1
+    assert model.names == NAMES
+    assert replace(model, slope=slope).telling == ("age_years", "sex")
+    assert replace(model, slope=slope, level_effect=effect).telling == ("age_years",)
+    numbers, words = (CovariateModel.fit(y[:, [at]], x, NAMES, sex).telling for at in (2, 1))
+    assert "pace" in numbers and "sex" not in numbers
+    assert "sex" in words
+
+
+def test_where_nothing_is_told_nobody_is_telling():
+    y, x, sex = crew()
+    model = CovariateModel.fit(np.zeros_like(y), x, NAMES, sex)
+    assert model.names == NAMES
+    assert model.telling == ()
 
 
 def test_the_forecast_of_a_body_is_that_of_its_row():
@@ -194,6 +214,17 @@ def test_one_person_of_two_sexes_is_refused():
     y, x, _ = crew(6)
     with pytest.raises(ValueError, match="person 1 is of 2 categories: f, m"):
         CovariateModel.fit(y, x, NAMES, list("ffmfmm"), groups=np.array([0, 1, 1, 2, 3, 4]))
+
+
+def test_a_sex_that_some_rows_do_not_know_is_that_of_the_person_s_other_rows():
+    y, x, sex = crew()
+    groups = np.repeat(np.arange(18), 2)
+    rows = np.repeat(y, 2, axis=0), np.repeat(x, 2, axis=0), NAMES
+    known, gaps = np.repeat(np.array(sex, object), 2), np.repeat(np.array(sex, object), 2)
+    gaps[[0, 3, 8]] = None
+    whole, holed = (CovariateModel.fit(*rows, words.tolist(), groups=groups) for words in (known, gaps))
+    assert np.any(whole.level_effect != 0)
+    assert np.array_equal(whole.level_effect, holed.level_effect)
 
 
 def test_groups_must_be_numbered_through():

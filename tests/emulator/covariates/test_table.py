@@ -32,6 +32,13 @@ def test_people_have_the_mean_of_what_is_known_of_them():
     assert table.body(1) == {"height_m": 1.8, "sex": "m"}
 
 
+def test_a_sex_that_one_repetition_does_not_know_is_that_of_the_others():
+    table = table_of(with_covariates(ANNA | {"cov_sex": None}, ANNA, BEN, BEN | {"cov_sex": ""}))
+    assert table.category == (None, "f", "m", None)
+    assert table.of_people().category == ("f", "m")
+    assert table.body(0)["sex"] == "f"
+
+
 def test_without_a_worker_the_others_are_numbered_anew():
     table = table_of(with_covariates(ANNA, ANNA, BEN, BEN)).without(0)
     assert table.workers == ("w2",)

@@ -69,6 +69,28 @@ def test_nobody_s_own_repetitions_tell_of_him():
     assert found.by_mean.rms_deg[4, trunk] == pytest.approx(apart, rel=0.03)
 
 
+def test_nobody_s_own_repetitions_decide_how_many_components_the_others_get():
+    """One whose repetitions are full of tracking noise: others' counts change with it, not that of his own fold."""
+    directions, table, bones = bowing(n_people=6)
+    his = table.groups == 2
+    noisy = directions.copy()
+    noisy[his] += 0.5 * np.random.default_rng(5).standard_normal((3, 1, *directions.shape[2:]))
+    noisy /= np.linalg.norm(noisy, axis=-1, keepdims=True)
+    seen = []
+    for some in (directions, noisy):
+        found = leave_one_worker_out(some, table, SKELETON, bones, np.random.default_rng(0))
+        seen.append(found.n_components)
+    assert seen[0].shape == (6,)
+    assert seen[0][2] == seen[1][2]
+    assert np.any(np.delete(seen[0], 2) != np.delete(seen[1], 2))
+
+
+def test_three_people_of_one_repetition_each_can_be_judged():
+    """Two are left in each fold: no parallel analysis, and their covariate is known of too few to be used."""
+    found = judged(n_people=3, n_each=1)
+    assert found.n_components.tolist() == [1, 1, 1]
+
+
 def test_angles_that_do_not_move_have_no_icc_but_an_error():
     found = judged()
     bend = found.by_body.angles.index("trunk side bend")

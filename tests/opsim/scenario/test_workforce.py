@@ -53,9 +53,20 @@ def test_keys_of_the_defaults_are_those_of_each_worker_who_is_like_nobody():
     assert workers(with_ana + "workforce: {n: 1, like: ana}\n")["w1"].walk_m_per_s == 1.0
 
 
-def test_recorded_people_come_in_natural_order_and_nobody_twice():
-    found = workers(CELL + "workforce: {n: 4, from: recorded}\nworkers: {ana: {person: s02, skills: {low: 1}}}\n")
-    assert [worker.person for worker in found.values()] == ["s02", "s01", "s03", "s04", "s05"]
+def test_the_k_th_worker_is_the_k_th_recorded_person_whoever_else_works():
+    text = CELL + "workforce: {n: 3, from: recorded}\n"
+    alone = [worker.person for worker in workers(text).values()]
+    beside = workers(text + "workers: {ana: {person: s05, skills: {low: 1}}, ben: {skills: {low: 1}}}\n")
+    assert alone == ["s01", "s02", "s03"]
+    assert [beside[name].person for name in ("w1", "w2", "w3", "ana", "ben")] == [*alone, "s05", None]
+
+
+def test_a_recorded_person_cannot_be_two_workers():
+    with pytest.raises(ScenarioError) as caught:
+        loaded(CELL + "workforce: {n: 4, from: recorded}\nworkers: {ana: {person: s02, skills: {low: 1}}}\n")
+    (one,) = caught.value.problems
+    assert (one.path, one.message) == ("workforce.from", "the workforce takes s01 to s04, and s02 is ana already")
+    assert one.hint == "give ana another person, or take 'from: population'"
 
 
 def test_who_is_like_a_recorded_person_is_not_that_person():

@@ -26,7 +26,10 @@ def with_variability(word):
         ("none", "none: a task takes the same time whoever does it"),
         ("within_only", "within_only: every worker has the same mean time"),
         ("between_only", "between_only: a worker takes the same time whenever he does a task"),
-        ("shuffled", "shuffled: times are as they were drawn, each with the body of another performance"),
+        (
+            "shuffled",
+            "shuffled: times are as they were drawn, each with the body of another performance of the same worker",
+        ),
     ],
 )
 def test_a_switch_of_variability_is_said_first(word, says):
@@ -63,9 +66,39 @@ def test_what_a_body_changes_and_where_is_said():
     says = sheet(BODIES)["bodies"]
     assert "height of ana: bones are scaled to it in raise, squat, not in label" in says
     both = sheet(BODIES.replace("person: s05, skills: {low: 1, high: 1}", "pace: 1.2, skills: {desk: 1}"))["bodies"]
-    assert "pace of ana: times" in both and "pace of ben: kept with the worker" in both
-    assert "pace of ana: times of the typical person are divided by it in" in says
+    assert "pace of ana: moving times" in both and "pace of ben: kept with the worker" in both
+    assert "pace of ana: moving times of the typical person are divided by it in raise, squat" in says
     assert "mass, age: kept with the worker; no task there changes pace or posture with it" in says
+
+
+@pytest.mark.parametrize(
+    ("word", "says"), [("none", "its mean"), ("within_only", "his own spread about it"), ("between_only", None)]
+)
+def test_a_pace_that_is_asked_for_stays_under_every_switch_and_is_said(word, says):
+    said = sheet(BODIES.replace("seed: 5", f"seed: 5, variability: {word}"))
+    mean = "pace of ana: the mean of everybody's times is divided by it in raise, squat, not in label"
+    assert (mean in said["bodies"]) is (says is not None)
+    line = f"{says}; ana: divided by the pace asked for in tasks that read it; arrivals"
+    assert line in said["variability"] if says else "pace" not in said["variability"]
+    assert "pace" not in sheet(with_variability(word))["variability"]
+
+
+def test_the_pace_of_a_recorded_person_is_said_to_be_of_his_own_times():
+    says = sheet(BODIES.replace("person: s05", "person: s05, pace: 1.2"))["bodies"]
+    assert "pace of ana, ben: moving times of the typical person, or of the recorded one who is named, are" in says
+
+
+def test_bones_are_scaled_to_heights_whether_or_not_recordings_explain_by_height(monkeypatch):
+    line = "height_m: asked 1.62, recorded 1.5 to 1.9, used 1.62 (as asked)"
+    plain = sheet(BODIES)["bodies"]
+    assert "bones are scaled to it in raise, squat, not in label" in plain and "explain them" not in plain
+    one = loaded(BODIES)
+    plan = compile_plan(one)
+    squat = next(task.model for task in plan.tasks if task.name == "squat")
+    monkeypatch.setattr(type(squat), "draw_worker", lambda model, *_, **__: Effect(line) if model is squat else None)
+    says = next(said for topic, said in assumptions_of(one, plan) if said.startswith("height of ana"))
+    assert says.startswith("height of ana: bones are scaled to it in raise, squat, not in label")
+    assert says.endswith("; pace and posture change as the recordings explain them by it in squat")
 
 
 def test_who_moves_as_a_recorded_person_is_said_and_where_not():
@@ -83,7 +116,7 @@ def test_a_body_that_the_emulator_had_to_clamp_is_said(monkeypatch):
         if task.name == "squat":
             monkeypatch.setattr(type(task.model), "draw_worker", lambda *given, **more: Effect(line))
     says = [said for topic, said in assumptions_of(one, plan) if topic == "bodies"][-1]
-    assert says.startswith("unlike the bodies that were recorded, and taken as the nearest of them:")
+    assert says.startswith("unlike the bodies that were recorded; what these explain is as with the nearest of them:")
     assert f"ana in squat: {line}" in says
 
 

@@ -1,5 +1,7 @@
 """What each switch of variability takes away, what it leaves, and that the mean stays."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 import simpy
@@ -89,9 +91,7 @@ def test_shuffled_durations_are_those_of_full_bit_for_bit(model):
 
 
 def test_shuffled_takes_the_bond_of_posture_and_duration_and_keeps_how_bodies_move():
-    """The time that the first mark takes as a share, and depth of the pelvis, keep mean and spread over the population;
-    what correlates with duration no more does.
-    """
+    """Coordinates of the draw keep mean and spread over the population; what correlates with duration no more does."""
     n, rng = 4000, np.random.default_rng(4)
     bonded, loose = (model.sample(n, rng) for model in (LIFT, switched(LIFT, "shuffled")))
     duration = LIFT.scale.block("duration").start
@@ -101,6 +101,88 @@ def test_shuffled_takes_the_bond_of_posture_and_duration_and_keeps_how_bodies_mo
     assert np.abs(r[0][:duration]).max() > 0.2
     assert np.allclose(bonded.scores.mean(axis=0), loose.scores.mean(axis=0), atol=4 * (2 / n) ** 0.5 * 1.2)
     assert np.allclose(bonded.scores.std(axis=0), loose.scores.std(axis=0), rtol=0.1)
+
+
+def seen(performances):
+    """(n, 2) the share of its time at which the first mark falls, and how far the pelvis sinks, in metres."""
+    share = performances.mark_s[:, 0] / performances.duration_s
+    height_m = performances.positions_m(n_times=15)[:, :, LIFT.skeleton.names.index("pelvis"), 2]
+    return np.stack([share, height_m[:, 0] - height_m.min(axis=1)], axis=1)
+
+
+def test_shuffled_takes_the_bond_of_what_is_seen_of_one_worker_s_bodies_and_keeps_their_mean_and_spread():
+    """The first mark's share and the pelvis's depth tell of a worker's duration (|r| above 0.2 for one of them), under
+    shuffled they do not; means stay within four standard errors, spreads within a tenth.
+    """
+    n, ana = 1200, LIFT.draw_worker(np.random.default_rng(2))
+    models = (LIFT, switched(LIFT, "shuffled"))
+    bonded, loose = (model.sample(n, np.random.default_rng(4), worker=ana) for model in models)
+    one, two = seen(bonded), seen(loose)
+    told = [np.corrcoef(np.log(drawn.duration_s), what.T)[0, 1:] for drawn, what in ((bonded, one), (loose, two))]
+    assert np.abs(told[0]).max() > 0.2
+    assert np.abs(told[1]).max() < 4 / n**0.5
+    assert np.all(np.abs(one.mean(axis=0) - two.mean(axis=0)) < 4 * one.std(axis=0) * (2 / n) ** 0.5)
+    assert np.allclose(one.std(axis=0), two.std(axis=0), rtol=0.1)
+
+
+def test_shuffled_gives_the_body_of_another_performance_of_the_same_worker():
+    """His mean posture is his own and not the population's; no body is that of the performance whose time it has."""
+    far = max((LIFT.draw_worker(np.random.default_rng(s)) for s in range(8)), key=lambda effect: apart(effect.z))
+    own, other = (m.sample(400, np.random.default_rng(1), worker=far) for m in (LIFT, switched(LIFT, "shuffled")))
+    assert np.array_equal(own.duration_s, other.duration_s)
+    assert not np.any(np.all(own.scores == other.scores, axis=1))
+    assert apart(other.scores.mean(axis=0), own.scores.mean(axis=0)) < 0.3 * apart(own.scores.mean(axis=0))
+
+
+def apart(z, other=None):
+    """Distance of two means, of joint coordinates, over the posture: from the population's where one is given."""
+    posture = LIFT.scale.block("posture")
+    return np.linalg.norm((z - (LIFT.workforce.between.mean if other is None else other))[posture])
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A body as an object."""
+
+    pace: float | None = None
+    height_m: float | None = None
+
+
+@pytest.mark.parametrize("body", [{"pace": 0.6}, Asked(0.6), {"pace": 1.25, "person": LIFT.workers[0]}])
+@pytest.mark.parametrize("switch", ["none", "within_only"])
+def test_a_pace_that_is_asked_for_divides_the_population_s_mean(switch, body):
+    """Said exactly; of 4000 times within four standard errors, where there is spread."""
+    changed, pace = switched(LIFT, switch), getattr(body, "pace", None) or body["pace"]
+    worker = changed.draw_worker(np.random.default_rng(3), body)
+    assert changed.mean_duration_s(worker) == LIFT.mean_duration_s() / pace
+    times = changed.sample(4000, np.random.default_rng(4), worker=worker).duration_s
+    assert abs(times.mean() - LIFT.mean_duration_s() / pace) <= 4 * times.std() / 4000**0.5 + 1e-9
+    assert np.all(times == times[0]) is np.bool_(switch == "none")
+
+
+@pytest.mark.parametrize("body", [{"pace": 0.6}, Asked(0.6)])
+@pytest.mark.parametrize("switch", ["between_only", "shuffled"])
+def test_where_workers_keep_their_own_means_a_pace_is_in_them_as_in_full(switch, body):
+    changed = switched(LIFT, switch)
+    full, worker = (model.draw_worker(np.random.default_rng(3), body) for model in (LIFT, changed))
+    assert changed.mean_duration_s(worker) == LIFT.mean_duration_s(full)
+    assert LIFT.mean_duration_s(full) == pytest.approx(LIFT.mean_duration_s() / 0.6, rel=0.05)
+    times = changed.sample(64, np.random.default_rng(4), worker=worker).duration_s
+    own = LIFT.sample(64, np.random.default_rng(4), worker=full).duration_s
+    assert np.array_equal(times, own) if switch == "shuffled" else np.all(times == LIFT.mean_duration_s(full))
+
+
+@pytest.mark.parametrize("body", [None, {}, {"pace": None}, Asked(height_m=1.7)])
+@pytest.mark.parametrize("switch", ["none", "within_only"])
+def test_who_is_asked_for_no_pace_has_the_population_s_mean_bit_for_bit(switch, body):
+    changed = switched(LIFT, switch)
+    assert changed.mean_duration_s(changed.draw_worker(np.random.default_rng(3), body)) == LIFT.mean_duration_s()
+
+
+@pytest.mark.parametrize("switch", ["none", "within_only"])
+def test_a_pace_changes_nothing_where_the_model_does_not_read_it(switch):
+    changed = switched(Lognormal(20.0, 0.4, 0.5), switch)
+    assert changed.mean_duration_s(changed.draw_worker(np.random.default_rng(3), {"pace": 0.6})) == 20.0
 
 
 @pytest.mark.parametrize("switch", ["none", "between_only", "within_only"])
