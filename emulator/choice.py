@@ -85,7 +85,7 @@ def _why(
     parts = []
     for over in mean[first]:
         ahead = _of_people(scores[second][over], worker_index) - _of_people(scores[first][over], worker_index)
-        error = ahead.std(ddof=1) / np.sqrt(len(ahead)) if len(ahead) > 1 else np.inf
+        error = ahead.std(ddof=1) / np.sqrt(len(ahead)) if len(ahead) > 1 else 0.0
         doubt = "" if abs(ahead.mean()) > error else ", less apart than the standard error over people"
         won = f"better for {int(np.sum(ahead > 0))} of {len(ahead)} people"
         parts.append(f"{OVER[over]} {mean[first][over]:.3f} against {mean[second][over]:.3f} ({won}{doubt})")

@@ -54,13 +54,19 @@ def shifted(model: MotionEmulator, z: np.ndarray, column: np.ndarray, shift: flo
 
 def _checked(condition: Mapping[str, Any]) -> dict[str, Any]:
     """The condition with a pace as the shift that it is."""
+    if not isinstance(condition, Mapping):
+        raise ValueError(f"condition: found {condition!r}, expected a mapping such as {{'duration_s': 2.5}}")
     wrong = []
     for name, value in condition.items():
         if name not in CONDITIONS:
             near = get_close_matches(str(name), CONDITIONS, n=1)
             hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(CONDITIONS)}"
             wrong.append(f"condition: no {name!r}; {hint}")
-        elif not np.all(np.isfinite(value)) or (name != "log_duration_shift" and not np.all(np.asarray(value) > 0)):
+        elif (
+            np.asarray(value).dtype.kind not in "iuf"
+            or not np.all(np.isfinite(value))
+            or (name != "log_duration_shift" and not np.all(np.asarray(value) > 0))
+        ):
             expected = EXPECTED[name]
             wrong.append(f"condition: {name}: found {value}, expected {expected}")
     if wrong:

@@ -29,6 +29,12 @@ class FitSettings:
     def __post_init__(self) -> None:
         for wrong in unknown_scheme(self.scheme):
             raise ValueError(wrong)
+        if not 0 <= self.landmarks < float("inf"):
+            raise ValueError(f"landmarks: found {self.landmarks}, expected a strength from 0")
+        if self.n_components is not None and not self.n_components > 0:
+            raise ValueError(
+                f"n_components: found {self.n_components}, expected a number from 1 or a share of variance"
+            )
         if self.n_times < 10 or not 2 <= self.n_knots < self.n_times:
             raise ValueError(f"n_times {self.n_times} must be 10 or more and n_knots {self.n_knots} from 2 to below it")
 
@@ -36,6 +42,8 @@ class FitSettings:
 def unknown_scheme(scheme: str) -> list[str]:
     """What is wrong with the name of a scheme, with the nearest known one; empty for a known one."""
     known = (AUTO, *SCHEMES)
+    if not isinstance(scheme, str):
+        return [f"scheme: found {scheme!r}, expected one of {', '.join(known)}"]
     if scheme in known:
         return []
     near = get_close_matches(scheme, known, n=1)

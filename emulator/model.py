@@ -97,6 +97,8 @@ class MotionEmulator:
                     {"pace": 1.1}: the same as a shift by -log 1.1
         Raises ValueError for an unknown worker or condition.
         """
+        if n < 0:
+            raise ValueError(f"{self.task}: found n = {n}, expected a number of performances from 0")
         effect = self._effect(worker)
         law = self.workforce.law(effect)
         z = given(self, law, n, rng, effect, condition) if condition else law.sample(n, rng)
@@ -189,6 +191,7 @@ class MotionEmulator:
         """A worker with this body: ``new_worker(height_m=1.62, mass_kg=58, age_years=41, sex="f", pace=1.1)``.
 
         rng     : draws what the body does not say; None: the typical person with this body
+        body    : as for ``draw_worker``; person="s03" is that recorded one, an unknown one is refused
         outside : "clamp" or "refuse" a body outside those of the recordings; what was done is in ``effect.said``
         Raises BodyError (a ValueError) with all mistakes at once.
         """

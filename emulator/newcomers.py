@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from emulator.covariates.body import Body
+from emulator.covariates.body import Body, BodyError
 from emulator.density import LowRankNormal
 from emulator.quickness import no_faster
 from emulator.workforce import WorkerEffect
@@ -43,7 +43,13 @@ def new_worker(
     model: MotionEmulator, rng: np.random.Generator | None, body: Mapping[str, Any], people: People | None, outside: str
 ) -> WorkerEffect:
     """See ``MotionEmulator.new_worker``."""
-    known = _body(model, body)
+    known, person = _body(model, body), body.get("person")
+    if rng is not None and not isinstance(rng, np.random.Generator):
+        raise BodyError(
+            [f"new_worker: found {rng!r} first, expected a numpy Generator; a body goes by names: height_m=1.7"]
+        )
+    if person is not None:
+        return _recorded(model, rng, model.known_worker(person).name, known)
     if rng is not None:
         return _drawn(model, rng, known, people, None, outside)
     law = model.workforce.about(known, outside)
@@ -62,13 +68,14 @@ def _body(model: MotionEmulator, body: Any) -> Body:
     return Body.of(body, () if told is None else told.model.names)
 
 
-def _recorded(model: MotionEmulator, rng: np.random.Generator, person: str, body: Body) -> WorkerEffect:
-    """A recorded person: his shrunk mean, and what his few repetitions leave open; at ``pace`` times his own."""
+def _recorded(model: MotionEmulator, rng: np.random.Generator | None, person: str, body: Body) -> WorkerEffect:
+    """A recorded person: his shrunk mean, by luck what his repetitions leave open; at ``pace`` times his own."""
     crew, effect = model.workforce, model.known_worker(person)
-    unit = (crew.between.sample(1, rng)[0] - crew.between.mean) / np.where(
-        crew.between.spread > 0, crew.between.spread, 1
-    )
-    z = effect.z + crew.doubt[crew.names.index(person)] * unit
+    z = effect.z
+    if rng is not None:
+        spread = np.where(crew.between.spread > 0, crew.between.spread, 1.0)
+        unit = (crew.between.sample(1, rng)[0] - crew.between.mean) / spread
+        z = z + crew.doubt[crew.names.index(person)] * unit
     if body.pace is not None:
         z = at_pace(model, z, crew.between, z, body.pace)
     scale = 1.0 if body.height_m is None else _scale(model, z, body.height_m)
@@ -89,10 +96,14 @@ def _drawn(
     if people is None:
         z = law.sample(1, rng)[0]
     else:
-        numbers = np.array([people(f"{crew.group}/{name}") for name in crew.names])
+        numbers = np.array([people(f"{crew.group}/{name}") for name in crew.names], float)
+        if not np.isfinite(numbers).all():
+            raise BodyError([f"people: found {numbers.tolist()}, expected a finite number for each of {crew.names}"])
         more = len(law.factor) - len(numbers)
         of_rows = numbers @ crew.by_person if law is crew.between else np.append(numbers, rng.standard_normal(more))
         z = law.of(of_rows, rng)
+    if slowness is not None and not np.isfinite(slowness):
+        raise BodyError([f"slowness: found {slowness}, expected a finite number of standard deviations"])
     if slowness is not None and body.pace is None:
         at = model.scale.block("duration").start
         z = _moved(z, law.covariance_with(at), at, law.mean[at] + slowness * law.spread[at])
@@ -104,9 +115,10 @@ def _as_asked(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, body: Bo
     if body.pace is not None:
         z = at_pace(model, z, law, model.workforce.between.mean, body.pace)
     told = model.workforce.told
-    said = () if told is None or body == Body() else told.model.explain(body, outside, elsewhere=ALWAYS).lines
+    said = [] if told is None or body == Body() else told.model.explain(body, outside, elsewhere=ALWAYS).uses
+    lines = [str(use) for use in said if use.how != "clamped" or use.name in model.workforce.telling]
     scale = 1.0 if body.height_m is None else _scale(model, z, body.height_m)
-    return WorkerEffect(z, scale=scale, said=tuple(said))
+    return WorkerEffect(z, scale=scale, said=tuple(lines))
 
 
 def at_pace(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, usual: np.ndarray, pace: float) -> np.ndarray:

@@ -76,6 +76,10 @@ class Body:
             return cls() if body is None else body
         if not isinstance(body, Mapping):
             parts = [part.name for part in fields(cls) if part.name != "other"]
+            if not any(hasattr(body, name) for name in (*parts, "person")):
+                raise BodyError(
+                    [f"body: found {body!r}, expected a mapping or something with any of {', '.join(parts)}"]
+                )
             return cls(**{name: getattr(body, name, None) for name in parts}, other=getattr(body, "other", None) or {})
         said = {ALIASES.get(str(name), str(name)): value for name, value in body.items()}
         own = {part.name for part in fields(cls)}

@@ -30,8 +30,7 @@ def choose_scheme(
     dims         : as for ``Scheme.fit``
     Raises ValueError for an unknown name, or where fewer than three sequences would be left to fit.
     """
-    for name in names:
-        parsed(name)
+    _refuse(directions, worker_index, names)
     folds = [("repetitions", mask) for mask in dealt_folds(worker_index, np.random.default_rng(seed))]
     folds += [("workers", mask) for mask in people_folds(worker_index)]
     folds = [(over, mask) for over, mask in folds if np.sum(~mask) >= 3]
@@ -47,3 +46,18 @@ def choose_scheme(
             drawn = scheme.sample(N_DRAWN, np.random.default_rng([seed, fold]))
             scores[name][over][held] = energy_scores(distances(drawn, directions[held]), distances(drawn))
     return chosen(scores, worker_index)
+
+
+def _refuse(directions: np.ndarray, worker_index: np.ndarray, names: Sequence[str]) -> None:
+    wrong = [] if not isinstance(names, str) else [f"names: found {names!r}, expected a list of names"]
+    for name in () if isinstance(names, str) else names:
+        try:
+            parsed(name)
+        except ValueError as error:
+            wrong.append(str(error))
+    index = np.asarray(worker_index)
+    if index.shape != (len(directions),) or index.dtype.kind not in "iu":
+        found = f"{index.dtype} of shape {index.shape}"
+        wrong.append(f"worker_index: found {found}, expected a whole number for each of {len(directions)} sequences")
+    if wrong:
+        raise ValueError("\n".join(wrong))

@@ -31,7 +31,7 @@ class Asked:
 
     def checked(self, library: str, task: str | None) -> tuple[Any, Path]:
         """The emulator and the file to write, whose folder is made. Raises ValueError with every mistake."""
-        from opsim.cli.motion_files import chosen, ready
+        from opsim.cli.motion_files import chosen, found, overwritten, ready
 
         wrong = [*_together(self), *_number(self), *_ending(self)]
         model, out = None, self.out
@@ -39,6 +39,7 @@ class Asked:
             model = chosen(library, task)
             wrong += _person(model, self.person)
             out = out or Path(f"{Path(model.task).name}{ENDINGS[self.kind][0]}")
+            wrong += overwritten(out, library=[found(library)], recording=[self.beside or ""])
         except ValueError as error:
             wrong.append(str(error))
         if out is not None and not _ending(self):

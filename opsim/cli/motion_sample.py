@@ -38,12 +38,11 @@ def command(library: str, task: str | None, n: int, seed: int, out: Path | None,
     import numpy as np
 
     from opsim.cli.console import print_json
-    from opsim.cli.motion_files import chosen, ready
+    from opsim.cli.motion_files import chosen
 
     with mistakes():
         model = chosen(library, task)
-        if out is not None:
-            ready(out, ".csv", ".npz")
+        _refuse(out, library)
         drawn = model.sample(n, np.random.default_rng(seed))
         if out is not None:
             _write(
@@ -56,6 +55,17 @@ def command(library: str, task: str | None, n: int, seed: int, out: Path | None,
     _print_times(model, drawn)
     if out is not None:
         click.echo(f"{n} performances: {out}")
+
+
+def _refuse(out: Path | None, library: str) -> None:
+    """Raises ValueError where ``out`` cannot be written, or holds a library, such as the one that is read."""
+    from opsim.cli.motion_files import found, of_another_kind, overwritten, ready
+
+    if out is None:
+        return
+    if wrong := overwritten(out, library=[found(library)]) or of_another_kind(out, "recording"):
+        raise ValueError("\n".join(wrong))
+    ready(out, ".csv", ".npz")
 
 
 def _row(model: Any, drawn: Any, k: int) -> dict[str, float]:

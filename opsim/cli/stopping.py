@@ -46,3 +46,9 @@ def _stop(number: int, _frame: Any) -> None:
     for each in SIGNALS:
         signal.signal(each, signal.SIG_IGN)
     raise Stop(number)
+
+
+def stopped(by: KeyboardInterrupt, kept: str) -> Interrupted:
+    """What to raise after a stop, with a word on what is kept; its exit code tells Ctrl-C from SIGTERM."""
+    terminated = isinstance(by, Stop) and by.number == signal.SIGTERM
+    return (Terminated if terminated else Interrupted)(f"stopped; {kept}")

@@ -134,6 +134,28 @@ def test_a_body_that_cannot_be_is_refused_with_all_its_mistakes(emulator, body, 
         emulator.new_worker(rng(), **body)
 
 
+def test_a_person_asked_for_by_name_is_that_one_or_refused(emulator):
+    assert np.array_equal(emulator.new_worker(person="w2").z, emulator.known_worker("w2").z)
+    assert emulator.new_worker(rng(), person="w2").name == "w2"
+    with pytest.raises(ValueError, match="no worker 'w22'; did you mean 'w2'"):
+        emulator.new_worker(person="w22")
+
+
+@pytest.mark.parametrize("body", [3, "tall", [1.7]])
+def test_what_is_no_body_is_refused(emulator, body):
+    with pytest.raises(BodyError, match="expected a mapping or something with any of height_m"):
+        emulator.draw_worker(rng(), body)
+
+
+def test_luck_that_is_no_number_is_refused(emulator):
+    with pytest.raises(BodyError, match="slowness: found nan"):
+        emulator.draw_worker(rng(), None, None, float("nan"))
+    with pytest.raises(BodyError, match=r"people: found .nan"):
+        emulator.draw_worker(rng(), None, lambda name: float("nan"))
+    with pytest.raises(BodyError, match="expected a numpy Generator; a body goes by names"):
+        emulator.new_worker({"height_m": 1.7})
+
+
 @pytest.mark.parametrize("slowness", [-1.5, 0.0, 2.0])
 def test_slowness_is_kept_in_standard_deviations_whatever_the_luck(emulator, slowness):
     at, between = emulator.scale.block("duration").start, emulator.workforce.between

@@ -9,6 +9,7 @@ from simpy.rt import RealtimeEnvironment
 
 from opsim import Worker, WorkerLog, run_plan
 from opsim.clock import on_grid
+from opsim.effects import worker_effect
 from opsim.log import WORK
 from opsim.streams import stream
 from opsim.task_models import library_model
@@ -392,7 +393,9 @@ def test_a_recorded_person_is_refused_where_nothing_was_recorded():
 
 def test_a_worker_who_is_a_recorded_person_moves_as_that_one():
     squat = library_model("public_movements/deep_squat")
-    known = squat.sample(64, stream(3, 0, "duration", "squat", "ana", 0), worker="s03").duration_s
+    who = worker_effect(squat, "squat", "ana", 3, 0, {"person": "s03"})
+    assert who.name == "s03"
+    known = squat.sample(64, stream(3, 0, "duration", "squat", "ana", 0), worker=who).duration_s
     worker = ana({"squat": squat}, seed=3, body={"person": "s03"})
 
     def story(worker):

@@ -40,3 +40,11 @@ def test_an_unknown_scheme_is_named_before_anything_is_fitted():
 def test_too_few_sequences_are_refused():
     with pytest.raises(ValueError, match="nothing to choose by"):
         choose_scheme(np.ones((3, 2, 1, 3)), np.arange(3), NAMES)
+
+
+def test_all_mistakes_are_named_at_once():
+    given = np.zeros((5, 2, 1, 3))
+    with pytest.raises(ValueError, match=r"(?s)no 'SIEMM'.*no 'MVGG'.*worker_index: found float64 of shape .4,."):
+        choose_scheme(given, np.zeros(4), ("SIEMM/JointPCA/MVG", "SIEM/JointPCA/MVGG"))
+    with pytest.raises(ValueError, match="expected a list of names"):
+        choose_scheme(given, np.zeros(5, int), "SIEM/JointPCA/MVG")
