@@ -25,19 +25,32 @@ def command(of: str, base: str, kpis: tuple[str, ...], out: Path | None, as_json
     Replications with the same number have the same random numbers in every variant, so their differences say more.
     """
     from opsim.cli.console import print_json
-    from opsim.report.comparison import write_comparison
+    from opsim.cli.running import Failed
     from opsim.study.compare import compare
 
     with mistakes():
         folder, results = _results(of, out, how)
         comparison = compare(results, base, kpis)
         title = str(results[base].summary.get("scenario", folder.name))
-        page = write_comparison(comparison, folder / "compare.html", title)
+    page, failed = _page(comparison, folder / "compare.html", title)
     if as_json:
         print_json(_as_json(comparison, page))
-        return
-    _print(comparison, title)
-    click.echo(f"comparison: {page}")
+    else:
+        _print(comparison, title)
+        if page is not None:
+            click.echo(f"comparison: {page}")
+    if failed:
+        raise Failed(failed)
+
+
+def _page(comparison: Any, path: Path, title: str) -> tuple[Path | None, str]:
+    """Where the page was written or, where it cannot be, why; what was found is told all the same."""
+    from opsim.report.comparison import write_comparison
+
+    try:
+        return write_comparison(comparison, path, title), ""
+    except OSError as error:
+        return None, f"{path}: cannot be written: {error.strerror or error}"
 
 
 def _results(of: str, out: Path | None, how: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
@@ -73,7 +86,7 @@ def _print(comparison: Any, title: str) -> None:
         click.echo(sentence)
 
 
-def _as_json(comparison: Any, page: Path) -> dict[str, Any]:
+def _as_json(comparison: Any, page: Path | None) -> dict[str, Any]:
     return {
         "base": comparison.base,
         "seed": comparison.seed,
@@ -93,5 +106,5 @@ def _as_json(comparison: Any, page: Path) -> dict[str, Any]:
             }
             for d in comparison.differences
         ],
-        "page": str(page),
+        "page": None if page is None else str(page),
     }

@@ -52,16 +52,17 @@ def print_meaning() -> None:
     click.echo(f"{NOTHING:9} {ABSENT}")
 
 
-def table_file(out: Path | None) -> Path | None:
-    """The .csv file to write, or the one in this folder, tried beforehand. Raises ValueError for what is neither."""
-    from opsim.cli.motion_files import ready
+def wrong_table(out: Path | None) -> list[str]:
+    """What speaks against this name for the table: it is neither a .csv file nor a folder."""
+    if out is None or out.suffix.lower() == ".csv" or out.is_dir() or not (out.is_file() or out.suffix):
+        return []
+    found = "a file" if out.is_file() else f"the ending {out.suffix!r}"
+    return [f"{out}: found {found}, expected a folder or a .csv file to write"]
 
-    if out is None or out.suffix.lower() == ".csv":
-        return out if out is None else ready(out, ".csv")
-    if out.is_file() or (out.suffix and not out.is_dir()):
-        found = "a file" if out.is_file() else f"the ending {out.suffix!r}"
-        raise ValueError(f"{out}: found {found}, expected a folder or a .csv file to write")
-    return ready(out / "judged.csv", ".csv")
+
+def table_file(out: Path | None) -> Path | None:
+    """The .csv file to write, or the one in this folder."""
+    return out if out is None or out.suffix.lower() == ".csv" else out / "judged.csv"
 
 
 def write_judged(path: Path, judged: Sequence[Any]) -> None:

@@ -2,34 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-N_STEPS = 6
-"""Steps of one class."""
+from opsim.cli.verbs import Mistake, mistakes
+
+N_STEPS = 5
+"""Steps of one class; one more for each body."""
 
 
 def judged(sets: Sequence[Any], out: Path, seed: int) -> tuple[Path, dict[str, Any]]:
-    """Write the tables, figures and the page into ``out``; the page, and the rows of each class."""
+    """Write the tables, figures and the page into ``out``; the page, and the rows of each class.
+
+    Classes are written as they are finished: a stop (Interrupted) or a failure (Mistake) names those that are there.
+    """
     from opsim.cli.progress import progress
+    from opsim.cli.stopping import held, stopped, stops_once
+
+    made: list[Any] = []
+    try:
+        with stops_once(), mistakes(), progress("judge") as report:
+            for section in _reported(sets, seed, report):
+                made.append(section)
+                _write(sets, made, out)
+    except KeyboardInterrupt as stop:
+        raise stopped(stop, held(out, [s.name for s in made], [m.task for m in sets])) from None
+    except Mistake as mistake:
+        kept = [held(out, [s.name for s in made], [m.task for m in sets])] if made else []
+        raise Mistake("\n".join([mistake.message, *kept])) from None
+    rows = {s.name: {f"table {t.number}": [list(row) for row in t.rows] for t in s.tables} for s in made}
+    return out / "index.html", rows
+
+
+def _write(sets: Sequence[Any], made: Sequence[Any], out: Path) -> None:
     from opsim.report.paper.write import write_paper
 
-    made = []
-    with progress("judge") as report:
-        total = N_STEPS * len(sets)
-        for n, (section, label) in enumerate(_steps(sections(sets, seed)), 1):
-            report(min(n, total), total, label)
-            made += [] if section is None else [section]
-    words = [f"{m.task}: {len(m)} repetitions of {len(m.workers)} people, {m.selection}; {m.source}" for m in sets]
-    page = write_paper(out, "Schemes of human motion, judged", words, made)
-    return page, {s.name: {f"table {t.number}": [list(row) for row in t.rows] for t in s.tables} for s in made}
+    there = [m for m in sets if m.task in {section.name for section in made}]
+    words = [f"{m.task}: {len(m)} repetitions of {len(m.workers)} people, {m.selection}; {m.source}" for m in there]
+    write_paper(out, "Schemes of human motion, judged", words, made)
 
 
-def _steps(found: Iterator[Any]) -> Iterator[tuple[Any, str]]:
-    """Sections as they come, and names of the steps between."""
-    for item in found:
-        yield (None, item) if isinstance(item, str) else (item, f"{item.name} done")
+def _reported(sets: Sequence[Any], seed: int, report: Callable[..., None]) -> Iterator[Any]:
+    """Sections as they come; each step is told by its name as it begins, after so many that are done."""
+    total, done = N_STEPS * len(sets) + len({motions.skeleton for motions in sets}), 0
+    for item in sections(sets, seed):
+        if isinstance(item, str):
+            report(done, total, item)
+            done += 1
+        else:
+            yield item
+    report(total, total, "done")
 
 
 def sections(sets: Sequence[Any], seed: int) -> Iterator[Any]:

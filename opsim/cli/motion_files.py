@@ -7,6 +7,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+FILES = (".csv", ".npz", ".html", ".svg", ".png", ".json", ".txt", ".parquet", ".gif", ".mp4")
+"""Endings that a folder is not given on purpose."""
+
 
 def chosen(library: str, task: str | None) -> Any:
     """The emulator of a task of a library file, or of a shipped library by its name. Raises ValueError."""
@@ -90,6 +93,15 @@ def ready(out: Path, *endings: str) -> Path:
     except OSError as error:
         raise ValueError(f"{out}: cannot be written: {error.strerror or error}") from None
     return out
+
+
+def wrong_folder(out: Path) -> list[str]:
+    """What speaks against writing into a folder of this name: a file there, or the ending of one."""
+    if _is_file(out):
+        return [f"{out}: found a file, expected a folder to write into"]
+    if out.suffix.lower() in FILES and not out.is_dir():
+        return [f"{out}: found the ending {out.suffix!r} of a file, expected a folder to write into"]
+    return []
 
 
 @contextmanager

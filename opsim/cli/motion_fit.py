@@ -53,6 +53,7 @@ def command(
     """Train an emulator on each recording FILE, a task each, and write them into one library."""
     from opsim.cli.motion_files import no_empty_folders, ready
     from opsim.cli.motion_fit_asked import asked_of, read
+    from opsim.cli.stopping import held
 
     with mistakes():
         asked, wrong = asked_of(n_components=n_components, scheme=scheme, n_times=n_times, landmarks=landmarks)
@@ -67,13 +68,13 @@ def command(
     elif library:
         _print(out, library)
     if failed:
-        raise Mistake("\n".join([*failed, *([_kept(out, library, sets)] if library else [])]))
+        raise Mistake("\n".join([*failed, *([held(out, library, [m.task for m in sets])] if library else [])]))
 
 
 def _fitted(sets: Sequence[Any], asked: dict[str, Any], seed: int, said: str, out: Path) -> tuple[Any, list[str]]:
     """The library, written as far as it came, and what failed; a task that fails takes nothing from the others."""
     from emulator import MotionLibrary
-    from opsim.cli.stopping import stopped, stops_once
+    from opsim.cli.stopping import held, stopped, stops_once
 
     library, failed = MotionLibrary.of(command=said), []
     with stops_once():
@@ -87,7 +88,7 @@ def _fitted(sets: Sequence[Any], asked: dict[str, Any], seed: int, said: str, ou
         except BaseException as error:  # also a bug of ours, which goes on with its traceback
             _save(library, out)
             if isinstance(error, KeyboardInterrupt):
-                raise stopped(error, _kept(out, library, sets)) from None
+                raise stopped(error, held(out, library, [motions.task for motions in sets])) from None
             raise
         _save(library, out)
     return library, failed
@@ -105,14 +106,6 @@ def _save(library: Any, out: Path) -> None:
     with mistakes():
         if library:
             library.save(out)
-
-
-def _kept(out: Path, library: Any, sets: Sequence[Any]) -> str:
-    """What a library holds that was not finished."""
-    if not library:
-        return "nothing was finished"
-    left = ", ".join(motions.task for motions in sets if motions.task not in library)
-    return f"{out} holds {', '.join(library)}, not {left}"
 
 
 def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, asked: dict[str, Any]) -> str:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import click
 
-from opsim.cli.verbs import Mistake, mistakes
+from opsim.cli.judging_held_out import show_held_out
+from opsim.cli.verbs import mistakes
 
 FEWEST = 12
 """Repetitions below which sequences cannot be tested against one another."""
@@ -52,23 +54,39 @@ def command(
     from opsim.cli.judged_table import table_file
 
     with mistakes():
-        wrong = _misfits(schemes, paper, out, splits)
-        sets = _read(files, where, paper, wrong)
+        sets = _read(files, where, paper, _misfits(schemes, paper, out, splits))
+    target = out / "index.html" if paper and out is not None else table_file(out)
+    with _written(target):
         if paper and out is not None:
-            _folder(out)
             _show_paper(sets, out, seed, as_json)
-            return
-        target = table_file(out)
-    _show_held_out(sets, schemes, splits or USUAL_SPLITS, seed, target, as_json)
+        else:
+            show_held_out(sets, schemes, splits or USUAL_SPLITS, seed, target, as_json)
+
+
+@contextmanager
+def _written(target: Path | None) -> Iterator[None]:
+    """The folder of this file is there, can be written, and is gone again if it stays empty."""
+    from opsim.cli.motion_files import no_empty_folders, ready
+
+    if target is None:
+        yield
+        return
+    with no_empty_folders(target.parent):
+        with mistakes():
+            ready(target, ".csv", ".html")
+        yield
 
 
 def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int | None) -> list[str]:
     """Options that are wrong, or do not go together."""
     if not paper:
         from emulator.judge.drawers import unknown_names
+        from opsim.cli.judged_table import wrong_table
 
-        return unknown_names(schemes)
-    wrong = [] if out is not None else ["--paper: expected a folder to write into, -o FOLDER"]
+        return [*unknown_names(schemes), *wrong_table(out)]
+    from opsim.cli.motion_files import wrong_folder
+
+    wrong = ["--paper: expected a folder to write into, -o FOLDER"] if out is None else wrong_folder(out)
     given = {"--scheme": bool(schemes), "--splits": splits is not None}
     return wrong + [f"{name}: does not go with --paper, which has schemes of its own" for name in given if given[name]]
 
@@ -96,61 +114,6 @@ def _read(files: Sequence[str], where: str | None, paper: bool, wrong: list[str]
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
     return sets
-
-
-def _folder(out: Path) -> None:
-    from opsim.cli.motion_files import ready
-
-    if out.is_file():
-        raise ValueError(f"{out}: found a file, expected a folder to write into")
-    ready(out / "index.html", ".html")
-
-
-def _show_held_out(
-    sets: Sequence[Any], schemes: Sequence[str], n_splits: int, seed: int, target: Path | None, as_json: bool
-) -> None:
-    """Table after table, as they are found; a file that cannot be judged takes nothing from the others."""
-    from opsim.cli.console import print_json
-    from opsim.cli.judged_table import as_plain, print_judged, print_meaning, write_judged
-
-    judged: list[Any] = []
-    failed: list[str] = []
-    for motions in sets:
-        try:
-            with mistakes():
-                judged.append(_held_out(motions, schemes, n_splits, seed))
-                if not as_json:
-                    print_judged(judged[-1], f"{_who(motions)}, halves dealt out {_times(n_splits)}")
-                if target is not None:
-                    write_judged(target, judged)
-        except Mistake as mistake:
-            failed.append(f"{motions.task}: {mistake.message.removeprefix(f'{motions.task}: ')}")
-    if as_json:
-        print_json({"out": None if target is None else str(target), "tasks": {j.task: as_plain(j) for j in judged}})
-    elif judged:
-        print_meaning()
-        if target is not None:
-            click.echo(f"table: {target}")
-    if failed:
-        raise Mistake("\n".join(failed))
-
-
-def _held_out(motions: Any, schemes: Sequence[str], n_splits: int, seed: int) -> Any:
-    from emulator.judge.held_out_table import USUAL, judge_held_out
-    from opsim.cli.progress import progress
-
-    with progress("judge") as report:
-        return judge_held_out(motions, schemes or USUAL, n_splits, seed, report)
-
-
-def _times(n: int) -> str:
-    return "once" if n == 1 else f"{n} times"
-
-
-def _who(motions: Any) -> str:
-    n_people = len(motions.workers)
-    people = "one person" if n_people == 1 else f"{n_people} people"
-    return f"{motions.task}: {len(motions)} repetitions of {people} ({motions.selection})"
 
 
 def _show_paper(sets: Sequence[Any], out: Path, seed: int, as_json: bool) -> None:

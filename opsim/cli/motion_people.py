@@ -26,6 +26,7 @@ def command(files: tuple[str, ...], out: Path, where: str | None, seed: int, as_
     Draws of a repetition's own worker, of the same fit for nobody in particular, and of new people; with it how much of
     duration, posture and pace lies between people, and what the recordings' covariates tell of that.
     """
+    from opsim.cli.motion_files import no_empty_folders
     from opsim.report.people.write import PAGE
 
     with mistakes():
@@ -33,9 +34,11 @@ def command(files: tuple[str, ...], out: Path, where: str | None, seed: int, as_
     found: list[Any] = []
     failed: list[str] = []
     try:
-        for one in _found(sets, seed, failed):
-            found.append(one)
-            _write(out, found, seed)
+        with no_empty_folders(out):
+            _prepare(out)
+            for one in _found(sets, seed, failed):
+                found.append(one)
+                _write(out, found, seed)
     except KeyboardInterrupt:
         kept = f"{len(found)} of {len(sets)} tasks are in {out / PAGE}" if found else "nothing was finished"
         raise Interrupted(f"stopped; {kept}") from None
@@ -51,7 +54,7 @@ def _read(files: Sequence[str], where: str | None, out: Path) -> list[Any]:
     """The repetitions of each file. Raises ValueError with all that speaks against the work, before it is begun."""
     from emulator import read_motions
     from emulator.judge.people import refuse
-    from opsim.cli.motion_files import ready
+    from opsim.cli.motion_files import wrong_folder
 
     chosen = {} if where is None else {"where": None if where == "all" else where}
     sets: list[Any] = []
@@ -65,12 +68,17 @@ def _read(files: Sequence[str], where: str | None, out: Path) -> list[Any]:
             refuse(motions)
         except (ValueError, OSError) as error:
             wrong.append(str(error))
-    if out.is_file():
-        wrong.append(f"{out}: found a file, expected a folder to write into")
+    wrong += wrong_folder(out)
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
-    ready(out / "index.html", ".html")
     return sets
+
+
+def _prepare(out: Path) -> None:
+    from opsim.cli.motion_files import ready
+
+    with mistakes():
+        ready(out / "index.html", ".html")
 
 
 def _found(sets: Sequence[Any], seed: int, failed: list[str]) -> Iterator[Any]:

@@ -32,8 +32,18 @@ class _Rate(click.FloatRange):
     "-o", "--out", type=click.Path(path_type=Path), help="times as .csv, or whole movements as .npz recordings."
 )
 @click.option("--fps", type=_Rate(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz.")
+@click.option("--person", metavar="NAME", help="All by this person of the fit.  [default: each by another, new person]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
-def command(library: str, task: str | None, n: int, seed: int, out: Path | None, fps: float, as_json: bool) -> None:
+def command(
+    library: str,
+    task: str | None,
+    n: int,
+    seed: int,
+    out: Path | None,
+    fps: float,
+    person: str | None,
+    as_json: bool,
+) -> None:
     """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz file, the movements."""
     import numpy as np
 
@@ -43,11 +53,10 @@ def command(library: str, task: str | None, n: int, seed: int, out: Path | None,
     with mistakes():
         model = chosen(library, task)
         _refuse(out, library)
-        drawn = model.sample(n, np.random.default_rng(seed))
+        drawn = model.sample(n, np.random.default_rng(seed), worker=person)
         if out is not None:
-            _write(
-                out, model, drawn, fps, f"opsim motion sample {Path(library).name} {model.task} -n {n} --seed {seed}"
-            )
+            said = f"opsim motion sample {Path(library).name} {model.task} -n {n} --seed {seed}"
+            _write(out, model, drawn, fps, said if person is None else f"{said} --person {person}", person)
     rows = [_row(model, drawn, k) for k in range(n)]
     if as_json:
         print_json({"task": model.task, "seed": seed, "out": None if out is None else str(out), "performances": rows})
@@ -86,9 +95,9 @@ def _print_times(model: Any, drawn: Any) -> None:
     print_table(f"{model.task}: {len(drawn.duration_s)} performances", ("time", "mean", "5 %", "median", "95 %"), rows)
 
 
-def _write(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
+def _write(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str | None) -> None:
     if out.suffix.lower() == ".npz":
-        _write_npz(out, model, drawn, fps, said)
+        _write_npz(out, model, drawn, fps, said, person)
         return
     rows = [_row(model, drawn, k) for k in range(len(drawn.duration_s))]
     with out.open("w", newline="", encoding="utf-8") as file:
@@ -97,8 +106,11 @@ def _write(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
         writer.writerows(rows)
 
 
-def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None:
-    """The form of recordings, so that ``motion fit`` reads it again; subject and source say that it is emulated."""
+def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str | None) -> None:
+    """The form of recordings, so that ``motion fit`` reads it again; the source says that it is emulated.
+
+    person : who all are of; None: each performance is of another subject, a new one, as it was drawn
+    """
     import numpy as np
 
     frames = [
@@ -116,7 +128,7 @@ def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str) -> None
         fps=fps,
         names=np.array(model.skeleton.names),
         parents=np.array(model.skeleton.parents),
-        subject=np.full(len(frames), "emulated"),
+        subject=np.array([f"new{k + 1}" if person is None else person for k in range(len(frames))]),
         trial=np.array([f"k{k}" for k in range(len(frames))]),
         duration=np.asarray(drawn.duration_s),
         meta=json.dumps(meta),

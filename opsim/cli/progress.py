@@ -54,23 +54,34 @@ def _bar(what: str) -> Iterator[Report]:
 
 
 class _Lines:
-    """A line at the first and the last step of each label, and every few seconds between."""
+    """A line at the first and the last step of each label, and every few seconds between.
+
+    The clock starts anew where a label begins to count anew, and goes on where it only names the next step.
+    """
 
     def __init__(self, what: str) -> None:
         self.what, self.started, self.last = what, time.monotonic(), 0.0
         self.label: str | None = None
+        self.first, self.count = 0, (0, 0)
 
     def __call__(self, done: int, total: int, label: str = "") -> None:
         now = time.monotonic()
         if label != self.label:
-            self.started = self.started if self.label is None else now
+            if self.label is not None and (done < self.count[0] or total != self.count[1]):
+                self.started, self.first = now, done
             self.label, self.last = label, 0.0
+        self.count = done, total
         if done < total and now - self.last < LINE_EVERY_S:
             return
         self.last = now
-        left_s = (now - self.started) / done * (total - done) if done else None
-        left = "" if left_s is None or done >= total else f", {left_s:.0f} s left"
-        click.echo(f"{_titled(self.what, label)}: {done} of {total}{left}", err=True)
+        click.echo(f"{_titled(self.what, label)}: {done} of {total}{self._left(now)}", err=True)
+
+    def _left(self, now: float) -> str:
+        """The time left, as fast as it went since the clock started; nothing before the first step and at the end."""
+        done, total = self.count
+        if done >= total or done <= self.first:
+            return ""
+        return f", {(now - self.started) / (done - self.first) * (total - done):.0f} s left"
 
 
 def _titled(what: str, label: str) -> str:

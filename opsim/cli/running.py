@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import Interrupted, mistakes
+from opsim.cli.verbs import mistakes
 
 
 class Failed(click.ClickException):
@@ -37,7 +36,7 @@ def run_variants(
         out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
-            _refuse_other_runs(variants, out, how.get("seed"))
+            _refuse_other_runs(variants, out, how.get("seed"), _way_out(out, how))
     with stops_once():
         return out, variants, {name: _run(name, loaded, out / name, how) for name, loaded in variants.items()}
 
@@ -54,7 +53,14 @@ def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> dict[st
     return loaded
 
 
-def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None) -> None:
+def _way_out(out: Path, how: dict[str, Any]) -> str:
+    """What to do about another run in the folder: not every verb can remove it."""
+    if "overwrite" in how:
+        return "take another folder with -o, or --overwrite to remove what is there"
+    return f"take another folder with -o, or 'opsim compare {out}' to compare what is there"
+
+
+def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None, way_out: str) -> None:
     """All folders that hold another run are said at once, before anything is run or removed."""
     from opsim.study.folder import other_run
 
@@ -63,12 +69,12 @@ def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None) ->
         for name, loaded in variants.items()
     ]
     if words := [words for words in found if words is not None]:
-        raise ValueError("\n".join([*words, "take another folder with -o, or --overwrite to remove what is there"]))
+        raise ValueError("\n".join([*words, way_out]))
 
 
 def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
     from opsim.cli.progress import progress
-    from opsim.cli.stopping import Stop, Terminated
+    from opsim.cli.stopping import stopped
     from opsim.study import run_scenario
     from opsim.study.folder import OtherRun
     from opsim.study.precision import NoSuchFigure
@@ -78,8 +84,7 @@ def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
         with mistakes(OSError, OtherRun, NoSuchFigure), _failures(kept), progress(f"run {name}") as report:
             return run_scenario(loaded, folder=folder, progress=report, **how)
     except KeyboardInterrupt as stop:
-        kind = Terminated if isinstance(stop, Stop) and stop.number == signal.SIGTERM else Interrupted
-        raise kind(f"stopped; {kept}") from None
+        raise stopped(stop, kept) from None
 
 
 @contextmanager

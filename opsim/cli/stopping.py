@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from opsim.cli.verbs import Interrupted
@@ -52,3 +53,10 @@ def stopped(by: KeyboardInterrupt, kept: str) -> Interrupted:
     """What to raise after a stop, with a word on what is kept; its exit code tells Ctrl-C from SIGTERM."""
     terminated = isinstance(by, Stop) and by.number == signal.SIGTERM
     return (Terminated if terminated else Interrupted)(f"stopped; {kept}")
+
+
+def held(out: Path, done: Collection[str], wanted: Sequence[str]) -> str:
+    """In words, which of the tasks wanted are in ``out`` and which are not."""
+    if not done:
+        return "nothing was finished"
+    return f"{out} holds {', '.join(done)}, not {', '.join(task for task in wanted if task not in done)}"

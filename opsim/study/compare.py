@@ -1,7 +1,7 @@
 """Variants against a base, replication by replication: common random numbers make the pairs alike."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,9 @@ from opsim.kpi.names import POSTURE
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
+
+ROUNDING = 1e-9
+"""Differences below this share of the values are of the order in which numbers were added, not of the variants."""
 
 
 class NotComparable(ValueError):
@@ -37,7 +40,7 @@ class Difference:
 
     @property
     def identical(self) -> bool:
-        """The same in every replication, to the last bit."""
+        """The same in every replication, but for rounding."""
         return self.interval.n > 0 and self.interval.mean == 0 and self.interval.sd == 0
 
     @property
@@ -66,7 +69,7 @@ class Comparison:
     @property
     def words(self) -> tuple[str, ...]:
         """How the numbers are to be read."""
-        m = sum(not np.isnan(difference.p) for difference in self.differences)
+        m = sum(not np.isnan(_tested(difference)) for difference in self.differences)
         pairs = "1 pair" if self.n == 1 else f"{self.n} pairs"
         own, wrong = f"{100 * CONFIDENCE:.0f} %", f"{100 * (1 - CONFIDENCE):.0f} %"
         return (
@@ -93,11 +96,8 @@ def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[st
         for name, table in tables.items()
         if name != base and key in table
     ]
-    together = holm([difference.p for difference in found])
-    differences = tuple(
-        Difference(d.variant, d.key, d.base, d.mean, d.interval, d.p, float(p), d.variance_ratio)
-        for d, p in zip(found, together)
-    )
+    together = holm([_tested(difference) for difference in found])
+    differences = tuple(replace(d, p_together=d.p if d.identical else float(p)) for d, p in zip(found, together))
     return Comparison(base, results[base].summary["seed"], len(shared), differences)
 
 
@@ -114,13 +114,24 @@ def holm(p: Sequence[float]) -> np.ndarray:
     return adjusted
 
 
+def _tested(difference: Difference) -> float:
+    """The p that is held against the others: nan where there is nothing to test, as between identical figures."""
+    return np.nan if difference.identical else difference.p
+
+
 def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, float | None]:
-    """(interval of the mean of a - b, two-sided p, variance ratio) of pairs; a pair with a nan is left out."""
+    """(interval of the mean of a - b, two-sided p, variance ratio) of pairs; a pair with a nan is left out.
+
+    Differences that are all below ``ROUNDING`` of the values are taken for 0.
+    """
     from scipy.special import stdtr  # scipy.stats costs three times this import
 
     pairs = np.array([a, b], dtype=float)
     pairs = pairs[:, ~np.isnan(pairs).any(axis=0)]
-    interval = t_interval(pairs[0] - pairs[1])
+    apart_by = pairs[0] - pairs[1]
+    if np.abs(apart_by).max(initial=0) <= ROUNDING * np.abs(pairs).max(initial=0):
+        apart_by = np.zeros_like(apart_by)
+    interval = t_interval(apart_by)
     if interval.n < 2:
         return interval, np.nan, None
     if interval.sd == 0:

@@ -11,7 +11,7 @@ from emulator.align import align
 from emulator.model import MotionEmulator
 from emulator.synthetic import make
 from tests.made import made_sequences
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import one_person, opsim
 
 LIFTS = make("lift", 3, 4, seed=2)[0]
 ODD = 2  # w1/r3
@@ -165,6 +165,7 @@ def recording_file(tmp_path_factory):
     """Six reaches as a file of recordings; a marker of the second jumps, the third pauses, the fourth is the fifth."""
     path = tmp_path_factory.mktemp("bad") / "reach.npz"
     assert opsim("motion", "sample", "bench_work", "reach", "-n", 6, "--fps", 50, "-o", path)[0] == 0
+    one_person(path)
     with np.load(path) as file:
         arrays = dict(file)
     parts = np.split(arrays["positions"], arrays["offsets"][1:-1])

@@ -1,5 +1,6 @@
 """Calling the command line as a user does."""
 
+import numpy as np
 from click.testing import CliRunner
 
 from opsim.cli import main
@@ -27,6 +28,13 @@ def opsim(*words, env=None):
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     assert "Traceback" not in result.stderr
     return result.exit_code, result.stdout, result.stderr
+
+
+def one_person(recording):
+    """Rewrite a recording file as of one person: drawn performances are each of another."""
+    with np.load(recording) as file:
+        arrays = {**file}
+    np.savez(recording, **{**arrays, "subject": np.full(len(arrays["trial"]), "emulated")})
 
 
 def line(folder, text=LINE, name="line.yaml"):

@@ -62,6 +62,27 @@ def test_a_wrong_call_is_answered_with_what_is_right(results, words, said):
     assert code == 2 and said in complaint
 
 
+@pytest.mark.parametrize("words", [[], ["--json"]])
+def test_where_no_page_can_be_written_the_table_is_told_all_the_same(results, monkeypatch, words):
+    def refuse(path, _):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("opsim.report.comparison.write_text", refuse)
+    code, shown, complaint = opsim("compare", results, *words)
+    assert code == 1 and "wider" in shown and "comparison: " not in shown
+    assert complaint == f"{results / 'compare.html'}: cannot be written: Permission denied\n"
+    assert not words or json.loads(shown)["page"] is None
+
+
+def test_another_run_in_the_folder_is_met_with_what_compare_can_do(results, tmp_path):
+    code, _, complaint = opsim("compare", line(tmp_path, TWO), "--seed", 99, "-o", results)
+    assert code == 2 and "--overwrite" not in complaint
+    assert (
+        complaint.splitlines()[-1]
+        == f"take another folder with -o, or 'opsim compare {results}' to compare what is there"
+    )
+
+
 def test_damaged_figures_are_named(results, tmp_path):
     import shutil
 

@@ -6,7 +6,7 @@ import pytest
 
 from emulator import MotionLibrary, read_motions
 from opsim.shipped import shipped_folder
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import one_person, opsim
 from tests.recordings import recording
 
 BENCH = shipped_folder() / "libraries" / "bench_work.npz"
@@ -17,6 +17,7 @@ def emulated(tmp_path_factory):
     """A recording file of twelve emulated reaches."""
     path = tmp_path_factory.mktemp("emulated") / "reach.npz"
     assert opsim("motion", "sample", BENCH, "reach", "-n", 12, "--seed", 3, "-o", path)[0] == 0
+    one_person(path)
     return path
 
 
@@ -26,6 +27,30 @@ def test_sampled_movements_are_recordings_again(emulated):
     assert len(motions.motions) == 12 and "emulated by opsim motion sample" in motions.source
     assert np.abs(motions.duration_s - drawn.duration_s).max() <= 0.5 / 50 + 1e-9
     assert motions.mark_names == MotionLibrary.load(BENCH)["reach"].mark_names
+
+
+def test_each_drawn_performance_is_of_another_new_person(tmp_path):
+    out = tmp_path / "reach.npz"
+    assert opsim("motion", "sample", BENCH, "reach", "-n", 6, "--fps", 20, "-o", out)[0] == 0
+    assert read_motions(out, where=None).workers == tuple(f"new{k}" for k in range(1, 7))
+    assert opsim("motion", "fit", out, "-o", tmp_path / "lib.npz", "--n-times", 21)[0] == 0
+    assert MotionLibrary.load(tmp_path / "lib.npz")["reach"].report.n_workers == 6
+
+
+def test_those_of_one_person_of_the_fit_have_the_name_and_that_persons_ways(tmp_path):
+    model = MotionLibrary.load(BENCH)["reach"]
+    name, out = model.workers[0], tmp_path / "reach.npz"
+    words = ("-n", 4, "--fps", 20, "--person", name, "-o", out, "--json")
+    code, shown, _ = opsim("motion", "sample", BENCH, "reach", *words)
+    mine = model.sample(4, np.random.default_rng(0), worker=name).duration_s
+    assert code == 0 and [row["duration_s"] for row in json.loads(shown)["performances"]] == list(mine)
+    assert read_motions(out, where=None).workers == (name,)
+
+
+def test_an_unknown_person_is_refused(tmp_path):
+    out = tmp_path / "x.npz"
+    code, _, complaint = opsim("motion", "sample", BENCH, "reach", "--person", "nobody", "-o", out)
+    assert code == 2 and "no worker 'nobody'" in complaint and not out.exists()
 
 
 def test_fit_prints_what_it_found_and_writes_the_library(emulated, tmp_path):

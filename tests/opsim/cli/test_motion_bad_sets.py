@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.model import MotionEmulator
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import one_person, opsim
 
 ODD = 3  # emulated/k3
 
@@ -14,6 +14,7 @@ def lifts(tmp_path_factory):
     """The arrays of eight made lifts, and the joints of each (T, J, 3)."""
     path = tmp_path_factory.mktemp("lifts") / "lift.npz"
     assert opsim("motion", "sample", "bench_work", "lift", "-n", 8, "--fps", 25, "-o", path)[0] == 0
+    one_person(path)
     with np.load(path) as file:
         arrays = {key: file[key] for key in file.files if key not in ("duration",) and not key.startswith("ann_")}
     return arrays, np.split(arrays["positions"], arrays["offsets"][1:-1])

@@ -4,7 +4,7 @@ import json
 import pytest
 
 from opsim.shipped import shipped_folder
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import one_person, opsim
 
 BENCH = shipped_folder() / "libraries" / "bench_work.npz"
 
@@ -14,6 +14,7 @@ def recorded(tmp_path_factory):
     """A recording file of sixteen emulated reaches."""
     path = tmp_path_factory.mktemp("recorded") / "reach.npz"
     assert opsim("motion", "sample", BENCH, "reach", "-n", 16, "--seed", 3, "-o", path)[0] == 0
+    one_person(path)
     return path
 
 

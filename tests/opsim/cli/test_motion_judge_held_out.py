@@ -10,7 +10,7 @@ import pytest
 from emulator.judge import held_out_table
 from emulator.judge.drawers import COPIER, RECORDED, SHAKER, USUAL
 from opsim.shipped import shipped_folder
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import one_person, opsim
 from tests.recordings import recording
 
 BENCH = shipped_folder() / "libraries" / "bench_work.npz"
@@ -22,6 +22,7 @@ def reach(tmp_path_factory):
     """A recording file of sixteen emulated reaches."""
     path = tmp_path_factory.mktemp("recorded") / "reach.npz"
     assert opsim("motion", "sample", BENCH, "reach", "-n", 16, "--fps", 25, "--seed", 3, "-o", path)[0] == 0
+    one_person(path)
     return path
 
 

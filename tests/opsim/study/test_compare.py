@@ -59,6 +59,24 @@ def test_identical_runs_differ_by_exactly_nothing_and_it_is_said():
     assert found.verdict == "identical" and found.p_together == 1
 
 
+def test_differences_of_rounding_only_are_identical_and_small_true_ones_are_not():
+    values = np.array([1e4 / 3, 2e4 / 7, 1e4 / 9])
+    rounded = values * (1 + np.array([2e-16, -4e-16, 3e-14]))
+    results = {"base": made(out=values), "rounded": made(out=rounded), "small": made(out=values + 1e-4)}
+    same, small = compare(results).differences
+    assert same.verdict == "identical" and same.interval.half_width == 0 and same.variance_ratio is None
+    assert small.verdict == "higher" and small.interval.mean > 0
+
+
+def test_identical_figures_do_not_count_among_the_comparisons():
+    base, near = [10.0, 12.0, 11.0, 13.0], [11.0, 13.5, 12.0, 14.1]
+    alone = compare({"base": made(out=base), "near": made(out=near)})
+    copies = {f"same{i}": made(out=[value * (1 + 1e-15) for value in base]) for i in range(9)}
+    among = compare({"base": made(out=base), "near": made(out=near), **copies})
+    assert among.differences[0].p_together == alone.differences[0].p_together
+    assert "all comparisons together (1)" in among.words[1]
+
+
 def test_the_same_step_in_every_replication_is_certain():
     (found,) = compare({"base": made(out=[1.0, 2.0]), "more": made(out=[2.0, 3.0])}).differences
     assert found.verdict == "higher" and found.p == 0 and found.interval.half_width == 0
