@@ -28,9 +28,14 @@ def distances(a: np.ndarray, b: np.ndarray | None = None, *, n_threads: int = 1)
     right = left if b is None else _packed(b)
     out = np.zeros((len(left), len(right)))
     starts = range(0, len(left), _BLOCK)
-    with ThreadPoolExecutor(n_threads) as pool:
-        for done in [pool.submit(add_arcs, left, right, s, min(s + _BLOCK, len(left)), b is None, out) for s in starts]:
-            done.result()
+    jobs = [(left, right, s, min(s + _BLOCK, len(left)), b is None, out) for s in starts]
+    if n_threads == 1:
+        for job in jobs:
+            add_arcs(*job)
+    else:
+        with ThreadPoolExecutor(n_threads) as pool:
+            for done in [pool.submit(add_arcs, *job) for job in jobs]:
+                done.result()
     out /= a.shape[1]
     return out + out.T if b is None else out
 
