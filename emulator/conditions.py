@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emulator import dwell_given
+from emulator.density import regression
 
 if TYPE_CHECKING:
     from emulator.law import Law
@@ -46,9 +47,8 @@ def shifted(model: MotionEmulator, z: np.ndarray, column: np.ndarray, shift: flo
     """z (n, K) with log duration moved by ``shift``, the rest by its regression: ``column`` (K,) of covariances."""
     at = model.scale.block("duration").start
     log_duration = model.margin.inverse(model.scale.raw(z, "duration")[:, 0])
-    slope = column / column[at] if column[at] > 0 else np.zeros_like(column)
-    slope[at] = 1.0
-    moved = z + (model.duration_z(log_duration + np.asarray(shift)) - z[:, at])[:, None] * slope
+    step = model.duration_z(log_duration + np.asarray(shift)) - z[:, at]
+    moved = z + step[:, None] * regression(column, at)
     return np.where(np.broadcast_to(shift, len(z))[:, None] == 0, z, moved)  # no shift: the same bits
 
 

@@ -88,6 +88,13 @@ class LowRankNormal:
         return -0.5 * (quadratic + np.sum(np.log(2 * np.pi * values[kept])))
 
 
+def regression(column: np.ndarray, at: int) -> np.ndarray:
+    """(K,) slopes of all coefficients on coefficient ``at``, 1 for itself, from its covariances ``column`` (K,)."""
+    slope = column / column[at] if column[at] > 1e-12 else np.zeros_like(column)
+    slope[at] = 1.0
+    return slope
+
+
 def compressed(rows: np.ndarray) -> np.ndarray:
     """A factor (R, K) with the same rows' rows and R the numerical rank, at most min(N, K)."""
     _, values, vectors = np.linalg.svd(rows, full_matrices=False)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emulator.covariates.body import Body, BodyError
-from emulator.density import LowRankNormal
+from emulator.density import LowRankNormal, regression
 from emulator.quickness import no_faster
 from emulator.workforce import WorkerEffect
 
@@ -134,9 +134,7 @@ def at_pace(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, usual: np.
 
 def _moved(z: np.ndarray, column: np.ndarray, at: int, wanted: float) -> np.ndarray:
     """z (K,) with its coordinate ``at`` as wanted, the rest by its regression: covariances ``column`` (K,) with it."""
-    slope = column / column[at] if column[at] > 1e-12 else np.zeros_like(column)
-    slope[at] = 1.0
-    return np.asarray(z + (wanted - z[at]) * slope)
+    return np.asarray(z + (wanted - z[at]) * regression(column, at))
 
 
 def _scale(model: MotionEmulator, z: np.ndarray, height_m: float) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emulator.density import regression
 from emulator.motion import Motion, MotionSet
 
 if TYPE_CHECKING:
@@ -44,10 +45,7 @@ def no_faster(model: MotionEmulator, z: np.ndarray, law: LowRankNormal) -> np.nd
     if not emulated_m_per_s(model, z[None])[0] > limit:
         return z
     at = model.scale.block("duration").start
-    column = law.covariance_with(at)
-    slope = column / column[at] if column[at] > 1e-12 else np.zeros_like(column)
-    slope[at] = 1.0
-    alike = law.mean + slope * (z[at] - law.mean[at])
+    alike = law.mean + regression(law.covariance_with(at), at) * (z[at] - law.mean[at])
     towards = alike + STEPS[:, None] * (z - alike)
     towards[:, at] = z[at]
     slow_enough = emulated_m_per_s(model, towards) <= limit

@@ -64,15 +64,10 @@ def _model(known: Ready, category: str, numbers: _Numbers, sexes: _Sexes, means:
 
 
 def _accuracy(sexes: _Sexes, people: np.ndarray) -> dict[str, np.ndarray]:
-    """r2, error_spread and inflation, each (K,), of the whole model; people (G, K) are their mean scores."""
+    """r2 and error_spread, each (K,), of the whole model; people (G, K) are their mean scores."""
     total = np.sum((people - people.mean(axis=0)) ** 2, axis=0)
     ratio = _ratio(np.sum(sexes.errors**2, axis=0), np.sum(sexes.plain**2, axis=0))
-    within = _ratio(np.sum(sexes.residual**2, axis=0), total)
-    return {
-        "r2": 1.0 - ratio,
-        "error_spread": np.sqrt(total / max(len(people) - 1, 1) * ratio),
-        "inflation": np.maximum(_ratio(ratio, within), 1.0),
-    }
+    return {"r2": 1.0 - ratio, "error_spread": np.sqrt(total / max(len(people) - 1, 1) * ratio)}
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,7 +34,6 @@ class CovariateModel:
     n_components (K,), noise_p (K,), category_p (K,) : how each score was decided (NaN where it could not be tested)
     r2 (K,) : of the whole model with the person left out; 0 where nothing is kept
     error_spread (K,) : standard deviation of a new person's mean about ``predict``
-    inflation (K,) : variance of a new person about ``predict`` over that of the training people, at least 1
     """
 
     names: tuple[str, ...]
@@ -53,7 +52,6 @@ class CovariateModel:
     category_p: np.ndarray
     r2: np.ndarray
     error_spread: np.ndarray
-    inflation: np.ndarray
 
     @classmethod
     def fit(

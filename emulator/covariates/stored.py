@@ -12,7 +12,7 @@ from emulator.covariates.model import CovariateModel
 
 ARRAYS = (
     *("low", "high", "centre", "slope", "level_effect", "n_components", "noise_p", "category_p"),
-    *("r2", "error_spread", "inflation"),
+    *("r2", "error_spread"),
 )
 P_VALUES, NOT_TESTED = ("noise_p", "category_p"), -1.0
 """A library holds finite numbers only, so a p that could not be had is this."""

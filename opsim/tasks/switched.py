@@ -7,6 +7,7 @@ A pace that is asked of a worker is no variability: no switch takes it away wher
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -56,7 +57,7 @@ class Own:
     stretch: float = 1.0
 
 
-class Switched:
+class Switched(ABC):
     """What all switches share; whatever the model has beyond the seam is found through the switch."""
 
     by_index = False
@@ -82,8 +83,9 @@ class Switched:
             raise ValueError(f"a task with switched variability knows no condition, found {condition!r}")
         return self._sample(n, rng, worker)
 
+    @abstractmethod
     def _sample(self, n: int, rng: np.random.Generator, worker: Any) -> Performances:
-        raise NotImplementedError
+        """n performances with the durations of the switch."""
 
     @cached_property
     def _mean_s(self) -> float:
@@ -113,9 +115,9 @@ class _KnowsMeans(Switched):
             return worker or Own(None, self._mean_s)
         return self._of(worker, self._mean_s / pace)
 
+    @abstractmethod
     def _of(self, effect: Any, paced_s: float) -> Own:
         """With this effect of the model; ``paced_s``: the population's mean at the pace that is asked of him."""
-        raise NotImplementedError
 
 
 class _NoneWithin(_KnowsMeans):

@@ -143,3 +143,24 @@ def test_a_pace_is_kept_where_the_recordings_tell_of_paces(pace):
     drawn = [model.new_worker(np.random.default_rng(i), pace=pace) for i in range(5)]
     assert np.allclose([moving_s(effect) for effect in drawn], usual / pace)
     assert len({float(effect.z[0]) for effect in drawn}) == 5
+
+
+@pytest.mark.slow
+def test_new_workers_of_given_bodies_last_as_long_as_the_truths_own():
+    """``new_worker`` and ``sample`` from whole fits of ten cohorts, beside fresh people of the same bodies (KS).
+
+    The bound counts as many numbers as the 18 recorded people of a cohort are worth; body by body they go together.
+    """
+    from scipy.stats import ks_2samp
+
+    drawn, true = [], []
+    for seed in range(10):
+        model = MotionEmulator.fit(make_cohort("lift", 18, 6, seed=seed, pace_spread=0.0)[0], n_times=21, n_knots=8)
+        rng, fresh = np.random.default_rng(seed), cohort(1000 + seed, 40, 1)
+        for body in fresh.bodies:
+            known = {name: getattr(body, name) for name in COVARIATES[:3]} | {"sex": body.sex}
+            effect = model.new_worker(rng, **known, pace=body.pace)
+            drawn.append(float(np.log(model.sample(1, rng, worker=effect).duration_s[0])))
+        true += fresh.log_duration.tolist()
+    assert ks_2samp(drawn, true).statistic < 1.63 * np.sqrt(1 / len(drawn) + 1 / 180)
+    assert np.corrcoef(drawn, true)[0, 1] > 0.7
