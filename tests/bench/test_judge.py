@@ -10,7 +10,7 @@ import pytest
 from bench.cpu import best_s
 from scipy.spatial.distance import cdist
 
-from emulator.judge import disco, distances, energy_v
+from emulator.judge import Quantization, disco, distances, energy_v, sampled_postures
 from emulator.judge.distance import distances_numpy
 from tests.made import made_sequences
 
@@ -80,3 +80,14 @@ def looped(apart, n_first, rng, n_permutations=999):
     first = energy(np.arange(len(apart)))
     reached = sum(energy(rng.permutation(len(apart))) >= first - 1e-12 for _ in range(n_permutations))
     return first, (1 + reached) / (1 + n_permutations)
+
+
+def test_five_thousand_postures_are_quantized_in_a_few_times_their_distances():
+    sequences = made_sequences(60, 301)[0]
+    sample = sampled_postures(sequences, 5000, np.random.default_rng(0))
+    found = Quantization.fit(sample)
+    assert 1 < found.n_postures < 500 and found.labels(sequences).max() == found.n_postures - 1
+    ours, matrix = partial(Quantization.fit, sample), partial(distances, sample[:, None])
+    matrix_s, ours_s = best_s(matrix, ours, rounds=3)
+    print(f"\n5,000 postures quantized: {ours_s / matrix_s:.1f} x their distance matrix (target 20)")
+    assert ours_s / matrix_s < 20
