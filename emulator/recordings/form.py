@@ -26,6 +26,7 @@ _CORE = {
     "core": (1, _NUMBERS, "numbers of the joints to read"),
     "core_parents": (1, _NUMBERS, "for each joint of core its parent's place in core, -1 for the root"),
 }
+_CONTACT = {"contact_feet": (2, "biu", "for each frame whether the left and the right foot bear, (frames, 2)")}
 
 
 def is_mark(key: str) -> bool:
@@ -39,7 +40,7 @@ def expected_of(key: str) -> tuple[int, str, str] | None:
         return 1, _NUMBERS, "one frame a repetition"
     if key.startswith("cov_"):
         return 1, "Ufiub", _COLUMN
-    return NEEDED.get(key) or _CORE.get(key)
+    return NEEDED.get(key) or _CORE.get(key) or _CONTACT.get(key)
 
 
 def form_mistakes(arrays: Mapping[str, np.ndarray]) -> list[str]:
@@ -100,6 +101,9 @@ def _frames(arrays: Mapping[str, Any]) -> Iterator[str]:
         joints = positions.shape[1] if names is None else len(names)
         if positions.shape[1:] != (joints, 3):
             yield f"positions: found {positions.shape}, expected (frames, {joints}, 3) for {joints} names"
+    contact = arrays.get("contact_feet")
+    if contact is not None and positions is not None and contact.shape != (len(positions), 2):
+        yield f"contact_feet: found {contact.shape}, expected ({len(positions)}, 2)"
     if offsets is None:
         return
     if len(offsets) < 2 or not _whole(offsets):

@@ -28,11 +28,11 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
     """
     if glitches not in ("drop", "keep"):
         raise ValueError(f"glitches: 'drop' or 'keep', found {glitches!r}")
-    arrays = _load(path)
+    arrays, meta, unread = load_arrays(path)
     columns = _columns(arrays)
     keep, selection, notes = _chosen(columns, where)
     _refuse(path, mark_mistakes(arrays, keep))
-    skeleton, joints = _skeleton(path, arrays)
+    skeleton, joints = skeleton_of(path, arrays)
     marks = {key.removeprefix("ann_").removesuffix("_frame"): arrays[key] for key in arrays if is_mark(key)}
     rate_hz = float(arrays["fps"])
     motions: list[Motion] = []
@@ -61,7 +61,6 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
             raise RecordingError(f"{path}: repetition {name}: {error}") from None
     if not motions:
         raise RecordingError(f"{path}: no repetition is left (where: {where}; {'; '.join(notes) or 'no notes'})")
-    meta, unread = _meta(arrays)
     notes += _breathing(motions) + unread
     return MotionSet(
         task=task or _task(path),
@@ -86,8 +85,11 @@ def _breathing(motions: list[Motion]) -> list[str]:
     ]
 
 
-def _load(path: Path) -> dict[str, np.ndarray]:
-    """The arrays that are read, each of the form that is expected; whole numbers as such."""
+def load_arrays(path: Path) -> tuple[dict[str, np.ndarray], dict[str, Any], list[str]]:
+    """The arrays that are read, each of the form that is expected, whole numbers as such; what meta says; notes.
+
+    Raises RecordingError with every array that is not as expected.
+    """
     try:
         with open_members(path, MAX_BYTES, MAX_ARRAYS) as file:
             keys = [name.removesuffix(".npy") for name in file.namelist()]
@@ -97,7 +99,8 @@ def _load(path: Path) -> dict[str, np.ndarray]:
         raise RecordingError(f"{path}: not a recording in .npz form ({error})") from None
     _refuse(path, form_mistakes(arrays))
     whole = [key for key in ("offsets", "parents", "core", "core_parents") if key in arrays]
-    return arrays | {key: arrays[key].astype(np.int64) for key in whole} | {"fps": arrays["fps"].reshape(())}
+    arrays |= {key: arrays[key].astype(np.int64) for key in whole} | {"fps": arrays["fps"].reshape(())}
+    return arrays, *_meta(arrays)
 
 
 def _refuse(path: Path, mistakes: list[str]) -> None:
@@ -124,7 +127,8 @@ def _chosen(columns: dict[str, list[Any]], where: str | None) -> tuple[np.ndarra
     return rows_where(where, columns), where, []
 
 
-def _skeleton(path: Path, arrays: dict[str, np.ndarray]) -> tuple[Skeleton, list[int]]:
+def skeleton_of(path: Path, arrays: dict[str, np.ndarray]) -> tuple[Skeleton, list[int]]:
+    """The skeleton with canonical names, and the numbers of its joints in the file. Raises RecordingError."""
     names, parents = arrays["names"], arrays["parents"]
     joints = list(range(len(names)))
     if "core" in arrays and "core_parents" in arrays:
