@@ -1,4 +1,4 @@
-# make demo | test | test-fast | lint | known-answers | motion-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | test-fast | lint | known-answers | motion-evidence | take-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 MOTION ?= ../shared/data/motion
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test test-fast test-slow lint known-answers motion-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test test-fast test-slow lint known-answers motion-evidence take-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -55,6 +55,9 @@ known-answers: $(READY)
 
 motion-evidence: $(READY)
 	PYTHONPATH=tests $(RUN) -m motion_evidence.show
+
+take-evidence: $(READY)
+	PYTHONPATH=tests:. $(RUN) -m take_evidence.show -o build/take_evidence
 
 libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
