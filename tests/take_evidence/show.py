@@ -74,17 +74,18 @@ def as_page(found: list[Line], out: Path) -> str:
             for line in found
             if line.part == part
         )
-        pictures = "".join(
-            f"<figure><img src='{escape(path.relative_to(out).as_posix())}'><figcaption>{escape(path.name)}</figcaption></figure>"
-            for path in sorted((out / part).rglob("*"))
-            if path.suffix in PICTURES
-        )
+        shown = sorted(path for path in (out / part).rglob("*") if path.suffix in PICTURES)
+        pictures = "".join(_figure(path.relative_to(out).as_posix(), path.name) for path in shown)
         body.append(f"<h2>{escape(part)}</h2><table>{rows}</table>{pictures}")
     style = (
         "body{font:15px/1.5 system-ui;max-width:72rem;margin:2rem auto;padding:0 1rem}td{padding:.2rem .8rem;"
         "vertical-align:top;border-top:1px solid #ddd}.fails{background:#fde8e4}img{max-width:100%}"
     )
     return f"<!doctype html><meta charset='utf-8'><title>take evidence</title><style>{style}</style>{''.join(body)}"
+
+
+def _figure(source: str, caption: str) -> str:
+    return f"<figure><img src='{escape(source)}'><figcaption>{escape(caption)}</figcaption></figure>"
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
