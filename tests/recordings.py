@@ -27,3 +27,8 @@ def recording(name):
 def reference(name):
     """The path of ``reference/<name>``; skips the test where it is not at hand."""
     return _file("reference", name)
+
+
+def raw(name):
+    """The path of ``motion/raw/<name>``, a file as its producer wrote it; skips the test where it is not at hand."""
+    return _file("motion", "raw", name)

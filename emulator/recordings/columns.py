@@ -1,0 +1,162 @@
+"""Which columns of a table are x, y and z of which point: names in one header row or over rows of coordinates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from emulator.recordings import RecordingError
+from emulator.recordings.text import quoted, text_lines
+
+_COORDINATE = re.compile(r"^(?:pos(?:ition)?[\s_.]*)?([xyz])\d*(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
+_SUFFIX = re.compile(r"^(.+?)[\s_.:\-/]*(?:pos(?:ition)?)?[\s_.:\-/]*([xyz])(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
+_SCORE = re.compile(r"^(.+?)[\s_.:\-]+(score|likelihood|confidence|conf|visibility|c|p)$", re.IGNORECASE)
+_SCORES = {"score", "likelihood", "confidence", "conf", "visibility", "c", "p"}
+TIME = re.compile(r"^(time|timestamp|t)\b.*$|^time", re.IGNORECASE)
+FRAME = re.compile(r"^(frame|frames|fnum|frame#|field|sample|index|frame_?(no|number|index|id))\.?$", re.IGNORECASE)
+
+
+@dataclass
+class Columns:
+    """Column numbers: of each point its (x, y, z) and its score, and of time and frame where they are given."""
+
+    points: dict[str, tuple[int, int, int]] = field(default_factory=dict)
+    score: dict[str, int] = field(default_factory=dict)
+    time: int | None = None
+    frame: int | None = None
+
+
+def columns_of(path: Path, header: Sequence[Sequence[str]], header_line: Sequence[int], width: int) -> Columns:
+    """The columns by the header rows. Raises RecordingError for none, two of one name, and points without z."""
+    coordinates = next((i for i in reversed(range(len(header))) if _is_coordinates(header[i])), None)
+    if coordinates is not None:
+        labels = _over(header, coordinates, width)
+    else:
+        row = next((i for i in reversed(range(len(header))) if sum(map(bool, header[i])) > 2), None)
+        if row is None:
+            raise RecordingError(
+                f"{path}: found {width} columns of numbers without names, expected a header; name them with --columns"
+            )
+        labels = [_split(label) for label in header[row]]
+        coordinates = row
+    return _gathered(path, header_line[coordinates], labels, header)
+
+
+def _is_coordinates(row: Sequence[str]) -> bool:
+    axes = [found.group(1).lower() for cell in row if (found := _COORDINATE.match(cell))]
+    return axes.count("x") > 1 and axes.count("x") == axes.count("y")
+
+
+def _over(header: Sequence[Sequence[str]], at: int, width: int) -> list[tuple[str, str]]:
+    """(name, what) of each column: the name stands in a row above, over the first of its columns or over each."""
+    row = [*header[at], *[""] * width][:width]
+    words = [cell.lower() for cell in row]
+    above = _names_row(header, at)
+    kinds = _kinds_row(header, at)
+    labels: list[tuple[str, str]] = []
+    name = ""
+    for i, word in enumerate(words):
+        given = above[i] if i < len(above) else ""
+        name = given or name
+        found = _COORDINATE.match(word)
+        kind = kinds[i].lower() if i < len(kinds) else ""
+        if kind and kind != "position":  # Motive writes rotations and errors beside
+            labels.append(("", ""))
+        elif found:
+            labels.append((name, found.group(1).lower()))
+        elif word in _SCORES:
+            labels.append((name, "score"))
+        else:
+            labels.append((word or given, ""))
+    return labels
+
+
+def _names_row(header: Sequence[Sequence[str]], at: int) -> list[str]:
+    """The row of names: of those above the coordinates the one whose cells differ most; in Motive it says Name."""
+    for row in header[:at]:
+        if any(cell.lower() in ("name", "bodyparts") for cell in row[:2]):
+            return ["" if cell.lower() in ("name", "bodyparts") else cell for cell in row]
+    rows = [row for row in header[:at] if sum(map(bool, row)) > 1]
+    return list(max(reversed(rows), key=lambda row: len(set(row)), default=[]))
+
+
+def _kinds_row(header: Sequence[Sequence[str]], at: int) -> Sequence[str]:
+    return next((row for row in header[:at] if sum(cell == "Position" for cell in row) > 2), [])
+
+
+def _split(label: str) -> tuple[str, str]:
+    score = _SCORE.match(label)
+    if score:
+        return score.group(1), "score"
+    found = _SUFFIX.match(label)
+    return (found.group(1), found.group(2).lower()) if found else (label, "")
+
+
+def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], header: Sequence[Sequence[str]]) -> Columns:
+    columns, wrong = Columns(), []
+    axes: dict[str, dict[str, int]] = {}
+    for i, (name, what) in enumerate(labels):
+        if what in ("x", "y", "z"):
+            own = axes.setdefault(name, {})
+            if what in own:
+                wrong.append(f"{path}:{line}: found {quoted(f'{name} {what}')} in columns {own[what] + 1} and {i + 1}")
+            own.setdefault(what, i)
+        elif what == "score":
+            columns.score[name] = i
+        elif columns.time is None and TIME.match(name):
+            columns.time = i
+        elif columns.frame is None and FRAME.match(name):
+            columns.frame = i
+    flat = [name for name, own in axes.items() if set(own) == {"x", "y"}]
+    if flat and not any(len(own) == 3 for own in axes.values()):
+        raise RecordingError(
+            f"{path}:{line}: found two coordinates a point, in the plane of a picture; expected x, y and z in space"
+        )
+    for name, own in axes.items():
+        if len(own) == 3:
+            columns.points[name] = (own["x"], own["y"], own["z"])
+        elif name not in ("center", "M") and not wrong:
+            wrong.append(f"{path}:{line}: {quoted(name)}: found {', '.join(sorted(own))}, expected x, y and z")
+    if wrong:
+        raise RecordingError("\n".join(wrong[:10]))
+    if not columns.points:
+        raise RecordingError(
+            f"{path}:{line}: found no columns such as 'LKNE_x, LKNE_y, LKNE_z', expected three a point; "
+            "name them with --columns"
+        )
+    return columns
+
+
+def read_names(path: Path) -> list[str]:
+    """Names of points, one a line, or by commas or blanks; ``#`` begins a remark. Raises RecordingError."""
+    names: list[str] = []
+    wrong = []
+    for number, line in text_lines(path):
+        text = line.split("#", 1)[0].strip()
+        words = [text] if not re.search(r"[,;\t]", text) and "\n" not in text else re.split(r"[,;\t]+", text)
+        for word in (each.strip().strip('"') for each in words):
+            if word in names:
+                wrong.append(f"{path}:{number}: found {quoted(word)} a second time")
+            if word:
+                names.append(word)
+    if len(names) == 1 and " " in names[0]:
+        names = names[0].split()
+    if not names and not wrong:
+        wrong.append(f"{path}: found no name, expected the names of the points in the order of their columns")
+    if wrong:
+        raise RecordingError("\n".join(wrong[:10]))
+    return names
+
+
+def in_threes(path: Path, names: Sequence[str], width: int) -> Columns:
+    """The columns of a table without header: three a name, perhaps after a frame and a time. Raises RecordingError."""
+    before = width - 3 * len(names)
+    if before not in (0, 1, 2):
+        raise RecordingError(
+            f"{path}: found {width} columns, expected {3 * len(names)} for {len(names)} names "
+            "(or one or two more in front, frame and time)"
+        )
+    points = {name: (before + 3 * i, before + 3 * i + 1, before + 3 * i + 2) for i, name in enumerate(names)}
+    return Columns(points, frame=0 if before else None, time=1 if before == 2 else None)

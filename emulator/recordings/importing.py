@@ -1,0 +1,188 @@
+"""From a file of a capture system to a take with canonical joints: read, mapped, sides checked, named."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from emulator.recordings import RecordingError
+from emulator.recordings.mapping import MappingReport, mapped
+from emulator.recordings.raw import format_of, read_takes
+from emulator.recordings.sides import SidesFound, checked_sides, mirrored, swapped_names
+from emulator.recordings.take import Recording, Take
+from emulator.skeleton import Skeleton
+
+SIDES = ("swap", "mirror", "keep")
+"""What to do where the whole body has left and right exchanged: exchange the names, the y axis, or nothing."""
+_WORKER = re.compile(
+    r"(?:^|[_\-. ])((?:s|sub|subj|subject|p|participant|person|w|worker|actor)[_-]?\d+)(?=[_\-. ]|$)", re.IGNORECASE
+)
+_TRIAL = re.compile(r"(?:^|[_\-. ])((?:e|r|rep|repetition|trial|take|t)[_-]?\d+)(?=[_\-. ]|$)", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Imported:
+    """A take and what was found on the way: ``gap_share`` (J,) of the frames, ``bone_m`` (B,) and ``spread_m`` (B,).
+
+    spread_m : standard deviation of each bone's length over the frames
+    """
+
+    file: str
+    format: str
+    take: Take
+    mapping: MappingReport
+    sides: SidesFound
+    gap_share: np.ndarray
+    bone_m: np.ndarray
+    spread_m: np.ndarray
+    notes: tuple[str, ...]
+    source: str = ""
+    licence: str = ""
+
+
+def imported(
+    path: str | Path,
+    *,
+    mapping_file: Path | None = None,
+    sides: str | None = None,
+    worker: str | None = None,
+    trial: str | None = None,
+    names_as: str | None = None,
+    **options: Any,
+) -> tuple[Imported, ...]:
+    """The takes of a file with canonical joints, in metres, z up, named by worker and trial or by the file's name.
+
+    mapping_file : names that the rules do not know; see ``read_mapping``
+    sides        : one of ``SIDES``, for a body whose left and right are exchanged
+    names_as     : how file names say worker and trial, such as ``HDM_{worker}_*_{trial}_*``
+    options      : of ``read_take``
+    Raises RecordingError for what cannot be read or mapped, and for exchanged sides where ``sides`` does not say what
+    to do about them.
+    """
+    path = Path(path)
+    takes = read_takes(path, **options)
+    source, licence = _provenance(path)
+    done = []
+    for take in takes:
+        joints, report = mapped(take, mapping_file, where=str(path))
+        joints, found = _sided(joints, sides, path)
+        if format_of(path) != "npz" or worker or trial:
+            joints = _named(joints, path, worker, trial, names_as, len(takes))
+        done.append(replace(_looked_at(path, joints, report, found), source=source, licence=licence))
+    return tuple(done)
+
+
+def together(found: Sequence[Imported], source: str | None = None, licence: str | None = None) -> Recording:
+    """One recording of all takes, with source and licence as given, else as the files state them.
+
+    Raises RecordingError, all at once, where joints, rates or names do not fit.
+    """
+    source = source or "; ".join(dict.fromkeys(each.source for each in found))
+    licence = licence or "; ".join(dict.fromkeys(each.licence or "not stated" for each in found))
+    wrong, first = [], found[0]
+    for each in found[1:]:
+        wrong += _unlike(first, each)
+    seen: dict[str, str] = {}
+    for each in found:
+        if each.take.name in seen and each.file != seen[each.take.name]:
+            both = f"{seen[each.take.name]} and {each.file}"
+            wrong.append(
+                f"{both}: both are called {each.take.name}, expected names of their own; see --worker, --trial"
+            )
+        seen[each.take.name] = each.file
+    if wrong:
+        raise RecordingError("\n".join(dict.fromkeys(wrong)))
+    shared = set.intersection(*(set(each.take.mark_frame) for each in found))
+    takes = [replace(e.take, mark_frame={k: v for k, v in e.take.mark_frame.items() if k in shared}) for e in found]
+    notes = [f"{Path(each.file).name}: {note}" for each in found for note in each.notes]
+    return Recording(tuple(takes), source, licence, tuple(dict.fromkeys(notes)))
+
+
+def _unlike(first: Imported, other: Imported) -> list[str]:
+    wrong = []
+    here, there = set(first.take.names), set(other.take.names)
+    if here != there:
+        less, more = sorted(here - there), sorted(there - here)
+        words = ([f"no {', '.join(less)}"] if less else []) + ([f"{', '.join(more)} besides"] if more else [])
+        wrong.append(f"{other.file}: found {' and '.join(words)}, expected the joints of {first.file}; see --map")
+    elif first.take.parents != other.take.parents:
+        wrong.append(f"{other.file}: joints hang otherwise than those of {first.file}; import them apart")
+    if first.take.rate_hz != other.take.rate_hz:
+        wrong.append(
+            f"{other.file}: found {other.take.rate_hz:g} frames a second, expected {first.take.rate_hz:g} as in "
+            f"{first.file}; import them apart"
+        )
+    return wrong
+
+
+def _sided(take: Take, sides: str | None, path: Path) -> tuple[Take, SidesFound]:
+    take, found = checked_sides(take)
+    if found.verdict != "swapped":
+        return take, found
+    if sides is None:
+        by = ", ".join(name for name, value in found.witnesses.items() if value < 0)
+        raise RecordingError(
+            f"{path}: left and right are exchanged: by its {by} the body faces backwards. Names may be swapped or the "
+            "axes left-handed, and no posture tells which; say --sides swap, --sides mirror, or --sides keep"
+        )
+    change = {"swap": swapped_names, "mirror": mirrored}.get(sides)
+    if change is None:
+        return take, found
+    word = "names exchanged" if sides == "swap" else "mirrored"
+    return change(take), replace(found, verdict=f"were exchanged; {word} as asked")
+
+
+def _named(take: Take, path: Path, worker: str | None, trial: str | None, names_as: str | None, n: int) -> Take:
+    """Worker and trial as given; else by parts of the file's name such as s01 and e02, else the whole name as trial."""
+    said = {} if names_as is None else parts_of_name(path, names_as)
+    who, which = _WORKER.search(path.stem), _TRIAL.search(path.stem)
+    told = worker or said.get("worker") or (who.group(1) if who else "unknown")
+    run = trial or said.get("trial") or (which.group(1) if which and who else path.stem)
+    return replace(take, worker=told, trial=run if n == 1 else f"{run} {take.trial}")
+
+
+def parts_of_name(path: Path, names_as: str) -> dict[str, str]:
+    """``worker`` and ``trial`` out of a file's name by a pattern; ``*`` is anything. Raises RecordingError."""
+    parts = re.split(r"(\{worker\}|\{trial\}|\*)", names_as.removesuffix(path.suffix))
+    named = [part for part in parts if part.startswith("{")]
+    if not named or len(set(named)) != len(named):
+        raise RecordingError(f"--names: found {names_as!r}, expected {{worker}} or {{trial}} in it, each once at most")
+    words = {"{worker}": r"(?P<worker>.+?)", "{trial}": r"(?P<trial>.+?)", "*": r".*?"}
+    found = re.fullmatch("".join(words.get(part) or re.escape(part) for part in parts), path.stem)
+    if found is None:
+        raise RecordingError(f"{path}: the name does not fit --names {names_as!r}")
+    return found.groupdict()
+
+
+def _provenance(path: Path) -> tuple[str, str]:
+    """Source and licence that the file itself states; a file of a capture system is its own source."""
+    if format_of(path) != "npz":
+        return path.name, ""
+    from emulator.recordings.takes_npz import read_recording
+
+    recording = read_recording(path)
+    return recording.source, "" if recording.licence == "not stated" else recording.licence
+
+
+def _looked_at(path: Path, take: Take, report: MappingReport, sides: SidesFound) -> Imported:
+    if take.parents is None:
+        raise RecordingError(f"{path}: the joints hang on nothing")
+    skeleton = Skeleton(take.names, take.parents)
+    lengths = skeleton.bone_lengths(take.positions_m)
+    seen = np.isfinite(lengths)
+    bone_m, spread_m = np.full(skeleton.n_bones, np.nan), np.full(skeleton.n_bones, np.nan)
+    for bone in np.flatnonzero(seen.any(axis=0)):
+        own = lengths[seen[:, bone], bone]
+        bone_m[bone], spread_m[bone] = np.median(own), np.std(own)
+    gaps = ~np.isfinite(take.positions_m).all(axis=-1)
+    unknown = [row.name for row in report.of("unknown")]
+    notes = [*take.notes, f"joints: {report.summary()}"]
+    notes += [f"made {row.joint} ({row.why})" for row in report.of("made") if len(report.of("made")) <= 6]
+    notes += [f"not known and left out: {', '.join(unknown)}"] if unknown else []
+    notes.append(f"sides: {sides.words()}")
+    return Imported(str(path), format_of(path), take, report, sides, gaps.mean(axis=0), bone_m, spread_m, tuple(notes))

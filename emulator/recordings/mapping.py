@@ -1,0 +1,159 @@
+"""From a file's joints, keypoints or markers to the canonical skeleton: by rules, by a mapping file, and made anew.
+
+Joints that mean nothing here are left out, and their children hang on the nearest ancestor that is kept. Joints without
+which no trunk and no heading can be had are made where the body tells them. Everything is said in the report.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+
+from emulator.recordings import RecordingError
+from emulator.recordings.dialect import joints_of
+from emulator.recordings.hanging import depths, hung_as_bodies_are, hung_as_in_the_file, without_length
+from emulator.recordings.joint_words import bare_name, known_words
+from emulator.recordings.mapping_file import LEFT_OUT, read_mapping
+from emulator.recordings.markers import joints_from_markers
+from emulator.recordings.take import Take
+from emulator.skeleton import CANONICAL, EXTRA
+
+NEEDED = ("pelvis", "neck", "left_hip", "right_hip", "left_shoulder", "right_shoulder")
+"""Joints without which there is neither heading nor trunk."""
+_MADE = {
+    "pelvis": (("left_hip", "right_hip"),),
+    "neck": (("left_shoulder", "right_shoulder"), ("left_clavicle", "right_clavicle")),
+    "head": (("left_ear", "right_ear"), ("left_eye", "right_eye"), ("nose",), ("top",)),
+    "left_hand": (("left_index", "left_pinky"),),
+    "right_hand": (("right_index", "right_pinky"),),
+}
+"""Joints that can be made, as the middle of the first of these that are all there."""
+
+
+@dataclass(frozen=True)
+class MappedJoint:
+    """What became of a joint of the file: ``became`` is "kept", "made", "left out" or "unknown"."""
+
+    name: str
+    became: str
+    joint: str = ""
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class MappingReport:
+    """One row for each joint of the file and each joint made."""
+
+    rows: tuple[MappedJoint, ...]
+
+    def of(self, became: str) -> tuple[MappedJoint, ...]:
+        """The rows of one kind."""
+        return tuple(row for row in self.rows if row.became == became)
+
+    def summary(self) -> str:
+        """The numbers of joints of each kind in a sentence."""
+        kinds = ("kept", "made", "left out", "unknown")
+        return ", ".join(f"{len(rows)} {kind}" for kind in kinds if (rows := self.of(kind)))
+
+
+def mapped(take: Take, mapping_file: Path | None = None, *, where: str = "") -> tuple[Take, MappingReport]:
+    """The take with canonical joints (pelvis first, as in ``CANONICAL``, then ``EXTRA``), and what became of each.
+
+    mapping_file : names for joints that the rules do not know, or know wrongly; see ``read_mapping``
+    where        : the file, for messages
+    Raises RecordingError for mistakes in the mapping file, and where needed joints are neither there nor to be made.
+    """
+    if mapping_file is None:
+        from_markers = joints_from_markers(take)
+        if from_markers is not None:
+            return _finished(*from_markers, where)
+        given: dict[str, str] = {}
+    else:
+        given = read_mapping(Path(mapping_file), take.names)
+    joints = _named(take, given)
+    places, rows = _kept(take, joints, given)
+    made, more = _made(take, joints, places)
+    return _finished(_assembled(take, places, made), [*rows, *more], where)
+
+
+def _named(take: Take, given: dict[str, str]) -> list[str]:
+    """What each joint means: as the mapping file says, else by the rules without what the file has already taken."""
+    if set(take.names) <= {*CANONICAL, *EXTRA}:
+        found: Sequence[str] = take.names
+    else:
+        found = joints_of(take.names, None if take.parents is None else depths(take.parents))
+    taken = set(given.values())
+    return [given.get(name, "other" if joint in taken else joint) for name, joint in zip(take.names, found)]
+
+
+def _kept(take: Take, joints: list[str], given: dict[str, str]) -> tuple[dict[str, int], list[MappedJoint]]:
+    places, rows = {}, []
+    for i, (name, joint) in enumerate(zip(take.names, joints)):
+        if joint in (*CANONICAL, *EXTRA):
+            places[joint] = i
+            rows.append(MappedJoint(name, "kept", joint, "mapping file" if name in given else ""))
+        elif joint:
+            rows.append(MappedJoint(name, "left out", "", "mapping file" if joint == LEFT_OUT else "no joint here"))
+        else:
+            near = get_close_matches(bare_name(name).lower(), known_words(), n=1, cutoff=0.6)
+            rows.append(MappedJoint(name, "unknown", "", f"nearest: {near[0]}" if near else ""))
+    return places, rows
+
+
+def _made(take: Take, joints: list[str], places: dict[str, int]) -> tuple[dict[str, np.ndarray], list[MappedJoint]]:
+    made, rows = {}, []
+    for joint, ways in _MADE.items():
+        way = next((way for way in ways if all(each in joints for each in way)), None)
+        if joint in places or way is None:
+            continue
+        at = [joints.index(each) for each in way]
+        made[joint] = take.positions_m[:, at].mean(axis=1)
+        why = f"{'middle of ' if len(way) > 1 else ''}{' and '.join(take.names[i] for i in at)}"
+        rows.append(MappedJoint("", "made", joint, why))
+    return made, rows
+
+
+def _assembled(take: Take, places: dict[str, int], made: dict[str, np.ndarray]) -> Take:
+    joints = [joint for joint in (*CANONICAL, *EXTRA) if joint in places or joint in made]
+    positions = np.empty((take.n_frames, len(joints), 3))
+    for i, joint in enumerate(joints):
+        positions[:, i] = made[joint] if joint in made else take.positions_m[:, places[joint]]
+    parents = None
+    if take.parents is not None and not {"pelvis", "neck"} & set(made) and not set(made) & set(joints[5:]):
+        own = hung_as_in_the_file(take.parents, [places[joint] for joint in joints if joint in places])
+        parents = own if own is not None and len(own) == len(joints) and own[0] == -1 else None
+    return replace(
+        take,
+        names=tuple(joints),
+        parents=parents if parents is not None else hung_as_bodies_are(joints),
+        positions_m=positions,
+    )
+
+
+def _finished(take: Take, rows: list[MappedJoint], where: str) -> tuple[Take, MappingReport]:
+    """Without joints that lie on their parents; refused where a needed one is missing."""
+    missing = [joint for joint in NEEDED if joint not in take.names]
+    if missing:
+        unknown = [f"{row.name!r}{f' ({row.why})' if row.why else ''}" for row in rows if row.became == "unknown"]
+        raise RecordingError(
+            f"{where}: found no {', '.join(missing)}, expected them for trunk and heading; name them with --map"
+            + (f"; unknown: {', '.join(unknown[:20])}{', ...' if len(unknown) > 20 else ''}" if unknown else "")
+        )
+    parents = take.parents or hung_as_bodies_are(take.names)
+    out = without_length(take.names, parents, take.positions_m)
+    if not out:
+        return replace(take, parents=parents), MappingReport(tuple(rows))
+    at = [i for i in range(len(take.names)) if i not in out]
+    gone = {take.names[i] for i in out}
+    rows = [replace(r, became="left out", why="no bone to it") if r.joint in gone else r for r in rows]
+    slim = replace(
+        take,
+        names=tuple(take.names[i] for i in at),
+        parents=hung_as_in_the_file(parents, at),
+        positions_m=take.positions_m[:, at],
+    )
+    return slim, MappingReport(tuple(rows))

@@ -1,0 +1,116 @@
+"""Joints from markers on the skin: Plug-in Gait's 39 (Vicon's full-body set) and sets that hold the same markers.
+
+Trunk, head and wrists are middles of markers around them; hips by regression on the pelvis; shoulders, elbows, knees
+and ankles stay on the skin, or become the middle where a marker on the inner side is there too.
+Source of the hips: Harrington, Zavatsky, Lawson, Yuan & Theologis (2007), Prediction of the hip joint centre in adults,
+children, and patients with cerebral palsy based on magnetic resonance imaging, J. Biomechanics 40(3):595-602, with the
+pelvis' width and depth meant over the take. The other points are those of the shared UI-PRMD recordings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emulator.recordings.joint_words import bare_name
+from emulator.recordings.take import Take
+from emulator.skeleton import CANONICAL
+
+if TYPE_CHECKING:
+    from emulator.recordings.mapping import MappedJoint
+
+PLUG_IN_GAIT = (
+    "LFHD", "RFHD", "LBHD", "RBHD", "C7", "T10", "CLAV", "STRN", "RBAK", "LSHO", "LUPA", "LELB", "LFRM", "LWRA", "LWRB",
+    "LFIN", "RSHO", "RUPA", "RELB", "RFRM", "RWRA", "RWRB", "RFIN", "LASI", "RASI", "LPSI", "RPSI", "LTHI", "LKNE",
+    "LTIB", "LANK", "LHEE", "LTOE", "RTHI", "RKNE", "RTIB", "RANK", "RHEE", "RTOE",
+)  # fmt: skip
+"""The order of the columns of UI-PRMD's Vicon files."""
+_MIDDLES: dict[str, tuple[tuple[str, ...], ...]] = {
+    "pelvis": (("LASI", "RASI", "LPSI", "RPSI"),),
+    "chest": (("T10", "STRN"), ("T10",), ("STRN",)),
+    "neck": (("C7", "CLAV"), ("LSHO", "RSHO")),
+    "head": (("LFHD", "RFHD", "LBHD", "RBHD"), ("LFHD", "RFHD"), ("LBHD", "RBHD")),
+}
+_SIDED: dict[str, tuple[tuple[str, ...], ...]] = {
+    "shoulder": (("SHO",), ("ACR",)),
+    "elbow": (("ELB", "MELB"), ("ELB", "ELBM"), ("ELB",), ("ELBL",)),
+    "wrist": (("WRA", "WRB"), ("WRI",)),
+    "hand": (("FIN",),),
+    "knee": (("KNE", "MKNE"), ("KNE", "KNM"), ("KNE", "KNEM"), ("KNE",)),
+    "ankle": (("ANK", "MMA"), ("ANK", "MED"), ("ANK", "ANKM"), ("ANK",)),
+    "toe": (("TOE",),),
+}
+HARRINGTON = ((-0.24, -0.0099), (0.33, 0.0073), (-0.30, -0.0109))
+"""Forward: pelvis depth; to the side: pelvis width; up: pelvis width; each factor and offset in metres."""
+_SIGNS = ("LASI", "RASI", "LSHO", "RSHO", "LKNE", "RKNE")
+"""Markers by which the set is known."""
+
+
+def joints_from_markers(take: Take) -> tuple[Take, list[MappedJoint]] | None:
+    """The take's joints out of its markers, and what became of each; None where it is no such set."""
+    from emulator.recordings.hanging import hung_as_bodies_are
+    from emulator.recordings.mapping import MappedJoint
+
+    markers = _markers(take)
+    if not set(_SIGNS) <= set(markers) or not ({"LPSI", "RPSI"} & set(markers)):
+        return None
+    made, ways = _joints(markers)
+    joints = sorted(made, key=CANONICAL.index)
+    rows = [MappedJoint("", "made", joint, ways[joint]) for joint in joints]
+    used = " ".join(ways.values())
+    rows += [
+        MappedJoint(name, "left out", "", "no joint") for name in take.names if bare_name(name).upper() not in used
+    ]
+    note = "joints made of markers: hips by regression (Harrington 2007); shoulders, elbows, knees, ankles on the skin"
+    positions = np.stack([made[joint] for joint in joints], axis=1)
+    parents = hung_as_bodies_are(joints)
+    return replace(take, names=tuple(joints), parents=parents, positions_m=positions, notes=(*take.notes, note)), rows
+
+
+def _markers(take: Take) -> dict[str, np.ndarray]:
+    """Positions (T, 3) by the marker's name in capitals, without the subject's name."""
+    markers = {bare_name(name).upper(): take.positions_m[:, i] for i, name in enumerate(take.names)}
+    for other in ("SACR", "SAC"):  # one marker between the two of the back
+        if other in markers and "LPSI" not in markers:
+            markers |= {"LPSI": markers[other], "RPSI": markers[other]}
+    return markers
+
+
+def _joints(markers: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, str]]:
+    """Positions and what they are made of, by joint."""
+    wanted = dict(_MIDDLES)
+    for side, letter in (("left", "L"), ("right", "R")):
+        wanted |= {f"{side}_{j}": tuple(tuple(letter + m for m in way) for way in ways) for j, ways in _SIDED.items()}
+    made, ways = {}, {}
+    for joint, choices in wanted.items():
+        way = next((way for way in choices if all(marker in markers for marker in way)), None)
+        if way is not None:
+            made[joint] = np.mean([markers[marker] for marker in way], axis=0)
+            ways[joint] = f"{'middle of ' if len(way) > 1 else ''}{', '.join(way)}"
+    if "pelvis" in made and "chest" in made:
+        made["spine"], ways["spine"] = (made["pelvis"] + made["chest"]) / 2, "middle of pelvis and chest"
+    made["left_hip"], made["right_hip"] = hip_centres(markers)
+    ways["left_hip"] = ways["right_hip"] = "regression on LASI, RASI, LPSI, RPSI"
+    return made, ways
+
+
+def hip_centres(markers: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Left and right hip joint centre (T, 3) from the four markers of the pelvis, in metres."""
+    front, back = (markers["LASI"] + markers["RASI"]) / 2, (markers["LPSI"] + markers["RPSI"]) / 2
+    across = markers["LASI"] - markers["RASI"]
+    width_m, depth_m = (float(np.nanmean(np.linalg.norm(line, axis=-1))) for line in (across, front - back))
+    left = _unit(across)
+    up = _unit(np.cross(front - back, left))
+    forward = np.cross(left, up)
+    ahead, aside, above = (
+        factor * size_m + offset_m for (factor, offset_m), size_m in zip(HARRINGTON, (depth_m, width_m, width_m))
+    )
+    middle = front + ahead * forward + above * up
+    return middle + aside * left, middle - aside * left
+
+
+def _unit(vectors: np.ndarray) -> np.ndarray:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
