@@ -1,0 +1,145 @@
+"""A seam between two courses: what differs there is spread over both sides, so that value and rate are continuous.
+
+A course is brought to the common value by an offset that grows to the seam with a quintic ease (offset decay); at the
+seam both sides have the value half-way and the mean of both rates. Directions are turned, so they stay unit vectors.
+Source: Bollo, Inertialization (GDC 2018); Shin, Kim & Park, On-line motion blending (2003). Ours is two-sided.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from emulator import sphere
+
+PEAK = 1.875
+"""The quintic ease's greatest slope."""
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """Where a course is at one of its ends: ``value`` and ``rate`` per second, and what of the rate is not certain.
+
+    directions: (n, B, 3) each, ``doubt`` (n, B); plain channels: (n, C) each, ``doubt`` (n, C).
+    """
+
+    value: np.ndarray
+    rate: np.ndarray
+    doubt: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Offset:
+    """What one side is moved by: ``shift`` at the seam, ``rate`` the change of its rate there; both as ``End.value``.
+
+    Of directions both are vectors to turn by, in radians (per second).
+    """
+
+    shift: np.ndarray
+    rate: np.ndarray
+
+
+def ease(share: np.ndarray) -> np.ndarray:
+    """0 to 1 over ``share`` from 0 to 1, slope and bend 0 at both ends; 0 below."""
+    s = np.clip(share, 0.0, 1.0)
+    return s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+
+
+def ease_rate(share: np.ndarray) -> np.ndarray:
+    """0 at both ends, slope 1 at 1, else slope and bend 0: what changes a rate at the seam and no value; 0 below."""
+    s = np.clip(share, 0.0, 1.0)
+    return s**3 * (-4.0 + 7.0 * s - 3.0 * s**2)
+
+
+def end_of(values: np.ndarray, time_s: np.ndarray, *, last: bool, unit: bool = False, within_s: float = 0.3) -> End:
+    """The last or first End of courses (n, T, ...) at times (n, T), its rate by the difference to the next frame.
+
+    unit : the values are unit vectors (n, T, B, 3), their rates tangent.
+    The doubt is the largest change of the rate from frame to frame within ``within_s`` of the end: a jump at a seam
+    that is no larger is what these courses do all the time, and is left; so two halves of a course give it back.
+    """
+    if last:
+        values, time_s = values[:, ::-1], time_s[:, ::-1]
+    away_s = np.abs(time_s - time_s[:, :1])
+    n_near = max(3, int((away_s <= within_s).sum(axis=1).max(initial=0)))
+    near, wide = values[:, :n_near], (slice(None), slice(None), *[None] * (values.ndim - 2))
+    rates = np.diff(near, axis=1) / np.diff(time_s[:, :n_near], axis=1)[wide]
+    here, rate, change = values[:, 0], rates[:, 0], np.diff(rates, axis=1)
+    if unit:
+        rate = rate - np.sum(rate * here, axis=-1, keepdims=True) * here
+        change = np.linalg.norm(change, axis=-1)
+    close = away_s[:, 2:n_near] <= within_s
+    close = close[(slice(None), slice(None), *[None] * (change.ndim - 2))]
+    return End(here, rate, np.max(np.where(close, np.abs(change), 0.0), axis=1, initial=0.0))
+
+
+def gap_rad(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """How far two postures (..., B, 3) are apart: the angle of the bone that differs most, (...) radians."""
+    return np.asarray(sphere.angle(before, after).max(-1))
+
+
+def turns(before: End, after: End) -> tuple[Offset, Offset]:
+    """What brings the directions at the end of ``before`` and at the start of ``after`` to the same value and rate.
+
+    Opposite bones meet half-way by one of the ways there are.
+    """
+    axis = _axis(before.value, after.value) * (0.5 * sphere.angle(before.value, after.value))[..., None]
+    common = turned(before.value, axis)
+    rates = turned(before.rate, axis), turned(after.rate, -axis)
+    missing = rates[1] - rates[0]
+    length = np.linalg.norm(missing, axis=-1)
+    missing = missing * _beyond(length, np.maximum(before.doubt, after.doubt))[..., None]
+    change = np.cross(common, 0.5 * missing)
+    return Offset(axis, change), Offset(-axis, -change)
+
+
+def shifts(before: End, after: End) -> tuple[Offset, Offset]:
+    """The same for plain channels."""
+    shift, missing = 0.5 * (after.value - before.value), after.rate - before.rate
+    change = 0.5 * missing * _beyond(np.abs(missing), np.maximum(before.doubt, after.doubt))
+    return Offset(shift, change), Offset(-shift, -change)
+
+
+def eased_turn(directions: np.ndarray, offset: Offset, to_seam_s: np.ndarray, window_s: np.ndarray) -> np.ndarray:
+    """Directions (n, T, B, 3) under an Offset: ``to_seam_s`` (n, T) from there to the seam, negative beyond it.
+
+    window_s : (n,) how long before (or after) the seam the offset begins (ends).
+    """
+    share, rate = _weights(to_seam_s, window_s)
+    first = turned(directions, share[..., None, None] * offset.shift[:, None])
+    return turned(first, rate[..., None, None] * offset.rate[:, None])
+
+
+def eased_shift(values: np.ndarray, offset: Offset, to_seam_s: np.ndarray, window_s: np.ndarray) -> np.ndarray:
+    """The same for plain channels (n, T, C)."""
+    share, rate = _weights(to_seam_s, window_s)
+    return np.asarray(values + share[..., None] * offset.shift[:, None] + rate[..., None] * offset.rate[:, None])
+
+
+def turned(vectors: np.ndarray, by: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) turned about ``by`` (..., 3) by its length in radians (Rodrigues); by 0 the same bits."""
+    angle = np.linalg.norm(by, axis=-1, keepdims=True)
+    sine = np.sinc(angle / np.pi)
+    bend = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
+    across = np.cross(by, vectors)
+    return np.asarray(vectors + sine * across + bend * np.cross(by, across))
+
+
+def _weights(to_seam_s: np.ndarray, window_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    share = 1.0 - np.abs(to_seam_s) / window_s[:, None]
+    sign = np.where(to_seam_s < 0, -1.0, 1.0)
+    return ease(share), sign * window_s[:, None] * ease_rate(share)
+
+
+def _axis(p: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Unit vectors (..., 3) about which p is turned to q; 0 where they agree, some one across where opposite."""
+    across = np.cross(p, q)
+    length = np.linalg.norm(across, axis=-1, keepdims=True)
+    some = np.where(np.sum(p * q, axis=-1, keepdims=True) < 0, sphere.basis(p)[..., 0, :], 0.0)
+    return np.where(length > 1e-12, across / np.where(length > 1e-12, length, 1.0), some)
+
+
+def _beyond(length: np.ndarray, doubt: np.ndarray) -> np.ndarray:
+    """The share of a difference that is not explained by its doubt."""
+    return np.maximum(0.0, 1.0 - doubt / np.where(length > 0, length, 1.0)) * (length > 0)
