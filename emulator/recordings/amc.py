@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from emulator.recordings import RecordingError
-from emulator.recordings.asf import Acclaim
+from emulator.recordings.acclaim import Acclaim
 from emulator.recordings.text import finite, quoted, text_lines
 
 

@@ -8,49 +8,13 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from emulator.recordings import RecordingError
+from emulator.recordings.acclaim import MOVES, ROOT, TURNS, Acclaim, Bone
+from emulator.recordings.asf_tree import hung_on_root
 from emulator.recordings.bvh_header import MOST_JOINTS, MOST_TOLD
 from emulator.recordings.text import finite, quoted, text_lines
 
-INCH_M = 0.0254
-ROOT = "root"
-_TURNS, _MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
 _UNREAD = ("version", "name", "documentation", "skin", "comments")
 _SECTIONS = (*_UNREAD, "units", "root", "bonedata", "hierarchy")
-
-
-@dataclass(frozen=True)
-class Bone:
-    """A bone from its parent's end: ``direction`` and ``length`` in the file's unit, its axes in degrees, its freedoms.
-
-    ``axis`` are turns about ``order`` (such as "xyz", the first turned first); ``dof`` words such as "rx".
-    """
-
-    name: str
-    line: int
-    direction: tuple[float, ...] = ()
-    length: float = -1.0
-    axis: tuple[float, ...] = (0.0, 0.0, 0.0)
-    order: str = "xyz"
-    dof: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Acclaim:
-    """An ASF file: ``bones`` with the root first, ``parents`` in that order.
-
-    length_unit : what lengths are divided by to get inches; in_degrees: the skeleton's own angles
-    The root's ``direction`` is its place (its length is 1), its ``axis`` its orientation, its ``dof`` the order of
-    values in the AMC.
-    """
-
-    bones: tuple[Bone, ...]
-    parents: tuple[int, ...]
-    length_unit: float = 1.0
-    in_degrees: bool = True
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return tuple(bone.name for bone in self.bones)
 
 
 def read_asf(path: str | Path) -> Acclaim:
@@ -60,6 +24,8 @@ def read_asf(path: str | Path) -> Acclaim:
 
 @dataclass
 class _Reader:
+    """Words of a section in, bones out; mistakes are kept with their lines."""
+
     path: Path
     section: str = ""
     line: int = 1
@@ -87,7 +53,7 @@ class _Reader:
                 self._wrong(f"found the end without :{needed}, expected an ASF skeleton")
         if self.current is not None:
             self._wrong(f"found no end of bone {quoted(self.current.name)}, expected 'end'")
-        parents = self._hierarchy() if not self.mistakes else ()
+        parents = () if self.mistakes else self._parents()
         if self.mistakes:
             raise RecordingError("\n".join(self.mistakes))
         return Acclaim((self.root, *self.bones.values()), parents, self.length_unit, self.in_degrees)
@@ -124,7 +90,7 @@ class _Reader:
     def _root(self, words: list[str]) -> None:
         key = words[0].lower()
         if key == "order":
-            self.root = replace(self.root, line=self.line, dof=self._freedoms(words[1:], (*_MOVES, *_TURNS)))
+            self.root = replace(self.root, line=self.line, dof=self._freedoms(words[1:], (*MOVES, *TURNS)))
         elif key == "axis":
             self.root = replace(self.root, order=self._order(words[-1]))
         elif key == "position":
@@ -179,7 +145,7 @@ class _Reader:
         self._set(axis=self._numbers(words[:4], 3), order=self._order(words[4]) if len(words) > 4 else "xyz")
 
     def _dof(self, words: list[str]) -> None:
-        self._set(dof=self._freedoms(words[1:], _TURNS))
+        self._set(dof=self._freedoms(words[1:], TURNS))
 
     def _children(self, words: list[str]) -> None:
         for name in words:
@@ -192,27 +158,11 @@ class _Reader:
                 self._wrong(f"found {quoted(child)} below {quoted(words[0])}, expected it once: it is {has}")
             self.parent[child] = (words[0], self.line)
 
-    def _hierarchy(self) -> tuple[int, ...]:
-        """Parents in the order of the bones. What does not hang on the root is a cycle, or was left out."""
-        numbers = {name: i for i, name in enumerate((ROOT, *self.bones))}
-        hung = {ROOT}
-        for name, bone in self.bones.items():
-            path: list[str] = []
-            at = name
-            while at not in hung and at in self.parent and at not in path[-1:] and len(path) <= len(self.bones):
-                path.append(at)
-                at = self.parent[at][0]
-            if at in hung:
-                hung.update(path)
-            elif at not in self.parent:
-                said = f"found {quoted(at)} below no bone, expected it in :hierarchy"
-                self._told(self.bones[at].line if at in self.bones else bone.line, said)
-                hung.update(path, (at,))
-            else:
-                said = f"found {quoted(at)} to be its own ancestor, expected a tree below the root"
-                self._told(self.parent[at][1], said)
-                hung.update(path, (at,))
-        return (-1, *(numbers[self.parent[name][0]] for name in self.bones if name in self.parent))
+    def _parents(self) -> tuple[int, ...]:
+        parents, loose = hung_on_root(tuple(self.bones), {name: at[0] for name, at in self.parent.items()})
+        for name, why in loose.items():
+            self._told(self.parent[name][1] if name in self.parent else self.bones[name].line, why)
+        return parents
 
     def _numbers(self, words: list[str], count: int) -> tuple[float, ...]:
         values = [finite(word) for word in words[1:]]

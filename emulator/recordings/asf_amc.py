@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from emulator.recordings import RecordingError
+from emulator.recordings.acclaim import INCH_M, Acclaim, Bone
 from emulator.recordings.amc import AmcValues, read_amc_values
-from emulator.recordings.asf import INCH_M, Acclaim, Bone, read_asf
+from emulator.recordings.asf import read_asf
 from emulator.recordings.take import Take
 
 USUAL_RATE_HZ = 120.0

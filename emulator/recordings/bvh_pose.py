@@ -23,7 +23,7 @@ _UP, _LEFT, _FORWARD = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]), np.
 
 
 def bvh_of(take: Take, unit_m: float) -> BvhFile:
-    """A take as a BVH file, Y up, facing Z, in units of ``unit_m``.
+    """A take as a BVH file in units of ``unit_m``, Y up: (x, y, z) becomes (x, z, -y), so that who faces -y faces Z.
 
     Raises ValueError for markers, several roots, and gaps, naming joint and frame of the first.
     """

@@ -41,7 +41,7 @@ def columns_of(path: Path, header: Sequence[Sequence[str]], header_line: Sequenc
             )
         labels = [_split(label) for label in header[row]]
         coordinates = row
-    return _gathered(path, header_line[coordinates], labels, header)
+    return _gathered(path, header_line[coordinates], labels, width)
 
 
 def _is_coordinates(row: Sequence[str]) -> bool:
@@ -94,10 +94,12 @@ def _split(label: str) -> tuple[str, str]:
     return (found.group(1), found.group(2).lower()) if found else (label, "")
 
 
-def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], header: Sequence[Sequence[str]]) -> Columns:
+def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: int) -> Columns:
     columns, wrong = Columns(), []
     axes: dict[str, dict[str, int]] = {}
     for i, (name, what) in enumerate(labels):
+        if i >= width and what not in ("x", "y", "z"):
+            continue
         if what in ("x", "y", "z"):
             own = axes.setdefault(name, {})
             if what in own:
@@ -121,6 +123,10 @@ def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], header: 
             wrong.append(f"{path}:{line}: {quoted(name)}: found {', '.join(sorted(own))}, expected x, y and z")
     if wrong:
         raise RecordingError("\n".join(wrong[:10]))
+    if len(labels) > width and any(max(at) >= width for at in columns.points.values()):
+        raise RecordingError(
+            f"{path}:{line}: found names of {len(labels)} columns, expected {width} as in the rows below"
+        )
     if not columns.points:
         raise RecordingError(
             f"{path}:{line}: found no columns such as 'LKNE_x, LKNE_y, LKNE_z', expected three a point; "

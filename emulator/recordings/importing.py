@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from emulator.recordings import RecordingError
+from emulator.recordings.file_names import named
 from emulator.recordings.mapping import MappingReport, mapped
 from emulator.recordings.raw import format_of, read_takes
 from emulator.recordings.sides import SidesFound, checked_sides, mirrored, swapped_names
@@ -19,10 +19,6 @@ from emulator.skeleton import Skeleton
 
 SIDES = ("swap", "mirror", "keep")
 """What to do where the whole body has left and right exchanged: exchange the names, the y axis, or nothing."""
-_WORKER = re.compile(
-    r"(?:^|[_\-. ])((?:s|sub|subj|subject|p|participant|person|w|worker|actor)[_-]?\d+)(?=[_\-. ]|$)", re.IGNORECASE
-)
-_TRIAL = re.compile(r"(?:^|[_\-. ])((?:e|r|rep|repetition|trial|take|t)[_-]?\d+)(?=[_\-. ]|$)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -72,7 +68,7 @@ def imported(
         joints, report = mapped(take, mapping_file, where=str(path))
         joints, found = _sided(joints, sides, path)
         if format_of(path) != "npz" or worker or trial:
-            joints = _named(joints, path, worker, trial, names_as, len(takes))
+            joints = named(joints, path, worker, trial, names_as, len(takes))
         done.append(replace(_looked_at(path, joints, report, found), source=source, licence=licence))
     return tuple(done)
 
@@ -135,28 +131,6 @@ def _sided(take: Take, sides: str | None, path: Path) -> tuple[Take, SidesFound]
         return take, found
     word = "names exchanged" if sides == "swap" else "mirrored"
     return change(take), replace(found, verdict=f"were exchanged; {word} as asked")
-
-
-def _named(take: Take, path: Path, worker: str | None, trial: str | None, names_as: str | None, n: int) -> Take:
-    """Worker and trial as given; else by parts of the file's name such as s01 and e02, else the whole name as trial."""
-    said = {} if names_as is None else parts_of_name(path, names_as)
-    who, which = _WORKER.search(path.stem), _TRIAL.search(path.stem)
-    told = worker or said.get("worker") or (who.group(1) if who else "unknown")
-    run = trial or said.get("trial") or (which.group(1) if which and who else path.stem)
-    return replace(take, worker=told, trial=run if n == 1 else f"{run} {take.trial}")
-
-
-def parts_of_name(path: Path, names_as: str) -> dict[str, str]:
-    """``worker`` and ``trial`` out of a file's name by a pattern; ``*`` is anything. Raises RecordingError."""
-    parts = re.split(r"(\{worker\}|\{trial\}|\*)", names_as.removesuffix(path.suffix))
-    named = [part for part in parts if part.startswith("{")]
-    if not named or len(set(named)) != len(named):
-        raise RecordingError(f"--names: found {names_as!r}, expected {{worker}} or {{trial}} in it, each once at most")
-    words = {"{worker}": r"(?P<worker>.+?)", "{trial}": r"(?P<trial>.+?)", "*": r".*?"}
-    found = re.fullmatch("".join(words.get(part) or re.escape(part) for part in parts), path.stem)
-    if found is None:
-        raise RecordingError(f"{path}: the name does not fit --names {names_as!r}")
-    return found.groupdict()
 
 
 def _provenance(path: Path) -> tuple[str, str]:

@@ -68,16 +68,34 @@ def mapped(take: Take, mapping_file: Path | None = None, *, where: str = "") -> 
     Raises RecordingError for mistakes in the mapping file, and where needed joints are neither there nor to be made.
     """
     if mapping_file is None:
+        _refuse_several(take.names, where)
         from_markers = joints_from_markers(take)
         if from_markers is not None:
-            return _finished(*from_markers, where)
+            _refuse_missing(from_markers[0].names, from_markers[1], where)
+            return _with_bones(*from_markers)
         given: dict[str, str] = {}
     else:
         given = read_mapping(Path(mapping_file), take.names)
     joints = _named(take, given)
     places, rows = _kept(take, joints, given)
     made, more = _made(take, joints, places)
-    return _finished(_assembled(take, places, made), [*rows, *more], where)
+    _refuse_missing([*places, *made], rows, where)
+    return _with_bones(_assembled(take, places, made), [*rows, *more])
+
+
+def _refuse_several(names: Sequence[str], where: str) -> None:
+    """Two people whose points differ by the name in front only (``Ana:LFHD``, ``Ben:LFHD``) are no one body."""
+    bodies: dict[str, set[str]] = {}
+    for name in names:
+        before, _, point = name.rpartition(":")
+        bodies.setdefault(point, set()).add(before)
+    several = {tuple(sorted(before)) for before in bodies.values() if len(before) > 1}
+    if several:
+        found = sorted({name or "one without a name" for names in several for name in names})
+        raise RecordingError(
+            f"{where}: found points of {len(found)} bodies ({', '.join(found[:6])}), expected one; export one alone, "
+            "or name the points of one with --map and leave out the others (-)"
+        )
 
 
 def _named(take: Take, given: dict[str, str]) -> list[str]:
@@ -134,15 +152,19 @@ def _assembled(take: Take, places: dict[str, int], made: dict[str, np.ndarray]) 
     )
 
 
-def _finished(take: Take, rows: list[MappedJoint], where: str) -> tuple[Take, MappingReport]:
-    """Without joints that lie on their parents; refused where a needed one is missing."""
-    missing = [joint for joint in NEEDED if joint not in take.names]
-    if missing:
-        unknown = [f"{row.name!r}{f' ({row.why})' if row.why else ''}" for row in rows if row.became == "unknown"]
-        raise RecordingError(
-            f"{where}: found no {', '.join(missing)}, expected them for trunk and heading; name them with --map"
-            + (f"; unknown: {', '.join(unknown[:20])}{', ...' if len(unknown) > 20 else ''}" if unknown else "")
-        )
+def _refuse_missing(joints: Sequence[str], rows: list[MappedJoint], where: str) -> None:
+    missing = [joint for joint in NEEDED if joint not in joints]
+    if not missing:
+        return
+    unknown = [f"{row.name[:40]!r}{f' ({row.why})' if row.why else ''}" for row in rows if row.became == "unknown"]
+    raise RecordingError(
+        f"{where}: found no {', '.join(missing)}, expected them for trunk and heading; name them with --map"
+        + (f"; unknown: {', '.join(unknown[:20])}{', ...' if len(unknown) > 20 else ''}" if unknown else "")
+    )
+
+
+def _with_bones(take: Take, rows: list[MappedJoint]) -> tuple[Take, MappingReport]:
+    """Without joints that lie on their parents: no bone leads to them."""
     parents = take.parents or hung_as_bodies_are(take.names)
     out = without_length(take.names, parents, take.positions_m)
     if not out:

@@ -7,7 +7,7 @@ it is no posture can tell, so it is asked for; one limb's names alone against th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -46,10 +46,17 @@ def checked_sides(take: Take) -> tuple[Take, SidesFound]:
     """
     take, mended = _limbs_mended(take)
     witnesses = witnesses_of(take)
-    spoken = {name: value for name, value in witnesses.items() if abs(value) >= CLEAR}
-    votes = {spoken[name] > 0 for name in FIRST if name in spoken} or {spoken[ELSE] > 0 for _ in "1" if ELSE in spoken}
-    verdict = "not told" if len(votes) != 1 else "right" if votes.pop() else "swapped"
-    return take, SidesFound(verdict, witnesses, mended)
+    return take, SidesFound(_verdict(witnesses), witnesses, mended)
+
+
+def _verdict(witnesses: Mapping[str, float]) -> str:
+    spoken = {name: value > 0 for name, value in witnesses.items() if abs(value) >= CLEAR}
+    votes = {spoken[name] for name in FIRST if name in spoken}
+    if not votes and ELSE in spoken:
+        votes = {spoken[ELSE]}
+    if len(votes) != 1:
+        return "not told"
+    return "right" if votes.pop() else "swapped"
 
 
 def swapped_names(take: Take) -> Take:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from array import array
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import chain, islice
@@ -52,7 +53,7 @@ def read_table(path: Path, *, delimiter: str | None = None, first_row: int = 0, 
     return Table(
         tuple(tuple(row) for _, row in header),
         tuple(n for n, _ in header),
-        np.array(rows.values, float).reshape(len(rows.values), width),
+        np.array(rows.values, float).reshape(len(rows.line), width),
         np.array(rows.line),
     )
 
@@ -63,7 +64,7 @@ class _Rows:
     sign: str | None
     width: int
     short_rows: bool
-    values: list[list[float]] = field(default_factory=list)
+    values: array[float] = field(default_factory=lambda: array("d"))
     line: list[int] = field(default_factory=list)
     wrong: list[str] = field(default_factory=list)
 
@@ -80,6 +81,11 @@ class _Rows:
 
     def _add(self, number: int, text: str) -> None:
         cells = cells_of(text, self.sign)
+        quick = _quickly(text, cells, self.sign) if len(cells) == self.width else None
+        if quick is not None:
+            self.values.extend(quick)
+            self.line.append(number)
+            return
         if self.short_rows:
             cells += [""] * (self.width - len(cells))
         if len(cells) < self.width or any(cells[self.width :]):
@@ -91,8 +97,19 @@ class _Rows:
             found = quoted(cells[column])
             self.wrong.append(f"{self.path}:{number}: column {column + 1}: found {found}, expected a number or nothing")
             return
-        self.values.append(values)  # type: ignore[arg-type]
+        self.values.extend(values)  # type: ignore[arg-type]
         self.line.append(number)
+
+
+def _quickly(text: str, cells: list[str], sign: str | None) -> list[float] | None:
+    """A row of nothing but numbers in range; None for any other, which is looked at cell by cell (a third as fast)."""
+    if "_" in text or (sign == ";" and "," in text):
+        return None
+    try:
+        values = list(map(float, cells))
+    except ValueError:
+        return None
+    return values if max(values) < 1e30 and min(values) > -1e30 else None
 
 
 def number_of(cell: str, sign: str | None = None) -> float | None:
@@ -120,10 +137,10 @@ def cells_of(text: str, sign: str | None) -> list[str]:
 
 def _is_row(cells: list[tuple[int, list[str]]], i: int) -> bool:
     """A row of numbers, and not one of few among the words of a header, such as a frame rate."""
-    row = cells[i][1]
-    if not _numeric(row):
-        return False
-    after = [other for _, other in cells[i + 1 : i + 3]]
+    row, after = cells[i][1], [other for _, other in cells[i + 1 : i + 3]]
+    if not _numeric(row):  # a row with a wrong cell, right before the others, is one of them
+        numbers = sum(number_of(cell, ";") is not None for cell in row if cell)
+        return numbers > max(3, 0.8 * sum(map(bool, row))) and bool(after) and _numeric(after[0])
     given = sum(map(bool, row))
     return not after or _numeric(after[0]) or given >= max(sum(map(bool, other)) for other in after) > 1
 

@@ -29,9 +29,14 @@ class _Rate(click.FloatRange):
 @click.option("-n", "n", type=click.IntRange(min=1), default=10, show_default=True, help="Performances to draw.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
 @click.option(
-    "-o", "--out", type=click.Path(path_type=Path), help="times as .csv, or whole movements as .npz recordings."
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path),
+    help="times as .csv; whole movements as .npz recordings, or as .bvh, a file each.",
 )
-@click.option("--fps", type=_Rate(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz.")
+@click.option(
+    "--fps", type=_Rate(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz and .bvh."
+)
 @click.option("--person", metavar="NAME", help="All by this person of the fit.  [default: each by another, new person]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
@@ -44,7 +49,7 @@ def command(
     person: str | None,
     as_json: bool,
 ) -> None:
-    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz file, the movements."""
+    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz or .bvh file, the movements."""
     import numpy as np
 
     from opsim.cli.console import print_json
@@ -63,7 +68,7 @@ def command(
         return
     _print_times(model, drawn)
     if out is not None:
-        click.echo(f"{n} performances: {out}")
+        click.echo(f"{n} performances: {_files(out, n)}")
 
 
 def _refuse(out: Path | None, library: str) -> None:
@@ -74,7 +79,16 @@ def _refuse(out: Path | None, library: str) -> None:
         return
     if wrong := overwritten(out, library=[found(library)]) or of_another_kind(out, "recording"):
         raise ValueError("\n".join(wrong))
-    ready(out, ".csv", ".npz")
+    ready(out, ".csv", ".npz", ".bvh")
+
+
+def _files(out: Path, n: int) -> str:
+    if out.suffix.lower() != ".bvh" or n == 1:
+        return str(out)
+    from opsim.cli.motion_sample_bvh import bvh_files
+
+    files = bvh_files(out, n)
+    return f"{files[0]} to {files[-1].name}"
 
 
 def _row(model: Any, drawn: Any, k: int) -> dict[str, float]:
@@ -98,6 +112,11 @@ def _print_times(model: Any, drawn: Any) -> None:
 def _write(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str | None) -> None:
     if out.suffix.lower() == ".npz":
         _write_npz(out, model, drawn, fps, said, person)
+        return
+    if out.suffix.lower() == ".bvh":
+        from opsim.cli.motion_sample_bvh import write_bvh_files
+
+        write_bvh_files(out, drawn, fps, _frame_times_s)
         return
     rows = [_row(model, drawn, k) for k in range(len(drawn.duration_s))]
     with out.open("w", newline="", encoding="utf-8") as file:

@@ -190,7 +190,7 @@ WRONG_SKELETONS = {
     ),
     "a cycle": (
         ASF.replace("root upper\n", "root\n").replace("upper fore", "upper fore\n    fore upper"),
-        "arm.asf:38: found 'fore' to be its own ancestor, expected a tree below the root",
+        "arm.asf:39: found 'upper' to be its own ancestor, expected a tree below the root",
     ),
     "a bone below itself": (
         ASF.replace("root upper\n", "root\n").replace("upper fore", "upper upper\n root fore"),

@@ -9,7 +9,6 @@ from emulator.recordings.asf_amc import read_amc
 from emulator.recordings.bvh import BvhFile, read_bvh, read_bvh_file
 from emulator.recordings.bvh_pose import bvh_of
 from emulator.recordings.bvh_write import write_bvh, write_bvh_file
-from emulator.recordings.euler import ORDERS, best_turn, calm_order, euler_deg, least_turn
 from emulator.recordings.take import Take
 from emulator.skeleton import standard_skeleton
 from emulator.synthetic import make
@@ -151,36 +150,6 @@ def test_the_rest_posture_of_named_joints_is_a_t():
     offset = {name: v / np.linalg.norm(v) for name, v in zip(file.names, file.offsets) if np.any(v)}
     assert np.allclose(offset["left_elbow"], [1, 0, 0]) and np.allclose(offset["right_wrist"], [-1, 0, 0])
     assert np.allclose(offset["left_knee"], [0, -1, 0]) and np.allclose(offset["head"], [0, 1, 0])
-
-
-@pytest.mark.parametrize("order", [*ORDERS, "XYZ", "YXZ", "YZX"])
-def test_angles_give_the_rotation_back(order):
-    rng = np.random.default_rng(3)
-    angles = np.concatenate([rng.uniform(-180, 180, (50, 3)), [[10, 90, 20], [0, -90, 0], [30, 90 - 1e-6, 5]]])
-    turns = np.array([np.linalg.multi_dot([naive_turn(a.lower(), v) for a, v in zip(order, row)]) for row in angles])
-    found = euler_deg(turns, order)
-    back = np.array([np.linalg.multi_dot([naive_turn(a.lower(), v) for a, v in zip(order, row)]) for row in found])
-    assert np.abs(back - turns).max() < 1e-7
-
-
-def test_a_knee_bent_to_a_right_angle_is_told_in_another_order():
-    bent = np.array([naive_turn("x", angle) for angle in range(0, 140, 5)])
-    assert calm_order(bent[:4]) == "ZXY" and calm_order(bent) != "ZXY"
-
-
-def test_turns_bring_what_they_should_where_they_should():
-    rng = np.random.default_rng(4)
-    start, end = rng.normal(size=(2, 60, 3))
-    start, end = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (start, end))
-    end[:3] = -start[:3]
-    end[3] = start[3]
-    turns = least_turn(start, end)
-    assert np.allclose(np.einsum("tab,tb->ta", turns, start), end, atol=1e-12)
-    assert np.allclose(np.linalg.det(turns), 1)
-    least = np.arctan2(np.linalg.norm(np.cross(start, end), axis=1), np.sum(start * end, axis=1))
-    assert np.allclose(np.trace(turns, axis1=1, axis2=2), 1 + 2 * np.cos(least))
-    shape = rng.normal(size=(3, 3))
-    assert np.allclose(best_turn(shape, np.einsum("tab,cb->tca", turns, shape)), turns, atol=1e-9)
 
 
 def test_what_cannot_be_written_is_told(tmp_path):

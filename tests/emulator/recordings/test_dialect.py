@@ -52,11 +52,11 @@ RIGS = {
     "kinect": "SpineBase=pelvis SpineMid=spine SpineShoulder=chest Neck=neck Head=head ShoulderLeft=left_shoulder "
     "ElbowLeft=left_elbow WristLeft=left_wrist HandLeft=left_hand HipLeft=left_hip KneeLeft=left_knee "
     "AnkleLeft=left_ankle FootLeft=left_toe HandTipLeft=left_fingers ThumbLeft=left_thumb",
-    "human3.6m": "Hip=pelvis RHip=right_hip RKnee=right_knee RFoot=right_ankle Spine=spine Thorax=neck Nose= Head=head "
-    "RShoulder=right_shoulder RElbow=right_elbow RWrist=right_wrist",
-    "old bvh": "Hips=pelvis LeftHip=left_hip LeftKnee=left_knee LeftAnkle=left_ankle LeftAnkle_end=left_toe Chest=chest "
-    "Neck=neck Head=head Head_end= LeftCollar=left_clavicle LeftShoulder=left_shoulder LeftElbow=left_elbow "
-    "LeftWrist=left_wrist LeftWrist_end=left_hand",
+    "human3.6m": "Hip=pelvis RHip=right_hip RKnee=right_knee RFoot=right_ankle Spine=spine Thorax=neck "
+    "Head=head RShoulder=right_shoulder RElbow=right_elbow RWrist=right_wrist",
+    "old bvh": "Hips=pelvis LeftHip=left_hip LeftKnee=left_knee LeftAnkle=left_ankle LeftAnkle_end=left_toe "
+    "Chest=chest Neck=neck Head=head Head_end= LeftCollar=left_clavicle LeftShoulder=left_shoulder "
+    "LeftElbow=left_elbow LeftWrist=left_wrist LeftWrist_end=left_hand",
 }
 
 

@@ -175,6 +175,14 @@ def test_hips_lie_between_and_below_the_pelvis_markers_as_harrington_says():
     assert np.allclose(left[0], expected) and np.allclose(right[0], expected * np.array([1, -1, 1]))
 
 
+def test_two_bodies_are_not_made_one():
+    take = body()
+    names = tuple(f"{who}:{name}" for who in ("Ana", "Ben") for name in take.names)
+    both = Take(names, None, np.concatenate([take.positions_m, take.positions_m + 1], axis=1), 50.0)
+    with pytest.raises(RecordingError, match=r"a\.c3d: found points of 2 bodies \(Ana, Ben\), expected one"):
+        mapped(both, where="a.c3d")
+
+
 def test_gaps_stay_gaps():
     take = body()
     holes = take.positions_m.copy()

@@ -1,0 +1,126 @@
+"""C3D files: as ezc3d writes them, in the bytes of each processor, and damaged."""
+
+import struct
+
+import numpy as np
+import pytest
+
+from emulator.recordings import RecordingError
+from emulator.recordings.c3d import read_c3d
+from tests.emulator.recordings.body import body, write_c3d
+
+TAKE = body(25, 100.0)
+NAMES, MM = TAKE.names, 1000 * TAKE.positions_m
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    pytest.importorskip("ezc3d")
+    holes = MM.copy()
+    holes[3:6, 4] = np.nan
+    return write_c3d(tmp_path_factory.mktemp("c3d") / "a.c3d", NAMES, holes)
+
+
+def test_what_ezc3d_writes_is_read(written):
+    take = read_c3d(written)
+    expected = TAKE.positions_m.copy()
+    expected[3:6, 4] = np.nan
+    assert take.names == NAMES and take.rate_hz == 100.0
+    assert np.allclose(take.positions_m, expected, atol=1e-6, equal_nan=True)
+    assert "unit said by the file: mm" in take.notes
+
+
+def test_it_is_read_as_ezc3d_reads_it(written):
+    ezc3d = pytest.importorskip("ezc3d")
+    theirs = ezc3d.c3d(str(written))["data"]["points"][:3].transpose(2, 1, 0) / 1000
+    assert np.allclose(read_c3d(written).positions_m, theirs, atol=1e-12, equal_nan=True)
+
+
+def by_hand(places, names, *, processor=84, whole=False, rate_hz=100.0, unit="mm", more=b"", labels=None, frames=None):
+    """A small C3D file in the bytes of a processor (84 Intel, 85 DEC, 86 MIPS), whole numbers or floating."""
+    order = ">" if processor == 86 else "<"
+
+    def real(value):
+        if processor != 85:
+            return struct.pack(f"{order}f", value)
+        low, high = struct.unpack("<HH", struct.pack("<f", value * 4))
+        return struct.pack("<HH", high, low)
+
+    def group(number, name):
+        return struct.pack("bb", len(name), -number) + name.encode() + struct.pack(f"{order}H", 3) + b"\0"
+
+    def parameter(number, name, kind, sizes, content):
+        body = struct.pack("bB", kind, len(sizes)) + bytes(sizes) + content + b"\0"
+        link = struct.pack(f"{order}H", len(body) + 2)
+        return struct.pack("bb", len(name), number) + name.encode() + link + body
+
+    scale = 0.1 if whole else -1.0
+    labels = labels or names
+    section = b"".join(
+        [
+            struct.pack("BBBB", 1, 0x50, 4, processor),
+            group(1, "POINT"),
+            parameter(1, "USED", 2, [], struct.pack(f"{order}H", len(names))),
+            parameter(1, "SCALE", 4, [], real(scale)),
+            parameter(1, "RATE", 4, [], real(rate_hz)),
+            parameter(1, "UNITS", -1, [4, 1], unit.ljust(4).encode()),
+            parameter(1, "LABELS", -1, [20, len(labels)], b"".join(name.ljust(20).encode() for name in labels)),
+            more,
+        ]
+    ).ljust(2048, b"\0")
+    n_frames = len(places) if frames is None else frames
+    head = struct.pack(f"{order}HHHHH", len(names), 0, 1, n_frames & 0xFFFF, 0) + real(scale)
+    head += struct.pack(f"{order}HH", 6, 0) + real(rate_hz)
+    data = []
+    for point in places.reshape(-1, 3):
+        gap = np.isnan(point).any()
+        point = np.nan_to_num(point)
+        if whole:
+            data.append(struct.pack(f"{order}hhhh", *np.rint(point / scale).astype(int).tolist(), -1 if gap else 0))
+        else:
+            data.append(b"".join(map(real, [*point.tolist(), -1.0 if gap else 0.0])))
+    return (b"\x02\x50" + head).ljust(512, b"\0") + section + b"".join(data)
+
+
+@pytest.mark.parametrize("processor", [84, 85, 86])
+@pytest.mark.parametrize("whole", [False, True])
+def test_the_bytes_of_each_processor_are_read(tmp_path, processor, whole):
+    holes = MM.copy()
+    holes[2, 1] = np.nan
+    path = tmp_path / "a.c3d"
+    path.write_bytes(by_hand(holes, NAMES, processor=processor, whole=whole))
+    take = read_c3d(path)
+    assert take.names == NAMES and take.rate_hz == 100.0
+    assert np.allclose(take.positions_m, holes / 1000, atol=1e-4 if whole else 1e-6, equal_nan=True)
+
+
+def test_points_without_a_name_are_left_out(tmp_path):
+    path = tmp_path / "a.c3d"
+    path.write_bytes(by_hand(MM, NAMES, labels=[*NAMES[:-2], "*12", ""]))
+    take = read_c3d(path)
+    assert take.names == NAMES[:-2] and "2 points without a name" in take.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"", "found 0 bytes"),
+        (b"\x02\x50" + b"\0" * 100, "found 102 bytes"),
+        (b"\x02\x51" + b"\0" * 2000, "0x51 as second byte, expected 0x50"),
+        (b"\xff\x50" + b"\0" * 2000, "parameters in block 255"),
+        (b"\x00\x50" + b"\0" * 2000, "parameters in block 0"),
+        (b"\x02\x50" + b"\0" * 2000, "processor type 0"),
+        (by_hand(MM, NAMES)[:-400], "declares 25 frames of 21 points from block 6 on, and holds 23"),
+        (by_hand(MM, NAMES, frames=65535), "declares 65535 frames of 21 points"),
+        (by_hand(MM, NAMES, frames=0), "frames, expected two or more"),
+        (by_hand(MM, NAMES, rate_hz=0.0), "found 0 frames a second"),
+        (by_hand(MM, [*NAMES[:-1], "head"]), "labels more than once: 'head'"),
+        (by_hand(MM, NAMES, labels=["*1"] * len(NAMES)), "none of them with a label"),
+        (by_hand(MM[:, :0], []), "found no points"),
+    ],
+)
+def test_what_is_wrong_is_said(tmp_path, content, said):
+    path = tmp_path / "a.c3d"
+    path.write_bytes(content)
+    with pytest.raises(RecordingError, match=said):
+        read_c3d(path)

@@ -1,0 +1,35 @@
+"""``opsim motion sample -o x.bvh``: drawn performances for programs of animation."""
+
+import numpy as np
+import pytest
+
+from emulator import MotionLibrary
+from emulator.recordings.bvh import read_bvh
+from tests.opsim.cli.test_motion import BENCH, opsim
+
+
+def test_performances_are_files_that_hold_their_joints(tmp_path):
+    code, shown, _ = opsim(
+        "motion", "sample", BENCH, "reach", "-n", 3, "--seed", 3, "--fps", 25, "-o", tmp_path / "a.bvh"
+    )
+    assert code == 0 and f"{tmp_path / 'a_k0.bvh'} to a_k2.bvh" in shown
+    drawn = MotionLibrary.load(BENCH)["reach"].sample(3, np.random.default_rng(3))
+    for k in range(3):
+        take = read_bvh(tmp_path / f"a_k{k}.bvh")
+        assert take.rate_hz == 25 and take.duration_s == pytest.approx(drawn.duration_s[k], abs=0.5 / 25)
+        places = drawn[k].positions_m(times_s=np.arange(take.n_frames) / 25)[0]
+        order = [take.names.index(name) for name in drawn.skeleton.names]
+        facing = np.stack([places[..., 1], -places[..., 0], places[..., 2]], axis=-1)
+        assert np.abs(take.positions_m[:, order] - facing).max() < 1e-7
+        bones = np.linalg.norm(take.positions_m[:, 1:] - take.positions_m[:, list(take.parents[1:])], axis=2)
+        assert np.ptp(bones, axis=0).max() < 1e-6
+
+
+def test_one_performance_is_one_file_of_that_name(tmp_path):
+    assert opsim("motion", "sample", BENCH, "reach", "-n", 1, "-o", tmp_path / "one.BVH")[0] == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["one.BVH"]
+
+
+def test_ten_files_stand_in_order(tmp_path):
+    assert opsim("motion", "sample", BENCH, "reach", "-n", 11, "--fps", 5, "-o", tmp_path / "a.bvh")[0] == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"a_k{k:02d}.bvh" for k in range(11)]
