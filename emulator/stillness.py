@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from emulator.motion import Motion
+from emulator.runs import runs_of
 
 SLOW_SHARE = 0.05
 """Slower than this share of the repetition's own typical speed is still. A soft turn at 10 % is no hold."""
@@ -38,7 +39,7 @@ def find(motion: Motion) -> list[tuple[int, int]]:
     shaky = np.sqrt(2 * feigned * np.sqrt(1 / state.shape[1]))  # what noise feigns at two standard errors
     limit = np.hypot(SLOW_SHARE * typical, min(shaky, 0.5 * SLOW_SHARE * typical))
     near = float(np.hypot(1.3 * np.sqrt(3.0) * noise, limit * half / 2))
-    runs = _joined(state, _runs(speed < limit), half, near)
+    runs = _joined(state, runs_of(speed < limit), half, near)
     wide = _apart_again([_widened(state, run, half, near) for run in runs])
     return [(first, last) for first, last in wide if last - first + 1e-9 >= SHORTEST_S * rate_hz]
 
@@ -84,11 +85,6 @@ def _square_speed(state: np.ndarray, half: int) -> np.ndarray:
 def _feigned(square_noise: float, half: int) -> float:
     """Squared speed that noise of this variance a coordinate feigns."""
     return 3 * 2 * square_noise / half / (half + 1) ** 2
-
-
-def _runs(still: np.ndarray) -> list[tuple[int, int]]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], still.astype(int), [0]])))
-    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2])]
 
 
 def _joined(state: np.ndarray, runs: list[tuple[int, int]], half: int, near: float) -> list[tuple[int, int]]:

@@ -1,0 +1,9 @@
+"""Cleaning: what is wrong with a recording is found, counted, and mended where that can be done honestly."""
+
+from __future__ import annotations
+
+from emulator.cleaning.found import KINDS, Cleaned, Repair, verdict_of
+from emulator.cleaning.settings import POLICIES, CleaningSettings, settings_of
+from emulator.cleaning.whole import cleaned
+
+__all__ = ["KINDS", "POLICIES", "Cleaned", "CleaningSettings", "Repair", "cleaned", "settings_of", "verdict_of"]

@@ -1,0 +1,82 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from emulator.cleaning import CleaningSettings
+from emulator.cleaning.gaps import without_gaps
+from tests.made_takes import clean, error_m, spoilt
+
+
+def unseen(joint, first, last):
+    def change(positions, index):
+        positions[first : last + 1, index(joint)] = np.nan
+
+    return spoilt(clean(), change).takes[1]
+
+
+@pytest.mark.parametrize(("last", "how"), [(39, "bridged by a spline"), (54, "filled from points")])
+def test_the_length_of_a_gap_decides_how_it_is_filled(last, how):
+    take, repairs = without_gaps(unseen("left_elbow", 30, last), CleaningSettings())
+    assert len(repairs) == 1 and how in repairs[0].words
+    assert (repairs[0].first_frame, repairs[0].last_frame) == (30, last)
+    assert repairs[0].size == pytest.approx((last - 29) / 50)
+    assert error_m(take, clean().takes[1]) < 0.03
+
+
+def test_what_was_seen_is_never_changed():
+    take, _ = without_gaps(unseen("left_elbow", 30, 39), CleaningSettings())
+    seen = np.ones(take.positions_m.shape[:2], bool)
+    seen[30:40, take.names.index("left_elbow")] = False
+    assert np.array_equal(take.positions_m[seen], clean().takes[1].positions_m[seen])
+
+
+def test_a_bridged_bone_keeps_its_length():
+    take, _ = without_gaps(unseen("left_wrist", 30, 38), CleaningSettings())
+    elbow, wrist = (take.names.index(f"left_{joint}") for joint in ("elbow", "wrist"))
+    length = np.linalg.norm(take.positions_m[:, wrist] - take.positions_m[:, elbow], axis=-1)
+    assert np.ptp(length) < 1e-6
+
+
+def test_a_limb_of_which_nothing_is_seen_is_bridged_from_the_trunk_outwards():
+    def change(positions, index):
+        for joint in ("hand", "wrist", "elbow"):
+            positions[30:38, index(f"left_{joint}")] = np.nan
+
+    take, repairs = without_gaps(spoilt(clean(), change).takes[1], CleaningSettings())
+    assert [repair.joints[0] for repair in repairs] == ["left_elbow", "left_wrist", "left_hand"]
+    assert error_m(take, clean().takes[1]) < 0.01
+
+
+def test_gaps_at_the_ends_are_trimmed():
+    take, repairs = without_gaps(unseen("head", 0, 3), CleaningSettings())
+    assert [(r.kind, r.first_frame, r.last_frame, r.joints) for r in repairs] == [("cut", 0, 3, ("head",))]
+    assert take.n_frames == clean().takes[1].n_frames - 4
+
+
+def test_a_mark_that_would_be_cut_off_costs_the_take():
+    early = replace(unseen("head", 0, 10), mark_frame={"touch": 4.0})
+    late = replace(unseen("head", 0, 10), mark_frame={"touch": 40.0})
+    assert without_gaps(early, CleaningSettings())[0] is None
+    assert without_gaps(late, CleaningSettings())[0].mark_frame == {"touch": 29.0}
+
+
+def test_where_gaps_are_to_be_cut_nothing_is_filled():
+    take, repairs = without_gaps(replace(unseen("head", 5, 6), mark_frame={}), CleaningSettings(gaps="cut"))
+    assert [(r.kind, r.first_frame, r.last_frame) for r in repairs] == [("cut", 0, 6)]
+    assert np.isfinite(take.positions_m).all()
+
+
+def test_without_three_companions_a_long_gap_is_cut():
+    def change(positions, index):
+        positions[5:25] = np.where(np.arange(positions.shape[1])[:, None] == index("pelvis"), positions[5:25], np.nan)
+
+    take, repairs = without_gaps(
+        replace(spoilt(clean(), change).takes[1], mark_frame={}), CleaningSettings(kept_share=0.1)
+    )
+    assert {repair.kind for repair in repairs} == {"cut"} and np.isfinite(take.positions_m).all()
+
+
+def test_a_take_without_gaps_is_itself():
+    take = clean().takes[0]
+    assert without_gaps(take, CleaningSettings()) == (take, ())
