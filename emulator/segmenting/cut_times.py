@@ -1,0 +1,134 @@
+"""Cut times as a small text file: written by the cutting, corrected by a person, read again.
+
+A line a piece, ``start_s end_s name``, seconds from the take's first frame; ``[worker/trial]`` above the lines of a
+take; ``#`` begins a comment. Read with all its mistakes at once, each with file and line.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+
+from emulator.recordings.take import Take
+from emulator.segmenting.segment import Cut
+
+LONGEST = 10_000_000
+"""Characters of a file that is read."""
+_HEAD = "# cut times, seconds from the first frame: start_s end_s name; edit, then read them with --cuts"
+_SEAL = "# as found: "
+
+
+def cut_times_text(takes: Sequence[Take], cuts: Mapping[str, Sequence[Cut]]) -> str:
+    """The file: the cuts of each take by its name. A seal at its end tells whether somebody has changed it."""
+    lines = [_HEAD]
+    for take in takes:
+        if take.name in cuts:
+            lines += [f"[{take.name}]", *(_line(cut, take.rate_hz) for cut in cuts[take.name])]
+    body = "\n".join(lines) + "\n"
+    return f"{body}{_SEAL}{_digest(body)}\n"
+
+
+def was_edited(text: str) -> bool:
+    """Whether somebody changed the file since it was written."""
+    body, seal, digest = text.rpartition(_SEAL)
+    return not seal or digest.strip() != _digest(body)
+
+
+def parse_cut_times(text: str, takes: Sequence[Take], file: str) -> dict[str, tuple[Cut, ...]]:
+    """The cuts of each take that the file names; a file for one take needs no ``[worker/trial]``.
+
+    Times are rounded to the nearest frame. Raises ValueError with every mistake as ``file:line: ...``.
+    """
+    if len(text) > LONGEST:
+        raise ValueError(f"{file}: found {len(text)} characters, expected {LONGEST} at most")
+    known = {take.name: take for take in takes}
+    here = takes[0] if len(takes) == 1 else None
+    found: dict[str, list[tuple[int, Cut]]] = {}
+    wrong: list[str] = []
+    unknown = False
+    for number, raw in enumerate(text.split("\n"), start=1):
+        line = raw.partition("#")[0].strip()
+        place = f"{file}:{number}"
+        if line.startswith("["):
+            name = line[1:].removesuffix("]").strip()
+            here, unknown = known.get(name), name not in known
+            wrong += [f"{place}: {_no_take(name, known)}"] if unknown else []
+            if here is not None and here.name in found:
+                wrong.append(f"{place}: found a second [{here.name}], expected each take once")
+            if here is not None:
+                found.setdefault(here.name, [])
+        elif line and here is not None:
+            cut, mistakes = _cut(line, here)
+            wrong += [f"{place}: {mistake}" for mistake in mistakes]
+            found.setdefault(here.name, []).extend([(number, cut)] if cut else [])
+        elif line and not unknown:
+            wrong.append(f"{place}: found a time before any [worker/trial], expected the take that it belongs to")
+    for name in found:
+        wrong += [f"{file}:{number}: {mistake}" for number, mistake in _together(found[name], known[name].rate_hz)]
+    if not wrong and not any(found.values()):
+        wrong.append(f"{file}: found no cut times, expected lines such as '1.20 3.45 1'")
+    if wrong:
+        raise ValueError("\n".join(wrong))
+    return {name: tuple(cut for _, cut in cuts) for name, cuts in found.items()}
+
+
+def _line(cut: Cut, rate_hz: float) -> str:
+    digits = max(3, math.ceil(math.log10(rate_hz)) + 1)
+    return f"{cut.start / rate_hz:.{digits}f} {cut.stop / rate_hz:.{digits}f} {cut.name}"
+
+
+def _digest(body: str) -> str:
+    return hashlib.blake2b(body.encode(), digest_size=8).hexdigest()
+
+
+def _no_take(name: str, known: Mapping[str, Take]) -> str:
+    near = get_close_matches(name, known, n=1)
+    return f"no take {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}")
+
+
+def _cut(line: str, take: Take) -> tuple[Cut | None, list[str]]:
+    """The cut of a line, and what is wrong with it."""
+    words = line.split()
+    if len(words) != 3:
+        return None, [f"found {len(words)} words, expected three: start_s end_s name"]
+    times = [_number(word) for word in words[:2]]
+    wrong = [f"found {word!r}, expected seconds" for word, time in zip(words, times) if not math.isfinite(time)]
+    if "/" in words[2] or not words[2].isprintable():
+        wrong.append(f"found the name {words[2]!r}, expected one without '/'")
+    if wrong:
+        return None, wrong
+    end_s = take.duration_s
+    wrong += [
+        f"found {time:g} s, expected 0 to {end_s:.3f} s, as long as take {take.name} lasts"
+        for time in times
+        if not -0.5 / take.rate_hz <= time <= end_s + 0.5 / take.rate_hz
+    ]
+    start, stop = (round(min(max(time, 0.0), end_s) * take.rate_hz) for time in times)
+    if not wrong and stop - start < 1:
+        wrong.append(f"found the end {words[1]} s, expected it a frame or more after the start {words[0]} s")
+    return (None if wrong else Cut(start, stop, words[2])), wrong
+
+
+def _number(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan
+
+
+def _together(cuts: Sequence[tuple[int, Cut]], rate_hz: float) -> list[tuple[int, str]]:
+    """What is wrong between the cuts of one take, with the line: names twice, pieces that overlap."""
+    wrong: list[tuple[int, str]] = []
+    names: dict[str, int] = {}
+    for number, cut in cuts:
+        if cut.name in names:
+            wrong.append((number, f"found the name {cut.name!r} again, first in line {names[cut.name]}"))
+        names.setdefault(cut.name, number)
+    for (_, before), (number, after) in itertools.pairwise(cuts):
+        if after.start < before.stop:
+            found, expected = f"{after.start / rate_hz:.3f} s", f"{before.stop / rate_hz:.3f} s"
+            wrong.append((number, f"found the start {found}, expected {expected} or later, where {before.name} ends"))
+    return wrong
