@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from emulator.recordings.dialect import joints_of
-from emulator.recordings.joint_words import bare_name
+from emulator.recordings.joint_words import without_common_start
+from emulator.recordings.marker_names import marker_name
 
 PARTS = ("head", "shoulders", "hips", "knees", "feet")
 _JOINTS = {
@@ -19,7 +20,7 @@ _JOINTS = {
     "feet": ("left_ankle", "right_ankle", "left_toe", "right_toe", "left_heel", "right_heel"),
 }
 _MARKERS = {
-    "head": r"[LR][FB]HD|ARIEL|TOPHEAD",
+    "head": r"[LR][FB]HD|ARIEL|TOPHEAD|HEAD(L|R|TOP|FRONT)",
     "shoulders": r"C7|CLAV|[LR]SHO|[LR]ACR",
     "hips": r"[LR](ASI|PSI|ASIS|PSIS)|SACR|SAC",
     "knees": r"[LR](KNE|KNM|MKNE|FLE|FME)",
@@ -31,7 +32,7 @@ _MARKERS = {
 def part_places(positions: np.ndarray, names: Sequence[str]) -> dict[str, np.ndarray]:
     """The middle (T, 3) of each part of the body that these points (T, J, 3) know; nan where it was not seen."""
     joints = joints_of(names)
-    bare = [bare_name(name).upper() for name in names]
+    bare = [marker_name(name) for name in without_common_start(names)]
     places = {}
     for part in PARTS:
         at = [i for i, joint in enumerate(joints) if joint in _JOINTS[part]]

@@ -13,6 +13,8 @@ from emulator.recordings.text import quoted, text_lines
 _COORDINATE = re.compile(r"^(?:pos(?:ition)?[\s_.]*)?([xyz])\d*(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
 _SUFFIX = re.compile(r"^(.+?)[\s_.:\-/]*(?:pos(?:ition)?)?[\s_.:\-/]*([xyz])(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
 _SCORE = re.compile(r"^(.+?)[\s_.:\-]+(score|likelihood|confidence|conf|visibility|c|p)$", re.IGNORECASE)
+_TYPES = ("Bone", "Marker", "Bone Marker", "Rigid Body Marker", "Rigid Body")
+"""What Motive exports; the first of these that a file has is read."""
 _SCORES = {"score", "likelihood", "confidence", "conf", "visibility", "c", "p"}
 TIME = re.compile(r"^(time|timestamp|t)\b.*$|^time", re.IGNORECASE)
 FRAME = re.compile(r"^(frame|frames|fnum|frame#|field|sample|index|frame_?(no|number|index|id))\.?$", re.IGNORECASE)
@@ -54,15 +56,14 @@ def _over(header: Sequence[Sequence[str]], at: int, width: int) -> list[tuple[st
     row = [*header[at], *[""] * width][:width]
     words = [cell.lower() for cell in row]
     above = _names_row(header, at)
-    kinds = _kinds_row(header, at)
+    over = _passed_over(header, at)
     labels: list[tuple[str, str]] = []
     name = ""
     for i, word in enumerate(words):
         given = above[i] if i < len(above) else ""
         name = given or name
         found = _COORDINATE.match(word)
-        kind = kinds[i].lower() if i < len(kinds) else ""
-        if kind and kind != "position":  # Motive writes rotations and errors beside
+        if i < len(over) and over[i]:
             labels.append(("", ""))
         elif found:
             labels.append((name, found.group(1).lower()))
@@ -74,20 +75,33 @@ def _over(header: Sequence[Sequence[str]], at: int, width: int) -> list[tuple[st
 
 
 def _names_row(header: Sequence[Sequence[str]], at: int) -> list[str]:
-    """The row of names: of those above the coordinates the one whose cells differ most; in Motive it says Name."""
+    """The row of names: of those above the coordinates the one that says most over the x's; in Motive it says Name."""
     for row in header[:at]:
         if any(cell.lower() in ("name", "bodyparts") for cell in row[:2]):
             return ["" if cell.lower() in ("name", "bodyparts") else cell for cell in row]
-    rows = [row for row in header[:at] if sum(map(bool, row)) > 1]
-    return list(max(reversed(rows), key=lambda row: len(set(row)), default=[]))
+    first = [i for i, cell in enumerate(header[at]) if (found := _COORDINATE.match(cell)) and found[1].lower() == "x"]
+
+    def names(row: Sequence[str]) -> int:
+        return len({row[i] for i in first if i < len(row)} - {""})
+
+    above = [list(row) for row in reversed(header[:at])]
+    return max(above, key=names, default=[])
 
 
-def _kinds_row(header: Sequence[Sequence[str]], at: int) -> Sequence[str]:
-    return next((row for row in header[:at] if sum(cell == "Position" for cell in row) > 2), [])
+def _passed_over(header: Sequence[Sequence[str]], at: int) -> list[bool]:
+    """Columns that are no places: rotations and errors, and what Motive solves from bones where it has the bones."""
+    kinds = next((row for row in header[:at] if sum(cell == "Position" for cell in row) > 2), [])
+    types = next((row for row in header[:at] if sum(cell in _TYPES for cell in row) > 2), [])
+    wanted = next((kind for kind in _TYPES if kind in types), "")
+    n = max(len(kinds), len(types))
+    other = [i < len(kinds) and kinds[i] not in ("", "Position") for i in range(n)]
+    return [other[i] or (i < len(types) and types[i] in _TYPES and types[i] != wanted) for i in range(n)]
 
 
 def _split(label: str) -> tuple[str, str]:
     score = _SCORE.match(label)
+    if TIME.match(label) or FRAME.match(label):
+        return label, ""
     if score:
         return score.group(1), "score"
     found = _SUFFIX.match(label)
@@ -119,7 +133,7 @@ def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: i
     for name, own in axes.items():
         if len(own) == 3:
             columns.points[name] = (own["x"], own["y"], own["z"])
-        elif name not in ("center", "M") and not wrong:
+        elif len(own) == 2:  # one alone is another word that ends in x, y or z
             wrong.append(f"{path}:{line}: {quoted(name)}: found {', '.join(sorted(own))}, expected x, y and z")
     if wrong:
         raise RecordingError("\n".join(wrong[:10]))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from emulator.recordings.joint_words import TRUNK, bare_name, said
+from emulator.recordings.joint_words import TRUNK, bare_name, said, without_common_start
 from emulator.skeleton import CANONICAL, EXTRA
 
 _ASF = {
@@ -29,6 +29,7 @@ def joints_of(names: Sequence[str], depth: Sequence[int] | None = None) -> tuple
     depth : joints from the root to each, where there is a hierarchy; of two that mean the same joint the one further
             out is taken, since rigs put a bone without length at its top
     """
+    names = without_common_start(names)
     words = [said(name) for name in names]
     spoken = {word for _, word in words}
     if {"knee", "elbow"} <= spoken and any("humerus" in name.lower() for name in names):

@@ -30,8 +30,9 @@ def parts_of_name(path: Path, names_as: str) -> dict[str, str]:
     named = [part for part in parts if part.startswith("{")]
     if not named or len(set(named)) != len(named):
         raise RecordingError(f"--names: found {names_as!r}, expected {{worker}} or {{trial}} in it, each once at most")
-    words = {"{worker}": r"(?P<worker>.+?)", "{trial}": r"(?P<trial>.+?)", "*": r".*?"}
-    found = re.fullmatch("".join(words.get(part) or re.escape(part) for part in parts), path.stem)
-    if found is None:
-        raise RecordingError(f"{path}: the name does not fit --names {names_as!r}")
-    return found.groupdict()
+    for one in (r"[^_\-. ]+", r".+?"):  # a part between two signs where that fits, else any
+        words = {"{worker}": f"(?P<worker>{one})", "{trial}": f"(?P<trial>{one})", "*": r".*?"}
+        found = re.fullmatch("".join(words.get(part) or re.escape(part) for part in parts), path.stem)
+        if found is not None:
+            return found.groupdict()
+    raise RecordingError(f"{path}: the name does not fit --names {names_as!r}")

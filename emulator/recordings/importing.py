@@ -11,7 +11,8 @@ import numpy as np
 
 from emulator.recordings import RecordingError
 from emulator.recordings.file_names import named
-from emulator.recordings.mapping import MappingReport, mapped
+from emulator.recordings.mapping import mapped
+from emulator.recordings.mapping_report import MappingReport
 from emulator.recordings.raw import format_of, read_takes
 from emulator.recordings.sides import SidesFound, checked_sides, mirrored, swapped_names
 from emulator.recordings.take import Recording, Take
@@ -19,6 +20,8 @@ from emulator.skeleton import Skeleton
 
 SIDES = ("swap", "mirror", "keep")
 """What to do where the whole body has left and right exchanged: exchange the names, the y axis, or nothing."""
+PINNED_M, MOVED_M = 0.001, 0.05
+"""A pelvis that moves less while feet move more is the origin of the file, not a place in the room."""
 
 
 @dataclass(frozen=True)
@@ -158,5 +161,22 @@ def _looked_at(path: Path, take: Take, report: MappingReport, sides: SidesFound)
     notes = [*take.notes, f"joints: {report.summary()}"]
     notes += [f"made {row.joint} ({row.why})" for row in report.of("made") if len(report.of("made")) <= 6]
     notes += [f"not known and left out: {', '.join(unknown)}"] if unknown else []
+    if _is_pinned(take):
+        notes.append("the pelvis stays where it is while the feet move: way and height above the floor are not known")
     notes.append(f"sides: {sides.words()}")
     return Imported(str(path), format_of(path), take, report, sides, gaps.mean(axis=0), bone_m, spread_m, tuple(notes))
+
+
+def _is_pinned(take: Take) -> bool:
+    """Whether places are relative to the pelvis, as some trackers give them."""
+    root = take.positions_m[:, take.names.index("pelvis")]
+    feet = [i for i, name in enumerate(take.names) if name.endswith(("_ankle", "_toe"))]
+    if not feet or not np.isfinite(root).all(axis=-1).any():
+        return False
+    return bool(_range_m(root) < PINNED_M and max(_range_m(take.positions_m[:, i]) for i in feet) > MOVED_M)
+
+
+def _range_m(places: np.ndarray) -> float:
+    """How far a point (T, 3) moves along the axis of most movement; 0 where it is never seen."""
+    seen = places[np.isfinite(places).all(axis=-1)]
+    return float(np.ptp(seen, axis=0).max()) if len(seen) else 0.0

@@ -9,6 +9,7 @@ Biped, Unity and VRM, Bandai Namco, SMPL, Kinect, OpenPose BODY_25, COCO, Halpe 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 
 TRUNK = "trunk"
@@ -70,6 +71,21 @@ def bare_name(name: str) -> str:
         letter = re.match(r"(?i)^j_?bip_?([lr])_", bare)  # VRM says the side in the prefix
         bare = f"{letter.group(1)}_{lost}" if letter else lost
     return bare
+
+
+def without_common_start(names: Sequence[str]) -> list[str]:
+    """The names without what all begin with up to a sign, such as the person in ``Ana_LFHD``; a side is kept."""
+    bare = [re.split(r"[:|]", name)[-1].strip() for name in names]
+    start = re.match(r".*[_.\-\s]", _common_start(bare)) if len(bare) > 3 else None
+    if start is None or _PREFIX.match(bare[0]) or _plain(start[0]) in ("", "l", "r", "left", "right"):
+        return list(names)
+    return [name[start.end() :] for name in bare]
+
+
+def _common_start(words: Sequence[str]) -> str:
+    first, last = min(words), max(words)
+    n = next((i for i, (a, b) in enumerate(zip(first, last)) if a != b), min(len(first), len(last)))
+    return first[:n]
 
 
 def known_words() -> list[str]:

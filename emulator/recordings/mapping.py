@@ -7,7 +7,7 @@ which no trunk and no heading can be had are made where the body tells them. Eve
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from emulator.recordings.dialect import joints_of
 from emulator.recordings.hanging import depths, hung_as_bodies_are, hung_as_in_the_file, without_length
 from emulator.recordings.joint_words import bare_name, known_words
 from emulator.recordings.mapping_file import LEFT_OUT, read_mapping
+from emulator.recordings.mapping_report import MappedJoint, MappingReport
 from emulator.recordings.markers import joints_from_markers
 from emulator.recordings.take import Take
 from emulator.skeleton import CANONICAL, EXTRA
@@ -32,32 +33,6 @@ _MADE = {
     "right_hand": (("right_index", "right_pinky"),),
 }
 """Joints that can be made, as the middle of the first of these that are all there."""
-
-
-@dataclass(frozen=True)
-class MappedJoint:
-    """What became of a joint of the file: ``became`` is "kept", "made", "left out" or "unknown"."""
-
-    name: str
-    became: str
-    joint: str = ""
-    why: str = ""
-
-
-@dataclass(frozen=True)
-class MappingReport:
-    """One row for each joint of the file and each joint made."""
-
-    rows: tuple[MappedJoint, ...]
-
-    def of(self, became: str) -> tuple[MappedJoint, ...]:
-        """The rows of one kind."""
-        return tuple(row for row in self.rows if row.became == became)
-
-    def summary(self) -> str:
-        """The numbers of joints of each kind in a sentence."""
-        kinds = ("kept", "made", "left out", "unknown")
-        return ", ".join(f"{len(rows)} {kind}" for kind in kinds if (rows := self.of(kind)))
 
 
 def mapped(take: Take, mapping_file: Path | None = None, *, where: str = "") -> tuple[Take, MappingReport]:

@@ -15,6 +15,7 @@ import numpy as np
 from emulator.recordings import RecordingError
 from emulator.recordings.axes import UNITS_M, placed
 from emulator.recordings.columns import Columns, columns_of, in_threes, read_names
+from emulator.recordings.keypoint_sets import KEYPOINTS
 from emulator.recordings.markers import PLUG_IN_GAIT
 from emulator.recordings.table import Table, number_of, read_table
 from emulator.recordings.take import Take
@@ -22,7 +23,7 @@ from emulator.recordings.timing import rate_of, without_missing_frames
 
 MIN_SCORE = 0.3
 """A point of less confidence is not there: half of what trackers call certain, and more than their guesses."""
-KNOWN_COLUMNS = {"plug-in-gait": PLUG_IN_GAIT}
+KNOWN_COLUMNS: dict[str, tuple[str, ...]] = {"plug-in-gait": PLUG_IN_GAIT, **KEYPOINTS}
 """Names of columns that need no file."""
 _RATE_WORDS = ("frequency", "export frame rate", "capture frame rate", "frame rate", "datarate", "fps", "sampling rate")
 _UNIT_WORDS = {
@@ -46,14 +47,13 @@ def read_csv(
     Raises RecordingError with the lines, and where unit, axis or rate are neither given nor to be found.
     """
     table = read_table(path)
-    if columns is not None:
-        found = in_threes(path, _named(columns), table.values.shape[1])
+    if columns is None and not table.header:
+        raise _nameless(path, table.values.shape[1])
+    names = _qualisys_names(table) if columns is None else _named(columns)
+    if names:
+        found = in_threes(path, names, _width(table.values, 3 * len(names)))
     else:
-        qualisys = _qualisys_names(table)
-        width = table.values.shape[1]
-        found = (
-            in_threes(path, qualisys, width) if qualisys else columns_of(path, table.header, table.header_line, width)
-        )
+        found = columns_of(path, table.header, table.header_line, table.values.shape[1])
     positions, notes = points_of(table.values, found, min_score)
     rate, said = rate_of(path, rate_hz, _said_rate(table), table.values, found, table.line)
     positions, more = without_missing_frames(path, positions, table.values, found)
@@ -88,6 +88,22 @@ def _named(columns: Path | str) -> Sequence[str]:
         known = ", ".join(KNOWN_COLUMNS)
         raise RecordingError(f"{columns}: no such file, expected one with the names of the points, or {known}")
     return read_names(Path(columns))
+
+
+def _nameless(path: Path, width: int) -> RecordingError:
+    fitting = [name for name, names in KNOWN_COLUMNS.items() if len(names) == width / 3]
+    hint = f" ({width // 3} points are perhaps {fitting[0]})" if fitting else ""
+    return RecordingError(
+        f"{path}: found {width} columns of numbers without names, expected a header; name them with --columns{hint}"
+    )
+
+
+def _width(values: np.ndarray, least: int) -> int:
+    """Columns of a table without those at its end that are empty, as a sign at the end of each row makes one."""
+    width = values.shape[1]
+    while width > least and np.isnan(values[:, width - 1]).all():
+        width -= 1
+    return width
 
 
 def _qualisys_names(table: Table) -> list[str]:

@@ -11,16 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emulator.recordings.joint_words import bare_name
+from emulator.recordings.hanging import hung_as_bodies_are
+from emulator.recordings.joint_words import without_common_start
+from emulator.recordings.mapping_report import MappedJoint
+from emulator.recordings.marker_names import marker_name
 from emulator.recordings.take import Take
 from emulator.skeleton import CANONICAL
-
-if TYPE_CHECKING:
-    from emulator.recordings.mapping import MappedJoint
 
 PLUG_IN_GAIT = (
     "LFHD", "RFHD", "LBHD", "RBHD", "C7", "T10", "CLAV", "STRN", "RBAK", "LSHO", "LUPA", "LELB", "LFRM", "LWRA", "LWRB",
@@ -32,12 +31,12 @@ _MIDDLES: dict[str, tuple[tuple[str, ...], ...]] = {
     "pelvis": (("LASI", "RASI", "LPSI", "RPSI"),),
     "chest": (("T10", "STRN"), ("T10",), ("STRN",)),
     "neck": (("C7", "CLAV"), ("LSHO", "RSHO")),
-    "head": (("LFHD", "RFHD", "LBHD", "RBHD"), ("LFHD", "RFHD"), ("LBHD", "RBHD")),
+    "head": (("LFHD", "RFHD", "LBHD", "RBHD"), ("LFHD", "RFHD"), ("LBHD", "RBHD"), ("HEADL", "HEADR"), ("HEADTOP",)),
 }
 _SIDED: dict[str, tuple[tuple[str, ...], ...]] = {
     "shoulder": (("SHO",), ("ACR",)),
     "elbow": (("ELB", "MELB"), ("ELB", "ELBM"), ("ELB",), ("ELBL",)),
-    "wrist": (("WRA", "WRB"), ("WRI",)),
+    "wrist": (("WRA", "WRB"), ("WRI",), ("WRA",)),
     "hand": (("FIN",),),
     "knee": (("KNE", "MKNE"), ("KNE", "KNM"), ("KNE", "KNEM"), ("KNE",)),
     "ankle": (("ANK", "MMA"), ("ANK", "MED"), ("ANK", "ANKM"), ("ANK",)),
@@ -51,9 +50,6 @@ _SIGNS = ("LASI", "RASI", "LSHO", "RSHO", "LKNE", "RKNE")
 
 def joints_from_markers(take: Take) -> tuple[Take, list[MappedJoint]] | None:
     """The take's joints out of its markers, and what became of each; None where it is no such set."""
-    from emulator.recordings.hanging import hung_as_bodies_are
-    from emulator.recordings.mapping import MappedJoint
-
     markers = _markers(take)
     if not set(_SIGNS) <= set(markers) or not ({"LPSI", "RPSI"} & set(markers)):
         return None
@@ -61,9 +57,8 @@ def joints_from_markers(take: Take) -> tuple[Take, list[MappedJoint]] | None:
     joints = sorted(made, key=CANONICAL.index)
     rows = [MappedJoint("", "made", joint, ways[joint]) for joint in joints]
     used = " ".join(ways.values())
-    rows += [
-        MappedJoint(name, "left out", "", "no joint") for name in take.names if bare_name(name).upper() not in used
-    ]
+    plain = [marker_name(name) for name in without_common_start(take.names)]
+    rows += [MappedJoint(name, "left out", "", "no joint") for name, word in zip(take.names, plain) if word not in used]
     note = "joints made of markers: hips by regression (Harrington 2007); shoulders, elbows, knees, ankles on the skin"
     positions = np.stack([made[joint] for joint in joints], axis=1)
     parents = hung_as_bodies_are(joints)
@@ -72,7 +67,8 @@ def joints_from_markers(take: Take) -> tuple[Take, list[MappedJoint]] | None:
 
 def _markers(take: Take) -> dict[str, np.ndarray]:
     """Positions (T, 3) by the marker's name in capitals, without the subject's name."""
-    markers = {bare_name(name).upper(): take.positions_m[:, i] for i, name in enumerate(take.names)}
+    names = [marker_name(name) for name in without_common_start(take.names)]
+    markers = {name: take.positions_m[:, i] for i, name in enumerate(names)}
     for other in ("SACR", "SAC"):  # one marker between the two of the back
         if other in markers and "LPSI" not in markers:
             markers |= {"LPSI": markers[other], "RPSI": markers[other]}

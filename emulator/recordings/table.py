@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from array import array
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -17,6 +18,8 @@ from emulator.recordings.text import quoted, text_lines
 MOST_HEADER_LINES = 60
 MOST_COLUMNS = 20_000
 MOST_SAID = 10
+_TIME_OF_DAY = re.compile(r"^\d{1,2}:\d{2}:\d{2}\b")
+"""A time code beside the numbers is no number and no mistake."""
 _EMPTY = {"", "nan", "null", "none", "na", "n/a", "-", "#n/a", "missing"}
 
 
@@ -114,7 +117,7 @@ def _quickly(text: str, cells: list[str], sign: str | None) -> list[float] | Non
 
 def number_of(cell: str, sign: str | None = None) -> float | None:
     """The number, nan for an empty cell, None for text and for what is no finite number."""
-    if cell.lower() in _EMPTY:
+    if cell.lower() in _EMPTY or _TIME_OF_DAY.match(cell):
         return float("nan")
     try:
         value = float(cell.replace(",", ".") if sign == ";" else cell)

@@ -67,6 +67,14 @@ def test_the_joints_of_a_rig_are_known(rig):
     assert dict(zip(pairs, found)) == pairs
 
 
+def test_what_all_names_begin_with_is_nobodys_side():
+    names = ["pelvis", "left_hip", "right_hip", "neck", "l_knee"]
+    for person in ("Ana_", "left handed_", "S-1.", "Rob_Lee_"):
+        assert joints_of([person + name for name in names])[:4] == ("pelvis", "left_hip", "right_hip", "neck"), person
+    left = ["left_hip", "left_knee", "left_ankle", "left_toe"]
+    assert joints_of(left) == tuple(left)
+
+
 @pytest.mark.parametrize("names", [COCO_17, BODY_25, HALPE_26, BLAZEPOSE_33], ids=len)
 def test_every_limb_of_a_tracker_is_known_and_no_point_twice(names):
     found = [joint for joint in joints_of(names) if joint in CANONICAL]

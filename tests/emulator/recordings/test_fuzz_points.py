@@ -102,13 +102,14 @@ def test_a_damaged_mapping_file(tmp_path, content):
     assert set(mapping) <= {"a", "b", "d"} and set(mapping.values()) <= {*CANONICAL, *EXTRA, "-"}
 
 
-WORDS = st.sampled_from(
+KNOWN = st.sampled_from(
     [*CANONICAL, *EXTRA, "Hips", "LeftArm", "LASI", "Bip01", "Spine1", "mixamorig:Neck", "nose", "x_end"]
 )
+WORDS = KNOWN | st.text(min_size=1, max_size=12)
 
 
 @MANY
-@given(names=st.lists(WORDS | st.text(min_size=1, max_size=12), min_size=1, max_size=30, unique=True), tree=st.randoms())
+@given(names=st.lists(WORDS, min_size=1, max_size=30, unique=True), tree=st.randoms())
 def test_any_names_are_mapped_or_refused(names, tree):
     joints = joints_of(names)
     kept = [joint for joint in joints if joint in (*CANONICAL, *EXTRA)]
@@ -118,7 +119,7 @@ def test_any_names_are_mapped_or_refused(names, tree):
     try:
         take, report = mapped(Take(tuple(names), parents, places, 30.0), where="a.bvh")
     except RecordingError as error:
-        assert str(error).startswith("a.bvh: found no ")
+        assert str(error).startswith("a.bvh: found ")
         return
     assert take.names[0] == "pelvis" and take.parents[0] == -1 and take.parents.count(-1) == 1
     assert {row.name for row in report.rows if row.name} == set(names)

@@ -164,6 +164,22 @@ def test_markers_on_the_inner_side_make_the_joint_their_middle():
     assert np.allclose(joint(made, "left_knee"), places[names.index("Ana:LKNE")] + np.array([0, -0.05, 0]))
 
 
+@pytest.mark.parametrize("person", ["", "Ana:", "Ana_", "x_"])
+def test_markers_of_qualisys_and_optitrack_make_the_same_joints(person):
+    alike = {
+        "HeadL": "LFHD", "HeadR": "RFHD", "SpineTop": "C7", "WaistLFront": "LASI", "WaistRFront": "RASI",
+        "WaistLBack": "LPSI", "WaistRBack": "RPSI", "LShoulderTop": "LSHO", "RShoulderTop": "RSHO", "LElbowOut": "LELB",
+        "RElbowOut": "RELB", "LWristOut": "LWRA", "LWristIn": "LWRB", "RWristOut": "RWRA", "RWristIn": "RWRB",
+        "LKneeOut": "LKNE", "RKneeOut": "RKNE", "LAnkleOut": "LANK", "RAnkleOut": "RANK", "LToeTip": "LTOE",
+        "RToeTip": "RTOE",
+    }  # fmt: skip
+    places = np.random.default_rng(1).normal(size=(3, len(alike), 3))
+    ours, _ = mapped(Take(tuple(alike.values()), None, places, 100.0))
+    theirs, _ = mapped(Take(tuple(person + name for name in alike), None, places, 100.0))
+    assert ours.names == theirs.names and len(ours.names) > 14
+    assert np.array_equal(ours.positions_m, theirs.positions_m)
+
+
 def test_hips_lie_between_and_below_the_pelvis_markers_as_harrington_says():
     from emulator.recordings.markers import hip_centres
 

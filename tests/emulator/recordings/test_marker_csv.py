@@ -98,11 +98,55 @@ def test_a_tsv_of_qualisys(tmp_path):
     ]  # fmt: skip
     holes = MM.copy()
     holes[3, 4] = 0.0
-    take = read_take(written(tmp_path, table_text(header, holes, "\t"), "a.tsv"))
+    text = table_text(header, holes, "\t").replace("\n", "\t\n")
+    take = read_take(written(tmp_path, text, "a.tsv"))
     expected = PLACES.copy()
     expected[3, 4] = np.nan
     check(take, expected)
     assert take.rate_hz == 50.0 and any("1 points at exactly 0, 0, 0" in note for note in take.notes)
+
+
+def motive(types, names, places):
+    """A Motive file with a time of day beside the numbers."""
+    header = [
+        "Format Version,1.24,Take Name,a,Capture Frame Rate,50.0,Export Frame Rate,50.0,Rotation Type,Quaternion",
+        "",
+        ",Type,," + ",".join(kind for kind in types for _ in range(3)),
+        ",Name,," + ",".join(f'"{name}"' for name in names for _ in range(3)),
+        ",,," + ",".join(["Position"] * 3 * len(names)),
+        "Frame,Time (Seconds),TimeCode" + ",X,Y,Z" * len(names),
+    ]
+    rows = table_text([], places).splitlines()
+    lines = [f"{i},{i / 50:.6f},15:26:{i // 50:02d}:{i % 50:02d}.02,{row}" for i, row in enumerate(rows)]
+    return "\n".join([*header, *lines])
+
+
+def test_of_a_motive_file_with_bones_and_markers_the_bones_are_read(tmp_path):
+    types = ["Bone"] * len(NAMES) + ["Bone Marker", "Marker"]
+    names = [*NAMES, "head", "Unlabeled 1189"]
+    places = np.concatenate([PLACES, PLACES[:, :2] + 9], axis=1)
+    take = read_csv(written(tmp_path, motive(types, names, places)))
+    check(take)
+    assert take.rate_hz == 50.0
+
+
+def test_of_measured_and_solved_markers_of_one_name_the_measured_are_read(tmp_path):
+    types = ["Rigid Body Marker"] * len(NAMES) + ["Marker"] * len(NAMES)
+    places = np.concatenate([PLACES + 9, PLACES], axis=1)
+    check(read_csv(written(tmp_path, motive(types, [*NAMES, *NAMES], places))))
+
+
+def test_names_are_told_from_other_words_above_the_coordinates(tmp_path):
+    few = ["pelvis", "left_hip", "right_hip", "neck"]
+    places = PLACES[:, [NAMES.index(name) for name in few]]
+    header = [
+        "a,b,c,d,e,f,g,h,i,j,k,l,m,n",
+        "," + ",".join(f"{name},," for name in few),
+        "," + ",".join(["1", "1", "1"] * 4),
+        "Frame" + ",X,Y,Z" * 4,
+    ]
+    text = table_text(header, places, first=np.arange(40))
+    assert read_csv(written(tmp_path, text), rate_hz=50.0, unit_m=1.0, up="z").names == tuple(few)
 
 
 def test_the_rows_of_deeplabcut(tmp_path):
@@ -152,9 +196,17 @@ def test_bare_numbers_need_names(tmp_path):
         check(read_csv(path, rate_hz=50.0, columns=written(tmp_path, text, "names.txt")))
 
 
+def test_other_columns_are_passed_over(tmp_path):
+    header = flat_header() + ",frame_index,velocity,freq_hz,force"
+    text = table_text([header], np.concatenate([MM.reshape(40, -1), np.arange(160).reshape(40, 4)], axis=1))
+    check(read_csv(written(tmp_path, text), rate_hz=50.0))
+
+
 def test_known_columns_need_no_file(tmp_path):
     path = written(tmp_path, table_text([], np.resize(MM, (40, 39, 3))))
     assert read_csv(path, rate_hz=50.0, columns="plug-in-gait", unit_m=0.001, up="z").names[:2] == ("LFHD", "RFHD")
+    with pytest.raises(RecordingError, match=r"name them with --columns \(39 points are perhaps plug-in-gait\)"):
+        read_csv(path, rate_hz=50.0)
     with pytest.raises(
         RecordingError, match="no such file, expected one with the names of the points, or plug-in-gait"
     ):
