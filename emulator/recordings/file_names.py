@@ -21,7 +21,7 @@ def named(take: Take, path: Path, worker: str | None, trial: str | None, names_a
     who, which = _WORKER.search(path.stem), _TRIAL.search(path.stem)
     told = worker or said.get("worker") or (who.group(1) if who else "unknown")
     run = trial or said.get("trial") or (which.group(1) if which and who else path.stem)
-    return replace(take, worker=told, trial=run if n == 1 else f"{run} {take.trial}")
+    return replace(take, worker=told, trial=run if n == 1 else f"{take.worker} {take.trial}")
 
 
 def parts_of_name(path: Path, names_as: str) -> dict[str, str]:

@@ -119,7 +119,10 @@ def _exchanged(take: Take, left: Sequence[str]) -> Take:
         if name in take.names and twin in take.names:
             pair = [take.names.index(name), take.names.index(twin)]
             places[:, pair] = take.positions_m[:, pair[::-1]]
-    return replace(take, positions_m=places)
+    contact = take.contact
+    if contact is not None and "left_ankle" in left:  # said of the feet by their names
+        contact = np.asarray(contact)[:, ::-1]
+    return replace(take, positions_m=places, contact=contact)
 
 
 def _length(take: Take, start: str, end: str) -> np.ndarray:

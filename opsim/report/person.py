@@ -40,7 +40,7 @@ def draw_person(axes: Any, flat: np.ndarray, nearness: np.ndarray, at_m: float, 
 
     names = list(skeleton.names)
     x, z = flat[:, 0] + at_m, flat[:, 1]
-    if set(TORSO) <= set(names):
+    if set(TORSO) <= set(names) and np.isfinite(flat[[names.index(name) for name in TORSO]]).all():
         corners = [(x[names.index(name)], z[names.index(name)]) for name in TORSO]
         axes.add_patch(Polygon(corners, facecolor="#cdd2d9", edgecolor="#cdd2d9", lw=6, joinstyle="round", zorder=10))
     middle = nearness[skeleton.parents.index(-1)]
@@ -51,5 +51,6 @@ def draw_person(axes: Any, flat: np.ndarray, nearness: np.ndarray, at_m: float, 
         style = {"solid_capstyle": "round", "solid_joinstyle": "round"}
         axes.plot(x[line], z[line], color="white", lw=4.6, zorder=layer, **style)
         axes.plot(x[line], z[line], color=colour, lw=3.0, zorder=layer + 0.001, **style)
-    head = names.index("head")
-    axes.add_patch(Circle((x[head], z[head]), 0.1, facecolor="#f4f5f7", edgecolor=TRUNK, lw=2.2, zorder=12))
+    head = names.index("head") if "head" in names else None
+    if head is not None and np.isfinite(flat[head]).all():
+        axes.add_patch(Circle((x[head], z[head]), 0.1, facecolor="#f4f5f7", edgecolor=TRUNK, lw=2.2, zorder=12))

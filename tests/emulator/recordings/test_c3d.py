@@ -124,3 +124,30 @@ def test_what_is_wrong_is_said(tmp_path, content, said):
     path.write_bytes(content)
     with pytest.raises(RecordingError, match=said):
         read_c3d(path)
+
+
+def test_analog_channels_and_angles_beside_the_points_are_passed_over(tmp_path):
+    ezc3d = pytest.importorskip("ezc3d")
+    file = ezc3d.c3d()
+    point, analog = file["parameters"]["POINT"], file["parameters"]["ANALOG"]
+    point["RATE"]["value"], point["UNITS"]["value"] = [100.0], ["mm"]
+    point["LABELS"]["value"] = [*NAMES, "LHipAngles"]
+    file.add_parameter("POINT", "ANGLES", ["LHipAngles"])
+    held = np.ones((4, len(NAMES) + 1, len(MM)))
+    held[:3, :-1] = MM.transpose(2, 1, 0)
+    file["data"]["points"] = held
+    analog["RATE"]["value"], analog["LABELS"]["value"] = [1000.0], ["Fx", "Fy"]
+    file["data"]["analogs"] = np.random.default_rng(0).normal(size=(1, 2, 10 * len(MM)))
+    file.write(str(tmp_path / "a.c3d"))
+    take = read_c3d(tmp_path / "a.c3d")
+    assert take.names == NAMES and np.allclose(take.positions_m, TAKE.positions_m, atol=1e-6)
+
+
+def test_more_labels_than_one_parameter_holds(tmp_path):
+    ezc3d = pytest.importorskip("ezc3d")
+    names = [*NAMES, *(f"more{i}" for i in range(280))]
+    places = np.concatenate([MM, np.ones((len(MM), 280, 3)) * np.arange(280)[:, None]], axis=1)
+    path = write_c3d(tmp_path / "a.c3d", names, places)
+    labels = ezc3d.c3d(str(path))["parameters"]["POINT"]
+    assert "LABELS2" in labels
+    assert read_c3d(path, unit_m=0.001, up="z").names == tuple(names)

@@ -31,7 +31,7 @@ def test_what_is_given_goes_before_what_the_name_says():
 
 
 def test_several_takes_of_a_file_keep_their_trials_apart():
-    assert named(body(), Path("s01_e02.npz"), "ana", None, None, 3).name == "ana/e02 1"
+    assert named(body(), Path("s01_e02.npz"), "ana", None, None, 3).name == "ana/unknown 1"
 
 
 @pytest.mark.parametrize(

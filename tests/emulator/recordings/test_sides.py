@@ -79,6 +79,14 @@ def test_sides_do_not_depend_on_where_the_body_looks():
         assert checked_sides(mirrored(turned))[1].verdict == "swapped"
 
 
+def test_contact_goes_with_the_feet():
+    contact = np.zeros((60, 2), bool)
+    contact[:, 0] = True
+    take = replace(body(60), contact=contact)
+    assert swapped_names(take).contact[:, 1].all() and not swapped_names(take).contact[:, 0].any()
+    assert np.array_equal(mirrored(take).contact, contact)
+
+
 def test_two_exchanges_are_none():
     take = body()
     assert np.array_equal(swapped_names(swapped_names(take)).positions_m, take.positions_m)

@@ -1,0 +1,170 @@
+"""``opsim motion import``: files in, a recording and its picture out; mistakes all at once, nothing half written."""
+
+import json
+
+import numpy as np
+import pytest
+
+from emulator import read_motions
+from emulator.recordings.takes_npz import read_recording
+from tests.emulator.recordings.body import body, table_text, trc_text
+from tests.opsim.cli.calls import opsim
+
+TAKE = body(40, 50.0)
+HEADER = ",".join(f"{name}_{axis}" for name in TAKE.names for axis in "xyz")
+
+
+@pytest.fixture
+def csv(tmp_path):
+    """A maker of CSV files: ``csv("s01_e02.csv")``, the positions times ``by``."""
+
+    def make(name, by=1000.0, places=TAKE.positions_m):
+        path = tmp_path / name
+        path.write_text(table_text([HEADER], by * places))
+        return path
+
+    return make
+
+
+def imported(*words):
+    return opsim("motion", "import", *words)
+
+
+def test_files_become_takes_of_one_recording(tmp_path, csv):
+    out = tmp_path / "out.npz"
+    code, said, err = imported(csv("s01_e01.csv"), csv("s01_e02.csv", 100.0), "-o", out, "--rate", 50)
+    assert code == 0, err
+    recording = read_recording(out)
+    assert [take.name for take in recording.takes] == ["s01/e01", "s01/e02"]
+    for take in recording.takes:
+        assert np.allclose(take.positions_m, TAKE.positions_m, atol=1e-6) and take.rate_hz == 50.0
+    assert "unit found from the body: cm" in said and "s01_e02.csv" in said and str(out) in said
+    assert "import: s01_e02.csv: 2 of 2" in err
+    assert (tmp_path / "out.import.svg").read_text().startswith("<?xml")
+
+
+def test_what_is_imported_can_be_fitted_from(tmp_path, csv):
+    out = tmp_path / "reach.npz"
+    files = [csv(f"s0{k}_e01.csv") for k in range(1, 4)]
+    assert imported(*files, "-o", out, "--rate", 50, "--source", "ours", "--licence", "MIT")[0] == 0
+    motions = read_motions(out)
+    assert (len(motions), motions.workers, motions.source, motions.licence) == (3, ("s01", "s02", "s03"), "ours", "MIT")
+
+
+def test_the_same_files_give_the_same_bytes(tmp_path, csv):
+    for out in ("a.npz", "b.npz"):
+        assert (
+            imported(csv("s01_e01.csv"), "-o", tmp_path / out, "--rate", 50, "--picture", tmp_path / f"{out}.svg")[0]
+            == 0
+        )
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+    assert (tmp_path / "a.npz.svg").read_bytes() == (tmp_path / "b.npz.svg").read_bytes()
+
+
+def test_an_imported_recording_is_imported_again_as_it_is(tmp_path, csv):
+    first, again = tmp_path / "a.npz", tmp_path / "b.npz"
+    assert imported(csv("s01_e01.csv"), "-o", first, "--rate", 50, "--source", "ours", "--licence", "MIT")[0] == 0
+    assert imported(first, "-o", again)[0] == 0
+    one, other = read_recording(first), read_recording(again)
+    assert np.array_equal(one.takes[0].positions_m, other.takes[0].positions_m)
+    assert (other.source, other.licence, other.takes[0].name) == ("ours", "MIT", "s01/e01")
+
+
+def test_json_for_machines(tmp_path, csv):
+    code, said, _ = imported(
+        csv("a.csv"), "-o", tmp_path / "out.npz", "--rate", 50, "--worker", "ana", "--trial", "7", "--json"
+    )
+    take = json.loads(said)["takes"][0]
+    assert code == 0 and (take["take"], take["frames"], take["sides"], take["gap_share"]) == ("ana/7", 40, "right", 0)
+    assert take["joints"] == list(TAKE.names)
+
+
+def test_workers_and_trials_by_a_pattern(tmp_path, csv):
+    files = [csv("HDM_bd_reach_001_50.csv"), csv("HDM_dg_reach_002_50.csv")]
+    out = tmp_path / "out.npz"
+    assert imported(*files, "-o", out, "--rate", 50, "--names", "HDM_{worker}_*_{trial}_*")[0] == 0
+    assert [take.name for take in read_recording(out).takes] == ["bd/001", "dg/002"]
+    code, _, err = imported(*files, "-o", out, "--rate", 50, "--names", "X_{worker}")
+    assert code == 2 and err.count("the name does not fit --names") == 2
+    assert imported(*files, "-o", out, "--rate", 50, "--names", "X_*")[0] == 2
+
+
+def test_exchanged_sides_are_asked_for_and_mended(tmp_path, csv):
+    mirrored = csv("m.csv", places=TAKE.positions_m * [1, -1, 1])
+    out = tmp_path / "out.npz"
+    code, _, err = imported(mirrored, "-o", out, "--rate", 50)
+    assert code == 2 and "left and right are exchanged: by its toes" in err and "--sides mirror" in err
+    assert not out.exists() and not (tmp_path / "out.import.svg").exists()
+    assert imported(mirrored, "-o", out, "--rate", 50, "--sides", "mirror")[0] == 0
+    assert np.allclose(read_recording(out).takes[0].positions_m, TAKE.positions_m, atol=1e-6)
+
+
+def test_a_mapping_file_names_what_is_not_known(tmp_path, csv):
+    path = tmp_path / "a.csv"
+    path.write_text(table_text([HEADER.replace("left_hip", "bone7")], TAKE.positions_m))
+    out = tmp_path / "out.npz"
+    code, _, err = imported(path, "-o", out, "--rate", 50)
+    assert code == 2 and "found no pelvis" not in err and "found no left_hip" in err and "'bone7'" in err
+    names = tmp_path / "names.txt"
+    names.write_text("bone7: left_hip\n")
+    assert imported(path, "-o", out, "--rate", 50, "--map", names)[0] == 0
+
+
+def test_unknown_joints_are_said_with_the_nearest(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table_text([HEADER.replace("left_hand", "left_hnad")], TAKE.positions_m))
+    code, said, _ = imported(path, "-o", tmp_path / "out.npz", "--rate", 50)
+    assert code == 0 and "not known: left_hnad (nearest: left_hand)" in said
+
+
+def test_all_mistakes_of_all_options_are_said_at_once(tmp_path, csv):
+    file = csv("a.csv")
+    code, _, err = imported(
+        file, file, "-o", tmp_path / "out.csv", "--unit", "mile", "--up", "w", "--rate", "fast", "--min-score", 7,
+        "--sides", "both", "--trial", "1", "--worker", " ", "--map", "no.txt", "--asf", "no.asf", "--picture", "a.gif",
+    )  # fmt: skip
+    assert code == 2
+    for word in ("out.csv", "--unit", "--up", "--rate", "--min-score", "--sides", "--trial", "--worker", "--picture"):
+        assert word in err, word
+
+
+def test_the_mistakes_of_all_files_are_said_and_nothing_is_written(tmp_path, csv):
+    (tmp_path / "b.trc").write_text("nothing")
+    (tmp_path / "c.bvh").write_text("nothing")
+    out = tmp_path / "new" / "out.npz"
+    code, _, err = imported(csv("s01_e01.csv"), tmp_path / "b.trc", tmp_path / "c.bvh", tmp_path / "d.xyz", "-o", out)
+    assert code == 2 and not out.parent.exists()
+    for name in ("s01_e01.csv", "b.trc", "c.bvh", "d.xyz"):
+        assert name in err
+
+
+def test_takes_that_do_not_go_together_are_refused(tmp_path, csv):
+    other = tmp_path / "s01_e03.trc"
+    other.write_text(trc_text(TAKE.names[:-1], 1000 * TAKE.positions_m[:, :-1]))
+    code, _, err = imported(csv("s01_e01.csv"), other, "-o", tmp_path / "out.npz")
+    assert code == 2 and "--rate" in err
+    path = tmp_path / "s01_e04.csv"
+    path.write_text(table_text(["time," + HEADER], TAKE.positions_m, first=np.arange(40) / 50))
+    code, _, err = imported(path, other, "-o", tmp_path / "out.npz")
+    assert code == 2 and "s01_e03.trc: found no right_toe, expected the joints of" in err
+    assert "found 100 frames a second, expected 50" in err
+    copy = tmp_path / "sub" / "s01_e04.csv"
+    copy.parent.mkdir()
+    copy.write_text(path.read_text())
+    code, _, err = imported(path, copy, "-o", tmp_path / "out.npz")
+    assert code == 2 and "both are called s01/e04" in err
+
+
+def test_the_file_that_is_read_is_not_overwritten(tmp_path, csv):
+    out = tmp_path / "a.npz"
+    assert imported(csv("a.csv"), "-o", out, "--rate", 50)[0] == 0
+    before = out.read_bytes()
+    code, _, err = imported(out, "-o", out)
+    assert code == 2 and "is read, expected another file" in err and out.read_bytes() == before
+
+
+def test_gaps_are_counted_and_drawn(tmp_path, csv):
+    holes = TAKE.positions_m.copy()
+    holes[5:15, TAKE.names.index("left_hand")] = np.nan
+    code, said, _ = imported(csv("a.csv", places=holes), "-o", tmp_path / "o.npz", "--rate", 50, "--json")
+    assert code == 0 and json.loads(said)["takes"][0]["gap_share"] == pytest.approx(10 / 40 / 21)
