@@ -6,23 +6,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from emulator.cleaning.bridge import neighbours
-from emulator.recordings.take import Take
-
 
 def companions(
-    take: Take,
     positions_m: np.ndarray,
     joint: int,
     seen: np.ndarray,
     rigid_m: float,
     pieces: Sequence[slice] = (slice(None),),
+    most_wander_m: float = np.inf,
 ) -> list[int]:
     """Three points that move with ``joint``: the first two at a distance that varies by ``rigid_m`` at most, the third
-    as few bones away as can be, so that an ankle stays in the plane of its leg.
+    the one in whose frame the joint wanders least.
 
     positions_m : (T, J, 3), nan where not seen
     seen        : (T,) the frames in which they must be seen: those to be filled, and one on either side
+    most_wander_m : standard deviation of the joint's place in their frame beyond which they say too little
     pieces      : the stretches within which the distance is looked at; the joint may have stepped between them
     returns     : three joint numbers that never lie in one line, or none where there are not three
     """
@@ -36,23 +34,21 @@ def companions(
     order = [int(j) for j in np.lexsort((np.round(mean, 6), np.round(spread, 4))) if usable[j]]
     if len(order) < 3 or spread[order[1]] > rigid_m:
         return []
-    bones = _bones_away(take, joint)
-    for third in sorted(order[2:], key=lambda j: bones[j]):
-        if _in_no_line(positions_m[seen][:, [order[0], order[1], third]]):
-            return [order[0], order[1], third]
-    return []
+    possible = [third for third in order[2:] if _in_no_line(positions_m[seen][:, [order[0], order[1], third]])]
+    if not possible:
+        return []
+    whole = np.concatenate([np.arange(len(positions_m))[piece] for piece in pieces])
+    wander = {third: _wander(positions_m[whole], joint, [order[0], order[1], third]) for third in possible}
+    third = min(wander, key=lambda j: wander[j])
+    return [order[0], order[1], third] if wander[third] <= most_wander_m else []
 
 
-def _bones_away(take: Take, joint: int) -> list[int]:
-    """How many bones lie between a joint and each; the same for all where the points are markers."""
-    away = {joint: 0}
-    edge = [joint]
-    for here in edge:
-        for other in neighbours(take, here):
-            if other not in away:
-                away[other] = away[here] + 1
-                edge.append(other)
-    return [away.get(j, len(take.names)) for j in range(len(take.names))]
+def _wander(positions_m: np.ndarray, joint: int, three: list[int]) -> float:
+    """Standard deviation of the joint's place in the frame of three points, over the frames in which all are seen."""
+    known = np.isfinite(positions_m[:, [joint, *three]]).all(axis=(1, 2))
+    part = positions_m[known]
+    local = into(local_frame(part[:, three]), part[:, joint])
+    return float(np.sqrt(local.var(axis=0).sum()))
 
 
 def _square_sum(away_m: np.ndarray) -> np.ndarray:
@@ -71,9 +67,9 @@ def _in_no_line(triangle: np.ndarray) -> bool:
 def local_frame(triangle_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The place (T, 3) and the axes (T, 3, 3), in columns, of three points (T, 3, 3)."""
     first = triangle_m[:, 1] - triangle_m[:, 0]
-    first = first / np.linalg.norm(first, axis=-1, keepdims=True)
+    first = first / np.maximum(np.linalg.norm(first, axis=-1, keepdims=True), 1e-12)
     across = np.cross(first, triangle_m[:, 2] - triangle_m[:, 0])
-    across = across / np.linalg.norm(across, axis=-1, keepdims=True)
+    across = across / np.maximum(np.linalg.norm(across, axis=-1, keepdims=True), 1e-12)
     axes = np.stack([first, np.cross(across, first), across], axis=-1)
     return triangle_m.mean(axis=1), axes
 

@@ -20,6 +20,8 @@ from emulator.recordings.take import Take
 from emulator.runs import runs_of
 
 FEWEST_FRAMES = 3
+WANDER = 2.0
+"""In the frame of its companions a joint may wander by this many times what their distances may vary."""
 
 
 def without_gaps(take: Take, settings: CleaningSettings) -> tuple[Take | None, tuple[Repair, ...]]:
@@ -59,7 +61,7 @@ def _filled(
     around = np.arange(first - 1, last + 2)
     seen = np.zeros(len(positions), bool)
     seen[around] = True
-    three = companions(take, positions, joint, seen, settings.rigid_m)
+    three = companions(positions, joint, seen, settings.rigid_m, most_wander_m=WANDER * settings.rigid_m)
     if not three:
         return None
     frame = local_frame(positions[around][:, three])

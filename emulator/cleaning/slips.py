@@ -85,7 +85,7 @@ def _put_back(
     that its bones are as long as in the stretches that are right.
     """
     right = [piece for i, piece in enumerate(pieces) if i not in wrong]
-    three = companions(take, positions, joint, np.ones(len(positions), bool), rigid_m, right)
+    three = companions(positions, joint, np.ones(len(positions), bool), rigid_m, right)
     if not three:
         return None
     frame = local_frame(positions[:, three])
