@@ -1,0 +1,39 @@
+"""Motion of any length, with contact: poses in a latent space, stepped through by switching Gaussian processes.
+
+A table of contents: importing it does nothing; a name is loaded when it is asked for.
+Source: Remillard & Kry (2010); what goes beyond it is said where it is done.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_HOME = {
+    "GaussianProcess": "gp",
+    "Hyper": "hyper",
+    "PoseLatent": "latent",
+    "Poses": "pose",
+    "StateClassifier": "classifier",
+    "SwitchingDynamics": "switching",
+    "contact_of": "contact_states",
+    "contact_of_state": "contact_states",
+    "found_states": "contact_states",
+    "path_of": "pose",
+    "poses_of": "pose",
+    "positions_of": "pose",
+    "single_support": "contact_states",
+    "state_of_contact": "contact_states",
+}
+
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(import_module(f"emulator.cyclic.{_HOME[name]}"), name)
+    raise AttributeError(f"emulator.cyclic has no {name!r}; it has {', '.join(__all__)}")
+
+
+def __dir__() -> list[str]:
+    return __all__

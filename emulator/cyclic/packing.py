@@ -1,0 +1,204 @@
+"""A CyclicEmulator as plain values and arrays for a library, and the way back, every part of it doubted.
+
+Arrays are kept in single precision; a fit is rounded to it at once (``rounded``), so that what is loaded is what was
+fitted, to the bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from emulator.cyclic.crew import Crew
+from emulator.cyclic.guide import Guide
+from emulator.cyclic.latent import PoseLatent
+from emulator.cyclic.model import CyclicEmulator
+from emulator.cyclic.pace import Pace
+from emulator.cyclic.report import CyclicReport
+from emulator.cyclic.rest import Finer
+from emulator.cyclic.stored_dynamics import dynamics_arrays, dynamics_of
+from emulator.cyclic.units import Unit
+from emulator.skeleton import Skeleton
+
+KIND = "cyclic"
+UNITS = ("starts", "stops", "entries")
+GUIDE = ("anchors", "log_frames", "low", "high")
+FINER = ("points", "length", "weight", "mean")
+MOST_COMPONENTS, MOST_FRAMES = 200, 100_000
+
+
+def pack(model: CyclicEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """JSON values of a model for the header, and its arrays by name."""
+    plain: dict[str, Any] = {
+        "kind": KIND,
+        "skeleton": {"names": list(model.skeleton.names), "parents": list(model.skeleton.parents)},
+        "rate_hz": model.rate_hz,
+        "pace": model.pace.as_dict(),
+        "workers": list(model.crew.names),
+        "log_step": [float(value) for value in model.crew.log_step],
+        "control": [model.control_at, model.control_by],
+        "floor": [model.ankle_legs, model.toe_legs],
+        "temper": model.temper,
+        "contact_states": model.contact_states,
+        "beat_frames": list(model.beat_frames),
+        "guide": [model.guide.spread, model.guide.apart],
+        "latent_scale": model.latent.scale,
+        "report": model.report.as_dict(),
+    }
+    arrays = {f"latent_{name}": getattr(model.latent, name) for name in ("mean", "basis", "energy")}
+    arrays |= {f"dynamics_{name}": array for name, array in dynamics_arrays(model.dynamics).items()}
+    arrays |= {f"finer_{name}": getattr(model.finer, name) for name in FINER}
+    arrays |= {f"guide_{name}": getattr(model.guide, name) for name in GUIDE}
+    arrays |= {"offsets": model.crew.offsets, "bone_length_m": model.crew.bone_length_m}
+    for name in UNITS:
+        plain[name], arrays[f"{name}_z"], arrays[f"{name}_contact"] = _units(getattr(model, name))
+    return plain, {name: np.float32(a) if a.dtype.kind == "f" else a for name, a in arrays.items()}
+
+
+def _units(units: tuple[Unit, ...]) -> tuple[list[list[float]], np.ndarray, np.ndarray]:
+    """Rows (frames, control, foot), and the latents and contacts of all units one after the other."""
+    rows = [[len(unit.z), unit.control, unit.foot] for unit in units]
+    if not units:
+        return rows, np.zeros((0, 1)), np.zeros((0, 2), np.uint8)
+    return rows, np.concatenate([u.z for u in units]), np.concatenate([u.contact for u in units]).astype(np.uint8)
+
+
+def rounded(model: CyclicEmulator) -> CyclicEmulator:
+    """The model as a library would give it back; what its fit was made of stays with it."""
+    plain, arrays = pack(model)
+    back = unpack(model.task, plain, {f"{model.task}/{name}": array for name, array in arrays.items()})
+    return replace(back, dynamics=replace(back.dynamics, fitted=model.dynamics.fitted))
+
+
+def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> CyclicEmulator:
+    """The model; ``arrays`` are named task/name. Raises KeyError, TypeError or ValueError for what is no model."""
+    head = f"{task}/"
+    own = {
+        name.removeprefix(head): array.astype(float) if array.dtype.kind == "f" else array
+        for name, array in arrays.items()
+        if name.startswith(head)
+    }
+    skeleton = Skeleton(tuple(plain["skeleton"]["names"]), tuple(plain["skeleton"]["parents"]))
+    n_poses = 3 * skeleton.n_bones + 4
+    n = own["latent_basis"].shape[-1]
+    if not 1 <= n <= MOST_COMPONENTS:
+        raise ValueError(f"{task}: {n} components make no sense")
+    latent = PoseLatent(
+        _shaped(task, own, "latent_mean", n_poses),
+        _shaped(task, own, "latent_basis", n_poses, n),
+        _positive(task, "latent_scale", plain["latent_scale"]),
+        _shaped(task, own, "latent_energy", -1),
+    )
+    dynamics = dynamics_of(task, {k.removeprefix("dynamics_"): v for k, v in own.items() if k.startswith("dynamics_")})
+    moved, inputs = dynamics.n_latents, dynamics.n_latents + dynamics.n_controls
+    if not (moved <= n and dynamics.n_controls in (0, 1)):
+        raise ValueError(f"{task}: dynamics of {moved} latents and {dynamics.n_controls} inputs for {n} components")
+    names = tuple(str(name) for name in plain["workers"])
+    log_step = np.array([_number(task, "log_step", value) for value in plain["log_step"]])
+    bones = _shaped(task, own, "bone_length_m", len(names), skeleton.n_bones)
+    if not names or len(log_step) != len(names) or np.any(bones <= 0):
+        raise ValueError(f"{task}: its workers make no sense")
+    pace = pace_of(task, plain["pace"])
+    control, floor = ([_number(task, name, value) for value in plain[name]] for name in ("control", "floor"))
+    low, usual = (int(value) for value in plain["beat_frames"])
+    if not (len(control) == len(floor) == 2 and control[1] > 0 and 0 < low <= usual < MOST_FRAMES):
+        raise ValueError(f"{task}: its control, floor or beats make no sense")
+    units = {name: _units_of(task, plain[name], own, name, n, pace.steps) for name in UNITS}
+    if not units["entries"]:
+        raise ValueError(f"{task}: it has no recorded beat")
+    return CyclicEmulator(
+        task=task,
+        skeleton=skeleton,
+        rate_hz=_positive(task, "rate_hz", plain["rate_hz"]),
+        latent=latent,
+        dynamics=dynamics,
+        finer=_finer(task, own, inputs, n - moved),
+        temper=_positive(task, "temper", plain["temper"]),
+        **units,
+        guide=_guide(task, own, plain["guide"], n, moved, 2 if pace.steps else 1),
+        pace=pace,
+        crew=Crew(names, _shaped(task, own, "offsets", len(names), n), log_step, bones),
+        control_at=control[0],
+        control_by=control[1],
+        ankle_legs=floor[0],
+        toe_legs=floor[1],
+        contact_states=bool(plain["contact_states"]),
+        beat_frames=(low, usual),
+        report=CyclicReport.of_dict(plain["report"]),
+    )
+
+
+def pace_of(task: str, plain: Mapping[str, Any]) -> Pace:
+    """Every number finite, and those that must be positive so."""
+    values = {one.name: plain[one.name] for one in fields(Pace)}
+    steps = values.pop("steps")
+    numbers = {name: _number(task, name, value) for name, value in values.items()}
+    within = all(numbers[name] >= 0 for name in ("time_cv", "length_cv", "start_beats", "stop_beats"))
+    within = within and numbers["first"] > 0 and numbers["default"] > 0 and abs(numbers["follows"]) < 1
+    if not within or not isinstance(steps, bool) or max(abs(numbers[k]) for k in ("intercept", "usual", "slope")) > 20:
+        raise ValueError(f"{task}: its pace makes no sense")
+    return Pace(steps=steps, **numbers)
+
+
+def _finer(task: str, own: Mapping[str, np.ndarray], inputs: int, outputs: int) -> Finer:
+    points = _shaped(task, own, "finer_points", -1, inputs)
+    length = _shaped(task, own, "finer_length", inputs)
+    if np.any(length <= 0):
+        raise ValueError(f"{task}/finer_length: found a length that is not positive")
+    weight = _shaped(task, own, "finer_weight", len(points), outputs)
+    return Finer(points, length, weight, _shaped(task, own, "finer_mean", outputs))
+
+
+def _guide(task: str, own: Mapping[str, np.ndarray], plain: Any, n: int, moved: int, feet: int) -> Guide:
+    spread, apart = (_number(task, "guide", value) for value in plain)
+    anchors = _shaped(task, own, "guide_anchors", -1, 3, n)
+    if not 1 <= len(anchors) <= feet:
+        raise ValueError(f"{task}: found anchors of {len(anchors)} feet")
+    log_frames = _shaped(task, own, "guide_log_frames", 2)
+    if not 0 < np.exp(np.abs(log_frames) @ np.array([1.0, 4.0])) < MOST_FRAMES:
+        raise ValueError(f"{task}: the frames of its beats make no sense")
+    low, high = (_shaped(task, own, f"guide_{name}", moved) for name in ("low", "high"))
+    return Guide(anchors, log_frames, spread, apart, low, high)
+
+
+def _units_of(
+    task: str, rows: Any, own: Mapping[str, np.ndarray], name: str, n: int, steps: bool
+) -> tuple[Unit, ...]:
+    frames = [int(row[0]) for row in rows]
+    if any(not 2 <= count < MOST_FRAMES for count in frames):
+        raise ValueError(f"{task}: {name} of {frames} frames make no sense")
+    z = _shaped(task, own, f"{name}_z", sum(frames), n if rows else -1)
+    contact = _shaped(task, own, f"{name}_contact", sum(frames), 2).astype(bool)
+    ends = np.cumsum([0, *frames])
+    units = []
+    for row, start, stop in zip(rows, ends[:-1], ends[1:]):
+        foot = int(row[2])
+        if foot not in ((0, 1) if steps else (-1,)):
+            raise ValueError(f"{task}: {name} of a foot {foot}")
+        units.append(Unit(z[start:stop], contact[start:stop], _number(task, name, row[1]), foot))
+    return tuple(units)
+
+
+def _shaped(task: str, own: Mapping[str, np.ndarray], name: str, *shape: int) -> np.ndarray:
+    """The array of this name; -1 in shape takes any length."""
+    found = own[name]
+    if found.ndim != len(shape) or any(want not in (-1, have) for want, have in zip(shape, found.shape)):
+        raise ValueError(f"{task}/{name} has shape {found.shape}, expected {shape}")
+    return found
+
+
+def _number(task: str, name: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f"{task}: {name}: found {value!r}, expected a number")
+    return float(value)
+
+
+def _positive(task: str, name: str, value: Any) -> float:
+    number = _number(task, name, value)
+    if number <= 0:
+        raise ValueError(f"{task}: {name}: found {number:g}, expected a positive number")
+    return number

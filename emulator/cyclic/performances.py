@@ -1,0 +1,132 @@
+"""Cyclic performances drawn from an emulator: beats and times at once, postures when they are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emulator.clean import turn
+from emulator.cyclic.timeline import timeline
+from emulator.cyclic.track import Track
+from emulator.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from emulator.cyclic.model import CyclicEmulator
+
+Floats = type[np.floating] | np.dtype
+
+
+@dataclass(frozen=True, eq=False)
+class CyclicPerformances:
+    """n performances of a cyclic task.
+
+    duration_s (n,) seconds; scores (n, K) what was drawn: the worker's own latents and step, the first foot, the speed
+    beat_s, place_m : (n, M) when each beat comes and, of steps, where along the way the foot comes down; nan beyond
+    bone_length_m (n, B) metres; ``performances[3]`` and slices are performances again, with the same postures (to 1e-10)
+    """
+
+    model: CyclicEmulator
+    duration_s: np.ndarray
+    scores: np.ndarray
+    beat_s: np.ndarray
+    place_m: np.ndarray
+    control: np.ndarray
+    offset: np.ndarray
+    bone_length_m: np.ndarray
+    first_foot: np.ndarray
+    seed: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.duration_s)
+
+    def __getitem__(self, index: int | slice | np.ndarray) -> CyclicPerformances:
+        rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
+        own = {one.name: getattr(self, one.name) for one in fields(self)}
+        return CyclicPerformances(**{name: value if name == "model" else value[rows] for name, value in own.items()})
+
+    @property
+    def skeleton(self) -> Skeleton:
+        return self.model.skeleton
+
+    @property
+    def mark_s(self) -> np.ndarray:
+        """(n, 0): a task of open length has no marks of its own; its beats are ``beat_s``."""
+        return np.empty((len(self), 0))
+
+    @property
+    def dwell_s(self) -> np.ndarray:
+        """(0,): no pauses are told apart."""
+        return np.empty(0)
+
+    @property
+    def distance_m(self) -> np.ndarray:
+        """(n,) metres from the first to the last place of the root; 0 where nothing is walked."""
+        return np.nan_to_num(np.max(np.nan_to_num(self.place_m, nan=0.0), axis=1, initial=0.0))
+
+    def directions(
+        self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
+    ) -> np.ndarray:
+        """(n, T, B, 3) unit directions without heading, at ``n_times`` even points of own time or at ``times_s``.
+
+        times_s : (T,) or (n, T) seconds from the start; before it and after the end the posture is held.
+        """
+        times = self._times(times_s, n_times)
+        return np.stack([_unturned(track, at, self.skeleton).astype(dtype) for track, at in zip(self.tracks, times)])
+
+    def positions_m(
+        self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
+    ) -> np.ndarray:
+        """(n, T, J, 3) joints in metres, z up, floor at 0; the way goes along x from x = y = 0; times as ``directions``."""
+        times = self._times(times_s, n_times)
+        return np.stack([track.joints_m(at).astype(dtype) for track, at in zip(self.tracks, times)])
+
+    def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 3) path of the root in metres; times as ``directions``."""
+        return self.path(times_s, n_times)[..., :3]
+
+    def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
+        times, root = self._times(times_s, n_times), self.skeleton.root
+        return np.stack(
+            [np.column_stack([t.joints_m(at)[:, root], t.yaw_rad(at)]) for t, at in zip(self.tracks, times)]
+        )
+
+    def contact(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 2) whether the left and the right foot bear; times as ``directions``."""
+        times = self._times(times_s, n_times)
+        return np.stack([track.contact(at) for track, at in zip(self.tracks, times)])
+
+    @cached_property
+    def tracks(self) -> tuple[Track, ...]:
+        """The whole movement of each performance, made once."""
+        return tuple(self._track(i) for i in range(len(self)))
+
+    def _track(self, i: int) -> Track:
+        beat_s = self.beat_s[i][np.isfinite(self.beat_s[i])]
+        rng = np.random.default_rng([int(self.seed[i]), 1]) if self.seed[i] else None
+        line = timeline(self.model, len(beat_s), float(self.control[i]), int(self.first_foot[i]), rng)
+        place_m = self.place_m[i][np.isfinite(self.place_m[i])] if self.model.pace.steps else None
+        nodes = _node_s(line.beat_frame, len(line.z), beat_s, float(self.duration_s[i]))
+        return Track(self.model, line.moved(self.offset[i]), nodes, self.bone_length_m[i], place_m)
+
+    def _times(self, times_s: np.ndarray | None, n_times: int) -> np.ndarray:
+        own = np.linspace(0, 1, n_times) * self.duration_s[:, None] if times_s is None else np.asarray(times_s, float)
+        return np.broadcast_to(own, (len(self), np.shape(own)[-1]))
+
+
+def _node_s(beat_frame: np.ndarray, n: int, beat_s: np.ndarray, duration_s: float) -> np.ndarray:
+    """(n,) seconds of each frame: beats at their times, between them without a jump of the tempo."""
+    from scipy.interpolate import PchipInterpolator
+
+    frame = np.concatenate([[0], beat_frame, [n - 1]])
+    time_s = np.concatenate([[0.0], beat_s, [duration_s]])
+    kept = np.concatenate([[True], np.diff(frame) > 0])
+    return np.asarray(PchipInterpolator(frame[kept], time_s[kept])(np.arange(n)))
+
+
+def _unturned(track: Track, time_s: np.ndarray, skeleton: Skeleton) -> np.ndarray:
+    world = skeleton.directions(track.joints_m(time_s))
+    return turn(world, -track.yaw_rad(time_s)[:, None])

@@ -1,0 +1,117 @@
+"""The latents of one performance from its first frame to its last, and where its beats lie: start, cycles, stop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from emulator.cyclic.beats import next_strike
+from emulator.cyclic.units import Unit, chosen, joined
+
+if TYPE_CHECKING:
+    from emulator.cyclic.model import CyclicEmulator
+
+SMOOTH_FRAMES = 1.2
+"""What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching is seen to tremble."""
+
+PULLED = 0.6
+TRIES = 4
+
+
+@dataclass(frozen=True)
+class Tempered:
+    """A source of standard normal numbers made ``factor`` as large: see ``CyclicEmulator.temper``."""
+
+    rng: np.random.Generator | None
+    factor: float
+
+    def standard_normal(self, shape: tuple[int, ...]) -> np.ndarray:
+        return np.zeros(shape) if self.rng is None else self.factor * self.rng.standard_normal(shape)
+
+
+@dataclass(frozen=True, eq=False)
+class Timeline:
+    """z (N, d) latents frame by frame, contact (N, 2), beat_frame (B,) rising, of which the first may be 0.
+
+    given_up : how many beats are recorded ones, since the dynamics came to none
+    """
+
+    z: np.ndarray
+    contact: np.ndarray
+    beat_frame: np.ndarray
+    given_up: int = 0
+
+    def moved(self, offset: np.ndarray) -> Timeline:
+        """With a worker's own offset (d,) in every frame."""
+        return replace(self, z=self.z + offset)
+
+
+def timeline(
+    model: CyclicEmulator, n_beats: int, control: float, first_foot: int, rng: np.random.Generator | None
+) -> Timeline:
+    """A draw with so many beats; ``rng`` None follows the mean."""
+    start = chosen(model.starts or model.entries, first_foot, control)
+    z, contact = (start.z, start.contact) if model.starts else (start.z[:1], start.contact[:1])
+    foot, beats, given_up = start.foot, [len(z) - 1], 0
+    for _ in range(n_beats - 1):
+        more = one_beat(model, z[-1], foot, control, rng)
+        given_up += any(more is one for one in model.entries)
+        z, contact = joined(z, more.z), np.concatenate([contact[:-1], more.contact])
+        foot = 1 - foot if foot >= 0 else foot
+        beats.append(len(z) - 1)
+    if model.stops:
+        stop = chosen(model.stops, foot, control, z[-1])
+        z, contact = joined(z, stop.z), np.concatenate([contact[:-1], stop.contact])
+    return Timeline(z, contact, np.array(beats), given_up)
+
+
+def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rng: np.random.Generator | None) -> Unit:
+    """From the latents z (D,) at a beat to the next one, drawn from the dynamics.
+
+    A draw begins some way back towards the usual posture of a beat at this speed (``PULLED``), so that a walk of a
+    kilometre stays a walk. One that comes to no beat, or to an odd one, is drawn again (``TRIES``), then the mean is
+    taken, then the nearest recorded beat: the predictive density, truncated to beats like the recorded ones.
+    """
+    usual = model.guide.usual(foot, control)
+    begin = z + PULLED * (usual - z)
+    for source in [rng] * TRIES + [None] if rng is not None else [None]:
+        drawn, state = model.dynamics.sample(
+            begin[None, : model.dynamics.n_latents],
+            int(1.6 * model.guide.frames(control)) + 4,
+            Tempered(source, model.temper),  # type: ignore[arg-type]
+            controls=np.array([[control]]) if model.dynamics.n_controls else None,
+        )
+        contact = model.contact_of(state[0])
+        end = _end(model, drawn[0], contact, foot, int(0.6 * model.guide.frames(control)))
+        if end is not None and model.guide.allows(drawn[0, : end + 1], foot, control):
+            whole = model.whole(_smoothed(drawn[0]), control)[: end + 1]
+            return Unit(whole, _clean(contact[: end + 1], foot), control, foot)
+    near = [one for one in model.entries if one.foot == foot] or list(model.entries)
+    near = sorted(near, key=lambda one: abs(one.control - control))[:5]
+    return near[0 if rng is None else int(rng.integers(len(near)))]
+
+
+def _end(model: CyclicEmulator, z: np.ndarray, contact: np.ndarray, foot: int, low: int) -> int | None:
+    """The frame of the next beat, None where none comes."""
+    if foot < 0:
+        return next((frame for frame in model.turns(z) if frame > low), None)
+    return next_strike(contact, 1 - foot, low)
+
+
+def _clean(contact: np.ndarray, foot: int) -> np.ndarray:
+    """From one beat to the next one foot bears, the other leaves the floor once and comes down in the last frame."""
+    if foot < 0:
+        return contact
+    out, swings, n = np.ones((len(contact), 2), bool), 1 - foot, len(contact)
+    up = np.flatnonzero(~contact[:, swings])
+    leave = int(up[0]) if len(up) else n // 4
+    out[min(max(leave, 2), n - 4) : n - 1, swings] = False
+    return out
+
+
+def _smoothed(z: np.ndarray) -> np.ndarray:
+    from scipy.ndimage import gaussian_filter1d
+
+    return np.asarray(gaussian_filter1d(z, SMOOTH_FRAMES, axis=0, mode="nearest"))
