@@ -53,7 +53,7 @@ def parse_cut_times(text: str, takes: Sequence[Take], file: str) -> dict[str, tu
         line = raw.partition("#")[0].strip()
         place = f"{file}:{number}"
         if line.startswith("["):
-            name = line[1:].removesuffix("]").strip()
+            name = raw.strip()[1:].rpartition("]")[0] or line[1:]  # a take's own name may hold a '#'
             here, unknown = known.get(name), name not in known
             wrong += [f"{place}: {_no_take(name, known)}"] if unknown else []
             if here is not None and here.name in found:

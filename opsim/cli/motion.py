@@ -9,6 +9,9 @@ from opsim.cli.verbs import Verbs
     "motion",
     cls=Verbs,
     verbs={
+        "import": "opsim.cli.motion_import",
+        "clean": "opsim.cli.motion_clean",
+        "segment": "opsim.cli.motion_segment",
         "fit": "opsim.cli.motion_fit",
         "sample": "opsim.cli.motion_sample",
         "show": "opsim.cli.motion_show",

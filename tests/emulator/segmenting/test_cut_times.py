@@ -57,6 +57,12 @@ def test_one_take_needs_no_name_and_comments_and_blank_lines_are_passed_over():
     assert parse_cut_times(text, TAKES[:1], "x") == {"ana/long": (Cut(50, 100, "up"), Cut(100, 125, "down"))}
 
 
+def test_a_take_whose_name_holds_brackets_and_a_hash_is_found():
+    takes = (a_take("a#1"), a_take("[b]"))
+    cuts = {take.name: (Cut(5, 9, "1"),) for take in takes}
+    assert parse_cut_times(cut_times_text(takes, cuts), takes, "x") == cuts
+
+
 def test_the_end_of_the_take_is_within():
     assert parse_cut_times("0 19.98 all", TAKES[:1], "x")["ana/long"] == (Cut(0, 999, "all"),)
 
