@@ -49,6 +49,8 @@ bench-peers: $(PEERS)/.ready
 	PYTHONPATH=tests $(PEERS)/bin/python -m bench.peers
 	$(PEERS)/bin/python -m pytest tests/bench/test_align.py -p no:xdist -q -s -k fdasrsf
 	$(PEERS)/bin/python -m pytest tests/bench/test_judge.py -p no:xdist -q -s -k dcors
+	$(PEERS)/bin/python -m pytest tests/bench/test_bvh.py -p no:xdist -q -s -k package
+	$(PEERS)/bin/python -m pytest tests/bench/test_stltsa.py -p no:xdist -q -s -k plain
 
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show
@@ -62,6 +64,7 @@ take-evidence: $(READY)
 libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
 	$(RUN) -m emulator.synthetic -o scenarios/libraries/bench_work.npz
+	$(RUN) -m emulator.synthetic_walk -o scenarios/libraries/walking.npz
 
 lock:
 	test -x $(RUN) || $(PYTHON) -m venv $(VENV)

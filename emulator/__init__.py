@@ -28,8 +28,10 @@ _HOME = {
     "LibraryError": "library",
     "FitReport": "fit_report",
     "Truth": "synthetic",
+    "CompositeEmulator": "composite",
+    "Part": "composite",
 }
-_MODULES = ("align", "clean", "elastic", "recordings", "skeleton", "sphere", "synthetic", "warp")
+_MODULES = ("align", "clean", "elastic", "joined", "recordings", "skeleton", "sphere", "synthetic", "warp")
 
 __all__ = sorted([*_HOME, *_MODULES])
 

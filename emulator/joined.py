@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from emulator import seams
-from emulator.join_arrays import BLEND_S, FASTEST_RAD_PER_S, Course, difference, join_arrays, widest_gap_rad, windows_s
+from emulator.courses import BLEND_S, FASTEST_RAD_PER_S, Course, difference, widest_gap_rad, windows_s
+from emulator.join_arrays import join_arrays
 from emulator.motion import Motion
 
 __all__ = ["BLEND_S", "FASTEST_RAD_PER_S", "JoinError", "joined", "most_gap_rad", "posture_gap_rad"]

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from emulator.archive import LibraryError, read_archive, read_header, write_archive
-from emulator.model import MotionEmulator
 from emulator.packing import pack
 from emulator.unpacking import unpack
 
@@ -20,25 +19,25 @@ __all__ = ["LibraryError", "MotionLibrary", "file_sha256", "read_header"]
 
 
 @dataclass(frozen=True, eq=False)
-class MotionLibrary(Mapping[str, MotionEmulator]):
-    """Emulators by task name, in natural reading order of insertion; ``command`` says what made the library.
+class MotionLibrary(Mapping[str, Any]):
+    """Emulators (of repetitions or cyclic) by task name, in order of insertion; ``command`` says what made them.
 
     ``library["deep_squat"]``; an unknown task raises LibraryError with the nearest name.
     """
 
-    emulators: Mapping[str, MotionEmulator]
+    emulators: Mapping[str, Any]
     command: str = ""
     notes: tuple[str, ...] = field(default=())
 
     @classmethod
-    def of(cls, *emulators: MotionEmulator, command: str = "", notes: tuple[str, ...] = ()) -> MotionLibrary:
+    def of(cls, *emulators: Any, command: str = "", notes: tuple[str, ...] = ()) -> MotionLibrary:
         """A library of these emulators. Raises LibraryError where two have one task name."""
         library = cls({}, command, notes)
         for emulator in emulators:
             library = library.add(emulator)
         return library
 
-    def add(self, emulator: MotionEmulator) -> MotionLibrary:
+    def add(self, emulator: Any) -> MotionLibrary:
         """The library with one task more."""
         if emulator.task in self.emulators:
             raise LibraryError(f"task {emulator.task!r} is in the library already")
@@ -52,7 +51,7 @@ class MotionLibrary(Mapping[str, MotionEmulator]):
         command = "; ".join(c for c in (self.command, other.command) if c)
         return MotionLibrary(merged.emulators, command, self.notes + other.notes)
 
-    def __getitem__(self, task: str) -> MotionEmulator:
+    def __getitem__(self, task: str) -> Any:
         if task not in self.emulators:
             near = get_close_matches(str(task), self.emulators, n=1)
             raise LibraryError(
@@ -74,7 +73,7 @@ class MotionLibrary(Mapping[str, MotionEmulator]):
     def tasks(self) -> tuple[str, ...]:
         return tuple(self.emulators)
 
-    def only(self) -> MotionEmulator:
+    def only(self) -> Any:
         """The emulator of a library that has one task. Raises LibraryError if it has several or none."""
         if len(self) != 1:
             raise LibraryError(f"the library has {len(self)} tasks ({', '.join(self)}); name one")

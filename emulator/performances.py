@@ -71,12 +71,16 @@ class MotionPerformances:
 
     def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 3) path of the root, metres, from x = y = 0, starting heading along x; times as ``directions``."""
+        return self.path(times_s, n_times)[..., :3]
+
+    def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
         place = self._place(times_s, n_times)
-        root = np.empty((*place.shape, 3))
+        path = np.empty((*place.shape, 4))
         for rows in self._blocks():
             some = self[rows]
-            root[rows] = _linear(some._path(some._on_clock(place[rows, :0])[0])[..., :3], place[rows])
-        return root
+            path[rows] = _linear(some._path(some._on_clock(place[rows, :0])[0]), place[rows])
+        return path
 
     def positions_m(
         self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64

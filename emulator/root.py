@@ -50,7 +50,7 @@ class RootChannel:
                   recorded; without it rigid bones hang from the recorded root, and the feet of a squat rise and sink.
         """
         length_m = bone_length_m[..., None, :] * (1.0 if stretch is None else stretch)
-        way, floor = self._ride(directions, length_m, yaw_rad)
+        way, floor = self.ride(directions, length_m, yaw_rad)
         left = np.stack([root_m[..., 0] - way[..., 0], root_m[..., 1] - way[..., 1], root_m[..., 2] - floor], axis=-1)
         return np.concatenate([left / self.leg_m(bone_length_m)[..., None, None], yaw_rad[..., None]], axis=-1)
 
@@ -83,7 +83,7 @@ class RootChannel:
         """The same as ``inverse`` without compiled code."""
         yaw = channel[..., 3]
         length_m = bone_length_m[..., None, :]
-        way, floor = self._ride(directions, length_m, yaw)
+        way, floor = self.ride(directions, length_m, yaw)
         left = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
         level = way + left[..., :2]
         height = np.maximum(floor + left[..., 2], -self._hanging(directions, length_m)[..., 2].min(-1))
@@ -98,8 +98,11 @@ class RootChannel:
         zero = np.zeros((*directions.shape[:-2], 3))
         return self.skeleton.positions(directions, length_m, zero)
 
-    def _ride(self, directions: np.ndarray, length_m: np.ndarray, yaw_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The horizontal way (..., T, 2) on planted feet, and the height (..., T) with the lowest foot at 0."""
+    def ride(self, directions: np.ndarray, length_m: np.ndarray, yaw_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The horizontal way (..., T, 2) on planted feet, and the height (..., T) with the lowest foot at 0.
+
+        directions (..., T, B, 3) without heading, lengths (..., T or 1, B), heading (..., T).
+        """
         feet = self._feet
         if not feet:
             return np.zeros((*yaw_rad.shape, 2)), np.zeros(yaw_rad.shape)

@@ -29,6 +29,9 @@ def worker_effect(
                   is among the slowest tenth in one task is so in all. That is said of moving time: the pauses of an
                   emulated task have luck of their own, and follow it only as far as they did in the recordings
 
+    A model of several motions (``knows_parts``) asks for the effect in each of their tasks by that task's name: who
+    fastens inside a kit is who fastens elsewhere.
+
     Streams: ``effect, worker, task``; ``leaning, worker, person``; ``slowness, worker``; all of the workforce.
     """
     own = stream(seed, workforce, "effect", worker, task, 0)
@@ -40,4 +43,6 @@ def worker_effect(
     more: dict[str, Any] = {"people": leaning} if getattr(model, "knows_people", False) else {}
     if across_tasks == "same_pace" and getattr(model, "knows_slowness", False):
         more["slowness"] = float(stream(seed, workforce, "slowness", worker, 0).standard_normal())
+    if getattr(model, "knows_parts", False):
+        more["own"] = lambda name, part: worker_effect(part, name, worker, seed, workforce, body, across_tasks)
     return model.draw_worker(own, body, **more)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,36 @@ def library_people(path: Path) -> dict[str, tuple[str, ...]]:
     return {task: _people(plain) for task, plain in _tasks(path, status.st_mtime_ns, status.st_size).items()}
 
 
+def library_speeds(path: Path) -> dict[str, tuple[float, float]]:
+    """The slowest and the fastest walking, in m/s, of each task that is walking, from the header alone.
+
+    Raises LibraryMissing where the file is no library.
+    """
+    status = path.stat()
+    found = _tasks(path, status.st_mtime_ns, status.st_size).items()
+    return {task: speeds for task, plain in found if (speeds := _speeds(plain)) is not None}
+
+
+def library_skeletons(path: Path) -> dict[str, tuple[tuple[str, ...], tuple[int, ...]]]:
+    """Joints and parents of each task's bodies, from the header alone; a task that does not say is left out.
+
+    Raises LibraryMissing where the file is no library.
+    """
+    status = path.stat()
+    found = {task: _skeleton(plain) for task, plain in _tasks(path, status.st_mtime_ns, status.st_size).items()}
+    return {task: skeleton for task, skeleton in found.items() if skeleton is not None}
+
+
+def composite_model(task: str, parts: Sequence[tuple[str, Any, dict[str, float] | None, str]]) -> Any:
+    """The TaskModel of motions one after the other: (name in marks, model, condition, key) of each.
+
+    Parts of one key are one task: a worker has one effect in them. Raises ValueError where their skeletons differ.
+    """
+    from emulator.composite import CompositeEmulator, Part
+
+    return CompositeEmulator(task, tuple(Part(*part) for part in parts))
+
+
 def load_library(path: Path) -> Any:
     """The library itself; ``library[task]`` is a TaskModel. Read once for as long as the file does not change."""
     status = path.stat()
@@ -76,6 +107,26 @@ def _tasks(path: Path, _changed: int, _size: int) -> dict[str, Any]:
 def _people(plain: Any) -> tuple[str, ...]:
     named = plain.get("workers") if isinstance(plain, dict) else None
     return tuple(str(name) for name in named) if isinstance(named, list) else ()
+
+
+def _speeds(plain: Any) -> tuple[float, float] | None:
+    """The speeds of a task that is walking: of cyclic motion whose cycles are steps."""
+    if not isinstance(plain, dict) or plain.get("kind") != "cyclic":
+        return None
+    pace = plain.get("pace")
+    if not isinstance(pace, dict) or pace.get("steps") is not True:
+        return None
+    from emulator.cyclic.pace import FASTEST_M_PER_S, SLOWEST_M_PER_S
+
+    return SLOWEST_M_PER_S, FASTEST_M_PER_S
+
+
+def _skeleton(plain: Any) -> tuple[tuple[str, ...], tuple[int, ...]] | None:
+    said = plain.get("skeleton") if isinstance(plain, dict) else None
+    names, parents = (said.get(key) if isinstance(said, dict) else None for key in ("names", "parents"))
+    if not isinstance(names, list) or not isinstance(parents, list):
+        return None
+    return tuple(map(str, names)), tuple(map(int, parents))
 
 
 def _libraries_below(folder: Path) -> list[Path]:

@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from emulator.recordings.bvh_write import write_bvh
+from emulator.recordings.take import Take
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 
@@ -47,9 +49,11 @@ def squats():
 
 @pytest.fixture
 def folder(tmp_path, squats):
-    """The files that README.md names: its own scenario, and a recording."""
+    """The files that README.md names: its own scenario, a recording, and a take of it as BVH."""
     (tmp_path / "two_benches.yaml").write_text(next(text for language, text in BLOCKS if language == "yaml"))
     np.savez(tmp_path / "deep_squat.npz", **squats)
+    first = squats["positions"][: squats["offsets"][1]]
+    write_bvh(Take(squats["names"], tuple(squats["parents"].tolist()), first, squats["fps"]), tmp_path / "squat.bvh")
     return tmp_path
 
 

@@ -12,7 +12,8 @@ from opsim.plan import compile_plan, station_loads
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder, shipped_scenarios
 
-LIBRARIES = {"public_movements": 7, "bench_work": 9}
+LIBRARIES = {"public_movements": 7, "bench_work": 9, "walking": 1}
+MADE = ("bench_work", "walking")
 
 
 @pytest.mark.parametrize("name", shipped_scenarios())
@@ -41,8 +42,8 @@ def test_a_shipped_library_says_who_is_behind_it_and_what_made_it(name):
     for task in header["tasks"]:
         report = library[task].report
         assert report.source.startswith("UI-PRMD" if name == "public_movements" else "synthetic")
-        assert "public domain" in report.licence.lower() or "Public Domain" in report.licence or name == "bench_work"
-        assert report.where.replace(" ", "") == "cov_correct==1" or name == "bench_work"
+        assert "public domain" in report.licence.lower() or "Public Domain" in report.licence or name in MADE
+        assert report.where.replace(" ", "") == "cov_correct==1" or name in MADE
         assert report.command and "/" not in report.command
 
 

@@ -23,7 +23,7 @@ FIRST, ELSE = ("toes", "knees"), "walking"
 
 @dataclass(frozen=True)
 class SidesFound:
-    """What was found: ``verdict`` is "right", "swapped" or "not told"; each witness from -1 (swapped) to 1 (right).
+    """What was found: ``verdict`` is "as named", "swapped" or "not told"; each witness from -1 (swapped) to 1 (right).
 
     mended : limbs whose two sides had changed their names against the rest of the body
     """
@@ -56,7 +56,7 @@ def _verdict(witnesses: Mapping[str, float]) -> str:
         votes = {spoken[ELSE]}
     if len(votes) != 1:
         return "not told"
-    return "right" if votes.pop() else "swapped"
+    return "as named" if votes.pop() else "swapped"
 
 
 def swapped_names(take: Take) -> Take:

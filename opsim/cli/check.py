@@ -38,6 +38,7 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
 def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], dict[str, list[str]]]:
     """By variant: the load of each station, and what may go wrong."""
     from opsim.plan import compile_plan, station_loads
+    from opsim.plan.joins import wide_joins
     from opsim.plan.unread import unread
     from opsim.scenario import read_scenarios
     from opsim.scenario.risks import risks_of
@@ -47,7 +48,7 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], d
     for name, variant in loaded.items():
         plan = compile_plan(variant)
         loads[name] = station_loads(plan)
-        warnings[name] = [*_too_much(loads[name]), *risks_of(variant.scenario), *unread(plan)]
+        warnings[name] = [*_too_much(loads[name]), *risks_of(variant.scenario), *unread(plan), *wide_joins(plan)]
     return loads, warnings
 
 

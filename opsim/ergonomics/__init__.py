@@ -9,6 +9,7 @@ _HOMES = {
     "NeckAngles": "opsim.ergonomics.angles",
     "TrunkAngles": "opsim.ergonomics.angles",
     "UpperArmAngles": "opsim.ergonomics.angles",
+    "Walked": "opsim.ergonomics.walking",
     "body_frame": "opsim.ergonomics.frames",
     "elbow_bend_rad": "opsim.ergonomics.angles",
     "knee_bend_rad": "opsim.ergonomics.angles",
@@ -19,6 +20,7 @@ _HOMES = {
     "trunk_flexion_rad": "opsim.ergonomics.angles",
     "trunk_frame": "opsim.ergonomics.frames",
     "upper_arm_angles": "opsim.ergonomics.angles",
+    "walking_exposure": "opsim.ergonomics.walking",
     "wrist_bend_rad": "opsim.ergonomics.angles",
 }
 __all__ = [
@@ -27,6 +29,7 @@ __all__ = [
     "NeckAngles",
     "TrunkAngles",
     "UpperArmAngles",
+    "Walked",
     "body_frame",
     "elbow_bend_rad",
     "knee_bend_rad",
@@ -37,6 +40,7 @@ __all__ = [
     "trunk_flexion_rad",
     "trunk_frame",
     "upper_arm_angles",
+    "walking_exposure",
     "wrist_bend_rad",
 ]
 

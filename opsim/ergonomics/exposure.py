@@ -49,6 +49,14 @@ class Exposure:
         """(W,) seconds of work with the trunk flexed by at least so many whole degrees."""
         return self.seconds_by_degree[:, DEGREES[:-1] >= degrees].sum(axis=1)
 
+    def __add__(self, other: Exposure) -> Exposure:
+        """What the same workers went through in both."""
+        return Exposure(
+            self.seconds_by_degree + other.seconds_by_degree,
+            self.degree_seconds + other.degree_seconds,
+            self.unmeasured_s + other.unmeasured_s,
+        )
+
     def together(self) -> Exposure:
         """All workers as one."""
         return Exposure(
@@ -69,7 +77,7 @@ def trunk_exposure(log: EventLog, plan: Plan) -> Exposure:
     with one_blas_thread():
         for block, pieces in drawn_again(pieces_in_window(log, plan), log.replication, plan):
             with _named(plan.tasks[pieces.task[0]]):
-                _add(found, block, pieces)
+                add_flexion(found, block, pieces)
     return found
 
 
@@ -86,8 +94,8 @@ def _named(task: TaskPlan) -> Iterator[None]:
         raise ValueError(f"task {task.name}: {error}") from error
 
 
-def _add(found: Exposure, block: Any, pieces: Pieces) -> None:
-    """Add some pieces of one worker, all of one block, a few performances at a time."""
+def add_flexion(found: Exposure, block: Any, pieces: Pieces) -> None:
+    """Add some pieces of one worker, all of one block, a few performances at a time; ``found`` is written to."""
     if not has_trunk(block):
         found.unmeasured_s[pieces.worker[0]] += pieces.seconds.sum()
         return

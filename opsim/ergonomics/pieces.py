@@ -51,12 +51,12 @@ def drawn_again(pieces: Pieces, replication: int, plan: Plan) -> Iterator[tuple[
     for rank in np.unique(pieces.worker).tolist():
         person, own = plan.workers[rank], pieces.some(pieces.worker == rank)
         luck = OwnLuck(person.name, models, plan.seed, replication, workforce, person.body, plan.across_tasks)
-        for rows in _alike(own.task, own.k // BLOCK):
+        for rows in alike(own.task, own.k // BLOCK):
             some = own.some(rows)
             yield luck.performance(plan.tasks[some.task[0]].name, int(some.k[0])).block, some
 
 
-def _alike(*columns: np.ndarray) -> list[slice]:
+def alike(*columns: np.ndarray) -> list[slice]:
     """Rows one after the other that are the same in every one of some sorted columns."""
     changed = np.any([column[1:] != column[:-1] for column in columns], axis=0)
     edges = [0, *(np.flatnonzero(changed) + 1).tolist(), columns[0].size]

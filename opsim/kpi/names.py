@@ -18,6 +18,9 @@ USUAL = (
 )
 """What stands in front where a scenario names no outputs."""
 
+WALKING = ("walking_min_per_h", "steps_per_h", "step_length_m", "cadence_per_min", "walking_measured_share")
+"""What needs the postures of walking too, of which a scenario's ``walking:`` says where they come from."""
+
 POSTURE = (
     "trunk_beyond_60_min_per_h",
     "trunk_beyond_20_min_per_h",
@@ -25,6 +28,7 @@ POSTURE = (
     "trunk_flexion_p95_deg",
     "trunk_flexion_share",
     "posture_measured_share",
+    *WALKING,
 )
 """What needs the postures behind the work. They are made only where one is asked for, as decoding takes longer than a
 run; and how much of the work was measured then stands beside what was asked for."""
@@ -56,4 +60,5 @@ def needs_postures(asked: Iterable[str]) -> bool:
 def headline(outputs: Iterable[str]) -> set[str]:
     """What stands in front where these outputs are asked for."""
     asked = set(outputs)
-    return asked | {"posture_measured_share"} if needs_postures(asked) else asked
+    beside = {"walking_measured_share"} if asked.intersection(WALKING) else set()
+    return asked | beside | {"posture_measured_share"} if needs_postures(asked) else asked

@@ -1,12 +1,13 @@
-"""How bent people work: time with the trunk beyond an angle, and its mean and 95th percentile while working."""
+"""How bent people work and walk: time with the trunk beyond an angle, its mean and 95th percentile; steps."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 from opsim.ergonomics.exposure import DEGREES, Exposure, trunk_exposure
+from opsim.ergonomics.walking import Walked, walking_exposure
 from opsim.kpi.figure import Figure
-from opsim.kpi.values import window_length_s
+from opsim.kpi.values import SECONDS_PER_HOUR, window_length_s
 from opsim.log import EventLog
 from opsim.plan import Plan
 
@@ -16,8 +17,10 @@ LIMITS_DEG = (60, 20)
 Source: ISO 11226:2000, Ergonomics, Evaluation of static working postures; McAtamney & Corlett 1993, RULA, Applied
 Ergonomics 24(2), 91-99.
 """
-PARTS = ("below_20", "from_20_to_60", "beyond_60", "unmeasured", "not_at_work")
-MINUTES_PER_HOUR = 60.0
+WORKED = ("below_20", "from_20_to_60", "beyond_60", "unmeasured")
+WALKED = ("walking_below_20", "walking_from_20", "walking_unmeasured")
+WALKING, TOGETHER = "walking", "together"
+"""Parts of the figures of trunks where walking has postures; without a part they are of work alone, there too."""
 
 
 def trunk_flexion(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -29,31 +32,85 @@ def trunk_flexion(log: EventLog, plan: Plan) -> Iterator[Figure]:
     trunk_flexion_mean_deg, trunk_flexion_p95_deg : over the measured time of work, forward positive
     trunk_flexion_share    : parts of the window that sum to 1; not_at_work is walking and waiting, never measured
     posture_measured_share : of the time of work, how much has a known posture
+
+    Where the plan names a walking emulator, minutes, mean and percentile have the parts ``walking`` and ``together``
+    (work and walking) besides, the shares tell walking from waiting, and there are more:
+
+    walking_min_per_h : measured minutes of walking, of an hour as above
+    walking_measured_share : of the time of walking, how much has a known posture
+    steps_per_h, step_length_m, cadence_per_min : steps of the measured walking: in an hour, how long, how many a minute
     """
     if not plan.workers:
         return
-    by_worker, hours = trunk_exposure(log, plan), window_length_s(plan) / 3600.0
-    yield from _of("", by_worker.together(), 0, hours * len(plan.workers))
+    worked, hours = trunk_exposure(log, plan), window_length_s(plan) / SECONDS_PER_HOUR
+    walked = None if plan.walking is None else walking_exposure(log, plan)
+    all_walked = None if walked is None else walked.together()
+    yield from _of("", worked.together(), all_walked, 0, hours * len(plan.workers))
     for rank, worker in enumerate(plan.workers):
-        yield from _of(worker.name, by_worker, rank, hours)
+        yield from _of(worker.name, worked, walked, rank, hours)
 
 
-def _of(subject: str, exposure: Exposure, rank: int, hours: float) -> Iterator[Figure]:
-    measured_s, unmeasured_s = exposure.measured_s[rank], exposure.unmeasured_s[rank]
-    worked_s = measured_s + unmeasured_s
-    beyond_s = {limit: exposure.beyond_s(limit)[rank] for limit in LIMITS_DEG}
-    for limit, spent_s in beyond_s.items():
-        minutes = spent_s / 60.0 if measured_s > 0 or worked_s == 0 else np.nan
-        yield Figure(f"trunk_beyond_{limit}_min_per_h", subject, "", "min/h", minutes / hours)
-    known = measured_s > 0
-    mean_deg = exposure.degree_seconds[rank] / measured_s if known else np.nan
-    yield Figure("trunk_flexion_mean_deg", subject, "", "deg", mean_deg)
-    yield Figure("trunk_flexion_p95_deg", subject, "", "deg", _quantile(exposure.seconds_by_degree[rank], 0.95))
-    window_s = hours * 3600.0
-    spent = (measured_s - beyond_s[20], beyond_s[20] - beyond_s[60], beyond_s[60], unmeasured_s, window_s - worked_s)
-    for part, spent_s in zip(PARTS, spent):
+def _of(subject: str, worked: Exposure, walked: Walked | None, rank: int, hours: float) -> Iterator[Figure]:
+    exposures = {"": worked}
+    if walked is not None:
+        exposures |= {WALKING: walked.exposure, TOGETHER: worked + walked.exposure}
+    for limit in LIMITS_DEG:
+        for part, exposure in exposures.items():
+            minutes = _minutes_beyond(exposure, rank, limit)
+            yield Figure(f"trunk_beyond_{limit}_min_per_h", subject, part, "min/h", minutes / hours)
+    for name, angle in (("mean", _mean_deg), ("p95", _p95_deg)):
+        for part, exposure in exposures.items():
+            yield Figure(f"trunk_flexion_{name}_deg", subject, part, "deg", angle(exposure, rank))
+    window_s = hours * SECONDS_PER_HOUR
+    for part, spent_s in _spent(worked, walked, rank, window_s):
         yield Figure("trunk_flexion_share", subject, part, "share", max(spent_s, 0.0) / window_s)
-    yield Figure("posture_measured_share", subject, "", "share", measured_s / worked_s if worked_s > 0 else np.nan)
+    yield Figure("posture_measured_share", subject, "", "share", _measured_share(worked, rank))
+    if walked is not None:
+        yield from _steps(subject, walked, rank, hours)
+
+
+def _minutes_beyond(exposure: Exposure, rank: int, limit: int) -> float:
+    """Measured minutes; nan where there is time, and none of it measured."""
+    none = exposure.measured_s[rank] <= 0 and exposure.unmeasured_s[rank] != 0
+    return np.nan if none else float(exposure.beyond_s(limit)[rank] / 60.0)
+
+
+def _mean_deg(exposure: Exposure, rank: int) -> float:
+    measured_s = exposure.measured_s[rank]
+    return float(exposure.degree_seconds[rank] / measured_s) if measured_s > 0 else np.nan
+
+
+def _p95_deg(exposure: Exposure, rank: int) -> float:
+    return _quantile(exposure.seconds_by_degree[rank], 0.95)
+
+
+def _measured_share(exposure: Exposure, rank: int) -> float:
+    spent_s = exposure.measured_s[rank] + exposure.unmeasured_s[rank]
+    return float(exposure.measured_s[rank] / spent_s) if spent_s > 0 else np.nan
+
+
+def _spent(worked: Exposure, walked: Walked | None, rank: int, window_s: float) -> Iterator[tuple[str, float]]:
+    """Seconds of each part of the window."""
+    measured_s, unmeasured_s = worked.measured_s[rank], worked.unmeasured_s[rank]
+    beyond_s = {limit: worked.beyond_s(limit)[rank] for limit in LIMITS_DEG}
+    yield from zip(WORKED, (measured_s - beyond_s[20], beyond_s[20] - beyond_s[60], beyond_s[60], unmeasured_s))
+    worked_s = measured_s + unmeasured_s
+    if walked is None:
+        yield "not_at_work", window_s - worked_s
+        return
+    walked_s, bent_s = walked.exposure.measured_s[rank], walked.exposure.beyond_s(20)[rank]
+    unknown_s = walked.exposure.unmeasured_s[rank]
+    yield from zip(WALKED, (walked_s - bent_s, bent_s, unknown_s))
+    yield "waits", window_s - worked_s - walked_s - unknown_s
+
+
+def _steps(subject: str, walked: Walked, rank: int, hours: float) -> Iterator[Figure]:
+    minutes, steps = walked.exposure.measured_s[rank] / 60.0, walked.steps[rank]
+    yield Figure("walking_min_per_h", subject, "", "min/h", minutes / hours)
+    yield Figure("steps_per_h", subject, "", "1/h", steps / hours)
+    yield Figure("step_length_m", subject, "", "m", walked.metres[rank] / steps if steps > 0 else np.nan)
+    yield Figure("cadence_per_min", subject, "", "1/min", steps / minutes if minutes > 0 else np.nan)
+    yield Figure("walking_measured_share", subject, "", "share", _measured_share(walked.exposure, rank))
 
 
 def _quantile(seconds_by_degree: np.ndarray, q: float) -> float:

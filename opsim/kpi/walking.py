@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.clock import TICKS_PER_S
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import inside_s
 from opsim.log import WALK, EventLog
 from opsim.plan import Plan
+from opsim.walks import on_grid_each
 
 
 def walked(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -16,13 +16,8 @@ def walked(log: EventLog, plan: Plan) -> Iterator[Figure]:
     rows = np.flatnonzero(log["kind"] == WALK)
     worker = log["worker"][rows]
     way_m = np.array(plan.distance_m)[log["place_from"][rows], log["place_to"][rows]]
-    whole_s = _on_grid(way_m / np.array([w.walk_m_per_s for w in plan.workers])[worker])
+    whole_s = on_grid_each(way_m / np.array([w.walk_m_per_s for w in plan.workers])[worker])
     share = np.minimum(1.0, inside_s(log, rows, plan) / whole_s)
     metres = np.bincount(worker, weights=way_m * share, minlength=len(plan.workers))
     for rank, person in enumerate(plan.workers):
         yield Figure("walked_m", person.name, "", "m", metres[rank])
-
-
-def _on_grid(seconds: np.ndarray) -> np.ndarray:
-    """(n,) as ``opsim.clock.on_grid`` rounds each: a walk as the engine takes it."""
-    return np.maximum(1.0, np.rint(seconds * TICKS_PER_S)) / TICKS_PER_S

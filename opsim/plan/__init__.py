@@ -10,6 +10,7 @@ from opsim.plan.plan import Plan
 from opsim.plan.release import ReleasePlan
 from opsim.plan.station import StationPlan
 from opsim.plan.tasks import TaskPlan
+from opsim.plan.walking import WalkingPlan
 from opsim.plan.worker import WorkerPlan
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "StationLoad",
     "StationPlan",
     "TaskPlan",
+    "WalkingPlan",
     "Ways",
     "WorkerPlan",
     "compile_plan",

@@ -7,6 +7,7 @@ from opsim.plan.plan import Plan
 from opsim.plan.release import plan_release
 from opsim.plan.station import plan_stations
 from opsim.plan.tasks import plan_tasks
+from opsim.plan.walking import plan_walking
 from opsim.plan.worker import plan_workers
 
 
@@ -36,6 +37,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         idle=scenario.allocation.idle,
         staffing=scenario.run.staffing,
         across_tasks=scenario.run.across_tasks,
+        walking=plan_walking(loaded),
     )
 
 

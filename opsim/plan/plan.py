@@ -7,6 +7,7 @@ from opsim.plan.material import ProductPlan
 from opsim.plan.release import ReleasePlan
 from opsim.plan.station import StationPlan
 from opsim.plan.tasks import TaskPlan
+from opsim.plan.walking import WalkingPlan
 from opsim.plan.worker import WorkerPlan
 
 FIXED_WORKFORCE = 0
@@ -21,6 +22,7 @@ class Plan:
     rule, when_blocked, idle : named rules of allocation
     staffing : ``fixed`` (the same people in every replication) or ``redrawn``
     across_tasks : how a worker's effects in different tasks go together, one of ``opsim.effects.ACROSS_TASKS``
+    walking : whose postures walks have; None where walking is time alone
     """
 
     name: str
@@ -39,6 +41,7 @@ class Plan:
     idle: str
     staffing: str
     across_tasks: str
+    walking: WalkingPlan | None = None
 
     @property
     def window_s(self) -> tuple[float, float]:

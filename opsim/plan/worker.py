@@ -8,7 +8,10 @@ from opsim.names import natural_key
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """What is known of a worker's body, by the names of ``opsim.bodies.BODY_KEYS``; None where it is not known."""
+    """What is known of a worker's body, by the names of ``opsim.bodies.BODY_KEYS``; None where it is not known.
+
+    walk_m_per_s : how fast he walks, for walks inside a task; not what is said of a body
+    """
 
     height_m: float | None = None
     mass_kg: float | None = None
@@ -16,6 +19,7 @@ class Body:
     sex: str | None = None
     pace: float | None = None
     person: str | None = None
+    walk_m_per_s: float | None = None
 
     @property
     def said(self) -> tuple[str, ...]:
@@ -47,7 +51,7 @@ def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tup
             places[start_place(worker, scenario)],
             worker.walk_m_per_s,
             _ratings(worker, ranks),
-            Body(**{key: getattr(worker, key) for key in BODY_KEYS}),
+            Body(**{key: getattr(worker, key) for key in BODY_KEYS}, walk_m_per_s=worker.walk_m_per_s),
             tuple(ranks[name] for name in worker.patrol or ()),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))

@@ -8,9 +8,10 @@ from typing import Any
 _HOMES = {
     "draw_strips": "opsim.report.strips",
     "scenario_strips": "opsim.report.emulated",
+    "walks_section": "opsim.report.walked",
     "write_report": "opsim.report.write",
 }
-__all__ = ["draw_strips", "scenario_strips", "write_report"]
+__all__ = ["draw_strips", "scenario_strips", "walks_section", "write_report"]
 
 
 def __getattr__(name: str) -> Any:

@@ -19,7 +19,11 @@ STATES = {
     "below_20": ("#8CC5E3", "#111111"),
     "from_20_to_60": ("#F0A830", "#111111"),
     "beyond_60": ("#B0410B", "#ffffff"),
+    "walking_below_20": ("#A6DCC3", "#111111"),
+    "walking_from_20": ("#CDA53B", "#111111"),
     "unmeasured": ("#9AA1A9", "#111111"),
+    "walking_unmeasured": ("#BFC5CC", "#111111"),
+    "waits": ("#f1f3f5", "#111111"),
     "not_at_work": ("#edf0f3", "#111111"),
 }
 OTHER = ("#999999", "#111111")
@@ -34,6 +38,10 @@ WORDS = {
     "from_20_to_60": "20° to 60°",
     "beyond_60": "60° or more",
     "unmeasured": "at work, posture not known",
+    "walking_below_20": "walking, trunk flexed less than 20°",
+    "walking_from_20": "walking, 20° or more",
+    "walking_unmeasured": "walking, posture not known",
+    "waits": "waiting, not measured",
     "not_at_work": "walking or waiting, not measured",
 }
 

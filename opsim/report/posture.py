@@ -27,16 +27,33 @@ def _sentences(rows: Sequence[Row]) -> list[str]:
     """Who worked most bent, and how much of the work has a known posture."""
     measured = find(rows, "posture_measured_share")
     if measured is None or measured["mean"] == 0:
-        return ["No task that was worked on has a body: nothing is known of how bent people worked."]
+        unknown = "No task that was worked on has a body: nothing is known of how bent people worked."
+        return [text for text in (unknown, _walking(rows)) if text]
     known = f"{with_interval(measured)} of the time at work has a known posture."
     if measured["mean"] < 1:
         known += " Nobody knows how bent the rest was (grey), so that minutes at an angle are at least these."
-    return [text for text in (_most(rows, 60), _most(rows, 20), known) if text]
+    return [text for text in (_most(rows, 60), _most(rows, 20), known, _walking(rows)) if text]
+
+
+def _walking(rows: Sequence[Row]) -> str:
+    """How much people walk, and how bent, where walking has postures."""
+    minutes, steps, mean = (
+        find(rows, *named)
+        for named in (("walking_min_per_h",), ("steps_per_h",), ("trunk_flexion_mean_deg", "", "walking"))
+    )
+    if minutes is None or steps is None or minutes["mean"] == 0:
+        return ""
+    walked = with_interval(minutes).replace(" min/h", " minutes of each hour of a worker")
+    count = with_interval(steps).replace(" per hour", "")
+    bent = "" if mean is None else f", with the trunk flexed {with_interval(mean).replace(' °', '°')} on average"
+    return f"Walking takes {walked}, {count} steps{bent}."
 
 
 def _most(rows: Sequence[Row], limit: int) -> str:
     kpi = f"trunk_beyond_{limit}_min_per_h"
-    people = [row for row in rows if row["kpi"] == kpi and row["subject"] and is_number(row["mean"])]
+    people = [
+        row for row in rows if row["kpi"] == kpi and row["subject"] and not row["part"] and is_number(row["mean"])
+    ]
     top = max(people, key=lambda row: row["mean"], default=None)
     if top is None:
         return ""

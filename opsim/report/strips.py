@@ -44,24 +44,39 @@ def draw_strips(
         skeleton = getattr(model, "skeleton", skeleton)
         mark_names = mark_names or tuple(getattr(model, "mark_names", ()))
         model = strips_of(model, n_samples=n_samples, seed=seed)
-    picture = _render(_figure(model, skeleton, mark_names, title, n_figures), ending)
+    picture = render(_figure(model, skeleton, mark_names, title, n_figures), ending)
     if path is not None:
         Path(path).write_bytes(picture)
     return picture
 
 
-def strips_of(model: TaskModel, *, n_samples: int = 3, seed: int = 0, n_times: int = 61) -> list[Strip]:
-    """The mean performance and ``n_samples`` drawn ones; the mean posture is that of 64 other draws."""
+def strips_of(model: TaskModel, *, n_samples: int = 3, seed: int = 0, n_times: int | None = None) -> list[Strip]:
+    """The mean performance and ``n_samples`` drawn ones; the mean posture is that of 64 other draws.
+
+    Of a model that has a ``typical`` performance instead of a mean one, that.
+    n_times : postures along each; None: 61, or five a second where a performance is long
+    """
     many: Any = model.sample(64, np.random.default_rng([seed, 1]))
     if getattr(many, "skeleton", None) is None:
         raise ValueError("this task model has durations only: there is no posture to draw")
+    mean_s = float(model.mean_duration_s())
+    if n_times is None:
+        n_times = max(61, min(int(np.ceil(5 * mean_s)) + 1, 601))
     few: Any = model.sample(max(n_samples, 1), np.random.default_rng(seed))
     drawn = few.positions_m(n_times=n_times)
     samples = [
         Strip(f"sample {i + 1}", drawn[i], float(few.duration_s[i]), np.asarray(few.mark_s[i]))
         for i in range(n_samples)
     ]
-    return [_mean_strip(many, float(model.mean_duration_s()), n_times), *samples]
+    typical = getattr(model, "typical", None)
+    first = _mean_strip(many, mean_s, n_times) if typical is None else _typical_strip(typical(), n_times)
+    return [first, *samples]
+
+
+def _typical_strip(one: Any, n_times: int) -> Strip:
+    """The only performance of a block."""
+    positions = one.positions_m(n_times=n_times)[0]
+    return Strip("typical performance", positions, float(one.duration_s[0]), np.asarray(one.mark_s[0]))
 
 
 def _mean_strip(performances: Any, duration_s: float, n_times: int) -> Strip:
@@ -84,16 +99,19 @@ def _figure(strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], t
     height_m = max(strip.positions_m[..., 2].max() for strip in strips) + 0.32
     longest_m = stage.m_per_s * max(strip.duration_s for strip in strips)
     left_m, right_m = 0.75 * stage.m_per_s * stage.step_s, 0.6 * stage.m_per_s * stage.step_s
-    wide_m, tall_m = longest_m + left_m + right_m, height_m + 0.62
+    wide_m = longest_m + left_m + right_m
     inches = 11.0 / wide_m
+    lines_m = _lines_m(_LINE_IN / inches)
+    below_m = max(0.55, lines_m[-1] + _LINE_IN / inches)
+    tall_m = height_m + 0.07 + below_m
     title_in = 0.42 if title else 0.08
     figure = Figure(figsize=(11.0, inches * tall_m * len(strips) + title_in), facecolor="white")
     share = 1.0 - title_in / figure.get_figheight()
     for row, strip in enumerate(strips):
         axes = figure.add_axes((0.0, share * (1 - (row + 1) / len(strips)), 1.0, share / len(strips)))
-        axes.set(xlim=(-left_m, longest_m + right_m), ylim=(-0.55, height_m + 0.07), aspect="equal")
+        axes.set(xlim=(-left_m, longest_m + right_m), ylim=(-below_m, height_m + 0.07), aspect="equal")
         axes.axis("off")
-        _draw_row(axes, strip, stage, mark_names, is_mean=row == 0)
+        _draw_row(axes, strip, stage, mark_names, lines_m, is_mean=row == 0)
     if title:
         figure.text(0.012, 1 - 0.1 / figure.get_figheight(), title, va="top", size=12, weight="bold", parse_math=False)
         _legend(figure)
@@ -106,7 +124,9 @@ def _legend(figure: Any) -> None:
     figure.text(0.918, top, "left limbs", va="top", ha="right", size=9, color=LEFT)
 
 
-def _draw_row(axes: Any, strip: Strip, stage: Stage, mark_names: Sequence[str], *, is_mean: bool) -> None:
+def _draw_row(
+    axes: Any, strip: Strip, stage: Stage, mark_names: Sequence[str], lines_m: Sequence[float], *, is_mean: bool
+) -> None:
     floor = float(np.quantile(strip.positions_m[..., 2].min(axis=1), 0.1))
     end_m, step_m = strip.duration_s * stage.m_per_s, stage.step_s * stage.m_per_s
     axes.plot([-step_m / 2, end_m], [floor - 0.02] * 2, color="#aab0b8", lw=1.2, zorder=1)
@@ -121,21 +141,38 @@ def _draw_row(axes: Any, strip: Strip, stage: Stage, mark_names: Sequence[str], 
     words = {"ha": "left", "va": "top", "size": 10, "weight": "bold" if is_mean else "normal", "color": TRUNK}
     top = axes.get_ylim()[1] - 0.02
     axes.text(-step_m / 2, top, f"{strip.label}: {strip.duration_s:.2f} s", parse_math=False, **words)
+    taken_m = dict.fromkeys(lines_m, -np.inf)
     for name, mark_s in zip([*mark_names, *[""] * strip.mark_s.size], strip.mark_s):
-        _draw_mark(axes, name, float(mark_s), float(mark_s) * stage.m_per_s, floor)
+        _draw_mark(axes, f"{name} {mark_s:.2f} s".strip(), float(mark_s) * stage.m_per_s, floor, taken_m)
 
 
-def _draw_mark(axes: Any, name: str, mark_s: float, at_m: float, floor: float) -> None:
+_LETTER_IN, _LINE_IN = 0.062, 0.125
+
+
+def _lines_m(line_m: float) -> tuple[float, float]:
+    """How far below the floor the two lines stand that the words of marks have, where a line is so high."""
+    first = max(0.32, 0.15 + 1.1 * line_m)
+    return first, first + line_m
+
+
+def _draw_mark(axes: Any, words: str, at_m: float, floor: float, taken_m: dict[float, float]) -> None:
+    """A triangle and its words on the first line free there, if any is; ``taken_m``: where each line's words end."""
     axes.plot([at_m], [floor - 0.075], marker="^", ms=5, color="#111111", zorder=40)
-    words = {"ha": "center", "va": "top", "size": 8, "color": "#111111", "parse_math": False}
-    axes.text(at_m, floor - 0.32, f"{name} {mark_s:.2f} s".strip(), **words)
+    left_m, right_m = axes.get_xlim()
+    half_m = 0.5 * _LETTER_IN * len(words) * (right_m - left_m) / 11.0
+    at_m = float(np.clip(at_m, left_m + half_m, right_m - half_m))
+    free = [line_m for line_m, end_m in taken_m.items() if at_m - half_m > end_m]
+    if free:
+        look = {"ha": "center", "va": "top", "size": 8, "color": "#111111", "parse_math": False}
+        axes.text(at_m, floor - free[0], words, **look)
+        taken_m[free[0]] = at_m + half_m + 0.5 * _LETTER_IN
 
 
 def _seconds(at_s: float) -> str:
     return f"{at_s:.2f}".rstrip("0").rstrip(".") + " s"
 
 
-def _render(figure: Any, ending: str) -> bytes:
+def render(figure: Any, ending: str) -> bytes:
     import matplotlib
 
     stream = io.BytesIO()

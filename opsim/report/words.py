@@ -38,6 +38,11 @@ NAMES = {
     "trunk_flexion_p95_deg": "Trunk flexion at work, 95th percentile",
     "trunk_flexion_share": "Time by trunk flexion",
     "posture_measured_share": "Work whose posture is known",
+    "walking_min_per_h": "Walking",
+    "walking_measured_share": "Walking whose posture is known",
+    "steps_per_h": "Steps",
+    "step_length_m": "Step length",
+    "cadence_per_min": "Steps a minute of walking",
 }
 ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_s", "_m", "_kg", "_j", "_share")
 ABSENT = "\N{EN DASH}"
@@ -83,7 +88,7 @@ def scale_of(unit: str, value: float | None) -> tuple[float, str]:
         return 1 / 60, "min"
     if unit == "m" and size >= 2000:
         return 1 / 1000, "km"
-    return 1.0, {"1/h": "per hour", "deg": "°", "1": ""}.get(unit, unit)
+    return 1.0, {"1/h": "per hour", "1/min": "a minute", "deg": "°", "1": ""}.get(unit, unit)
 
 
 def quantity(value: float | None, unit: str, half_width: float | None = None) -> str:

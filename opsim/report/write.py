@@ -27,18 +27,26 @@ MOST_HISTOGRAMS = 12
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 
 
-def write_report(result: Any, path: str | Path, strips: Mapping[str, bytes] | None = None) -> Path:
+def write_report(
+    result: Any, path: str | Path, strips: Mapping[str, bytes] | None = None, walks: Mapping[str, Any] | None = None
+) -> Path:
     """Write the report of one scenario variant and return where it is.
 
     result : has ``summary`` (the content of summary.json) and ``folder`` (where manifest.json may lie)
     strips : SVG bytes by task name, e.g. of ``scenario_strips``; emulated tasks without one are named without a picture
+    walks  : what ``walks_section`` says of walking, None where nothing
     """
     path = Path(path)
-    write_text(path, report_html(result.summary, _manifest(result), strips or {}))
+    write_text(path, report_html(result.summary, _manifest(result), strips or {}, walks))
     return path
 
 
-def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips: Mapping[str, bytes]) -> str:
+def report_html(
+    summary: Mapping[str, Any],
+    manifest: Mapping[str, Any],
+    strips: Mapping[str, bytes],
+    walks: Mapping[str, Any] | None = None,
+) -> str:
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
     bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
     drawn: dict[str, Any] = {}
@@ -51,6 +59,7 @@ def report_html(summary: Mapping[str, Any], manifest: Mapping[str, Any], strips:
         "posture": posture_section(summary["kpis"], drawn),
         "histograms": _histograms(summary, drawn),
         "emulated": _emulated(summary.get("tasks", []), strips),
+        "walking": None if walks is None else _walking(walks),
         "made_up": [task for task in summary.get("tasks", []) if not task.get("emulated")],
         "window": [clock(summary["start"], at_s) for at_s in summary["window_s"]],
         "manifest": {**NO_MANIFEST, **manifest},
@@ -139,8 +148,19 @@ def _emulated(tasks: Sequence[Mapping[str, Any]], strips: Mapping[str, bytes]) -
         group = groups.setdefault(key, {"source": task, "tasks": [], "strip": None, "behind": behind(*people)})
         group["tasks"].append(task)
         if group["strip"] is None and task["task"] in strips:
-            group["strip"] = "data:image/svg+xml;base64," + base64.b64encode(strips[task["task"]]).decode()
+            group["strip"] = _as_source(strips[task["task"]])
     return list(groups.values())
+
+
+def _walking(walks: Mapping[str, Any]) -> dict[str, Any]:
+    """What the page says of walking, its pictures as sources of images."""
+    source = walks["source"]
+    shown = [{**walk, "picture": _as_source(walk["picture"])} for walk in walks["walks"]]
+    return {**walks, "walks": shown, "behind": behind(source["source"], source["n_sequences"], source["n_workers"])}
+
+
+def _as_source(svg: bytes) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
 def _manifest(result: Any) -> dict[str, Any]:

@@ -118,6 +118,7 @@ _WIDEST_M = 1e6
 Seconds = Annotated[float, _quantity("time", above=0, at_least=STEP_S, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 SecondsOrZero = Annotated[float, _quantity("time", at_least=0, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 Length = Annotated[float, _quantity("length", at_least=-_WIDEST_M, at_most=_WIDEST_M), _as_text("length")]
+WalkLength = Annotated[float, _quantity("length", at_least=0.1, at_most=1000), _as_text("length")]
 PathLength = Annotated[float, _quantity("length", at_least=0, at_most=_WIDEST_M), _as_text("length")]
 Height = Annotated[float, _body("length", "height_m"), _as_text("length")]
 Speed = Annotated[float, _quantity("speed", above=0, at_least=0.01, at_most=100), _as_text("speed")]

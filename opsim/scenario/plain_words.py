@@ -10,10 +10,10 @@ from pydantic import ValidationError
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import like
 from opsim.scenario.positions import Node, Part, child, problem
-from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Path, Scenario
+from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.yaml_nodes import scalar
 
-_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>")
+_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>")
 _TYPES = {
     "string_type": "text",
     "int_type": "a whole number",
@@ -141,8 +141,8 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     if not loc:
         return Scenario
-    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path}
-    kind = next((marked[part] for part in loc if isinstance(part, str) and part in marked), None)
+    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step}
+    kind = next((marked[part] for part in reversed(loc) if isinstance(part, str) and part in marked), None)
     return kind or BLOCKS.get(str(loc[0]), Scenario)
 
 

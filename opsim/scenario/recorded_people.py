@@ -6,6 +6,7 @@ from pathlib import Path
 
 from opsim.libraries import LibraryMissing, library_people, resolve_library
 from opsim.names import natural_key
+from opsim.scenario.checks.references import emulators
 from opsim.scenario.positions import Node, entries, text
 
 
@@ -16,9 +17,9 @@ def recorded_people(tree: Node, folder: Path) -> list[str] | None:
     """
     files = {name: text(node) for name, node in entries(tree, "libraries").items()}
     found: set[str] = set()
-    for task in entries(tree, "tasks").values():
-        library, _, inside = (text(task, "emulator") or "").partition("/")
-        if not inside:
+    for path, model in emulators(tree):
+        library, _, inside = model.value.partition("/")
+        if not inside or path[0] != "tasks":
             continue
         file = files.get(library)
         if file is None:

@@ -6,23 +6,34 @@ from collections.abc import Iterator
 from itertools import pairwise, product
 
 from opsim.graph import reverse, rings
-from opsim.kpi.names import POSTURE
+from opsim.kpi.names import POSTURE, WALKING
 from opsim.names import natural_key
 from opsim.scenario.schema import Scenario
 
 
 def risks_of(scenario: Scenario) -> list[str]:
     """Every warning in a sentence."""
-    parts = (_locks, _held, _unused_patrols, _unused_paths, _no_bodies)
+    parts = (_locks, _held, _unused_patrols, _unused_paths, _no_bodies, _no_walking)
     return [risk for part in parts for risk in part(scenario)]
 
 
 def _no_bodies(scenario: Scenario) -> Iterator[str]:
     """Postures are asked for, and every task is a time without a body; what a plug-in gives is not known here."""
-    asked = [name for name in scenario.outputs if name in POSTURE]
-    may_have = [task for task in scenario.tasks.values() if hasattr(task, "emulator") or hasattr(task, "plugin")]
-    if asked and not may_have:
+    asked = [name for name in scenario.outputs if name in POSTURE and name not in WALKING]
+    kinds = ("emulator", "motions", "plugin")
+    may_have = [task for task in scenario.tasks.values() if any(hasattr(task, kind) for kind in kinds)]
+    if asked and not may_have and scenario.walking is None:
         yield f"outputs: {_and(asked)} made from postures, and no task has an emulator: nothing will be measured"
+
+
+def _no_walking(scenario: Scenario) -> Iterator[str]:
+    """Figures of walking are asked for, and nothing says how people walk."""
+    asked = [name for name in scenario.outputs if name in WALKING]
+    if asked and scenario.walking is None:
+        yield (
+            f"outputs: {_and(asked)} made from postures of walking, and nothing says how people walk: add 'libraries: "
+            "{walking: libraries/walking.npz}' and 'walking: {emulator: walking/walk}'"
+        )
 
 
 def _unused_paths(scenario: Scenario) -> Iterator[str]:

@@ -7,6 +7,8 @@ from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
 from opsim.study.people import asked_for_pace, people
+from opsim.study.walking import walking
+from opsim.tasks.motions import emulators_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +27,7 @@ Assumption = tuple[str, str]
 
 def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
-    lines = [line for part in (_switched, _times, people, _flow, _window) for line in part(loaded, plan)]
+    lines = [line for part in (_switched, _times, people, walking, _flow, _window) for line in part(loaded, plan)]
     return [*lines, *_run(loaded, asked)]
 
 
@@ -60,6 +62,15 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
                 "task times",
                 f"{task.name}: people here move and take their time as in {tasks[task.name].emulator} "
                 f"({behind(report.source, report.n_sequences, report.n_workers)})",
+            )
+    for task in plan.tasks:
+        if hasattr(tasks[task.name], "motions"):
+            report, emulators = fit_report(task.model), listed(emulators_of(tasks[task.name], loaded))
+            yield (
+                "task times",
+                f"{task.name}: its motions follow one another without a pause, each a draw of its own, as in "
+                f"{emulators} ({behind(report.source, report.n_sequences, report.n_workers)}); in the tenths of a "
+                "second about a join bodies are led from one posture to the next, as nobody was recorded",
             )
     repeated = [f"{task.name} ({task.repeat} times)" for task in plan.tasks if task.repeat > 1]
     if repeated:

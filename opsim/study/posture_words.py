@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from opsim.ergonomics.bodies import has_trunk
+from opsim.ergonomics.walking import LOOKED_AT
 from opsim.plan import Plan
 from opsim.streams import stream
 
@@ -21,7 +22,15 @@ def posture_assumptions(plan: Plan) -> Iterator[tuple[str, str]]:
             f"{', '.join(unknown)}: no posture is known; the time counts as not measured, neither upright nor bent, so "
             "that minutes at an angle are too few by what would have been seen there",
         )
-    yield "postures", "walking and waiting are not measured; how people move from one task into the next is not known"
+    waits = "walking and waiting are" if plan.walking is None else "waiting is"
+    yield "postures", f"{waits} not measured; how people move from one task into the next is not known"
+    if plan.walking is not None:
+        yield (
+            "postures",
+            "figures of the trunk are of work, and have the parts 'walking' and 'together' (work and walking) besides; "
+            f"of a worker who walks more than {LOOKED_AT} times in a replication, {LOOKED_AT} walks are looked at and "
+            "stand for all",
+        )
 
 
 def _has_body(task) -> bool:

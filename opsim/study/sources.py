@@ -2,6 +2,7 @@
 
 from opsim.plan import Plan
 from opsim.provenance import fit_report
+from opsim.tasks.motions import emulators_of
 
 
 def task_sources(loaded, plan: Plan) -> list[dict]:
@@ -12,17 +13,33 @@ def task_sources(loaded, plan: Plan) -> list[dict]:
 def _source(loaded, plan: Plan, name: str, model) -> dict:
     task = loaded.scenario.tasks[name]
     stations = [station.name for station in plan.stations if name in loaded.scenario.stations[station.name].tasks]
-    row = {"task": name, "station": ", ".join(stations), "emulated": hasattr(task, "emulator")}
+    behind = _of_emulator(loaded, task) or _of_motions(loaded, task)
+    row = {"task": name, "station": ", ".join(stations), "emulated": bool(behind)}
     row |= {"repeat": task.repeat, "automatic": task.automatic, "mean_s": model.mean_duration_s()}
-    if not row["emulated"]:
+    if not behind:
         return row | {"model": task.words}
     report = fit_report(model)
     return row | {
-        "model": f"emulator {task.emulator}",
-        "library": loaded.scenario.libraries[task.library],
-        "library_task": task.library_task,
+        **behind,
         "source": report.source,
         "licence": report.licence,
         "n_sequences": report.n_sequences,
         "n_workers": report.n_workers,
     }
+
+
+def _of_emulator(loaded, task) -> dict:
+    """Which task of which library one emulator is; nothing for other tasks."""
+    if not hasattr(task, "emulator"):
+        return {}
+    library = loaded.scenario.libraries[task.library]
+    return {"model": f"emulator {task.emulator}", "library": library, "library_task": task.library_task}
+
+
+def _of_motions(loaded, task) -> dict:
+    """Which emulators of which libraries the motions of a task are; nothing for other tasks."""
+    if not hasattr(task, "motions"):
+        return {}
+    names = dict.fromkeys(emulator.partition("/")[0] for emulator in emulators_of(task, loaded))
+    files = ", ".join(loaded.scenario.libraries[name] for name in names)
+    return {"model": task.words, "library": files, "library_task": task.words.removeprefix("motions: ")}

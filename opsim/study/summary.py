@@ -16,6 +16,7 @@ from opsim.study.posture_words import posture_assumptions
 from opsim.study.precision import Reached
 from opsim.study.replicate import Replicated
 from opsim.study.sources import task_sources
+from opsim.study.walking import walking_source
 from opsim.study.warnings import warnings_of
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
@@ -46,6 +47,7 @@ def summary_of(
         "kpis": _intervals(done, headline(loaded.scenario.outputs)),
         "distributions": _distributions(done),
         "tasks": task_sources(loaded, plan),
+        **({} if plan.walking is None else {"walking": walking_source(loaded, plan)}),
         "assumptions": [{"topic": topic, "says": says} for topic, says in _assumptions(loaded, plan, done, asked)],
         "checks": list(CHECKS),
         "warnings": warnings_of(done, plan),

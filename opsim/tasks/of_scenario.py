@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from opsim.libraries import load_library, resolve_library
 from opsim.recorded import read_times, resolve_times
 from opsim.tasks.bounded import Beta, Normal
+from opsim.tasks.motions import motions_model
 from opsim.tasks.seen import Empirical, Recorded
 from opsim.tasks.shared import Gamma, Hyperexponential, Lognormal, Weibull
 from opsim.tasks.simple import Erlang, Exponential, Fixed, Triangular, Uniform
@@ -23,6 +24,8 @@ def task_model(task: Any, loaded: Loaded) -> Any:
         case schema.Emulated():
             file = resolve_library(loaded.scenario.libraries[task.library], loaded.folder)
             return load_library(file)[task.library_task]
+        case schema.Motions():
+            return motions_model(task, loaded)
         case schema.Recorded():
             times = tuple(read_times(resolve_times(task.recorded, loaded.folder), task.column))
             return Empirical(times) if task.by == "smooth" else Recorded(times, by_index=task.by == "trace")

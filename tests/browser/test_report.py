@@ -43,6 +43,18 @@ def test_a_strip_is_a_picture_that_loads(report):
     assert report(summary())("document.querySelector('.strip img').naturalWidth") == 900
 
 
+def test_a_walk_is_a_picture_that_loads_and_is_found_from_the_top(chromium, tmp_path):
+    walk = {"worker": "ana", "picture": STRIP, "words": "1.20 m/s"}
+    source = {"source": "made", "licence": "", "n_sequences": 3, "n_workers": 2, "model": "w/walk", "library": "w.npz"}
+    page = write_report(
+        MadeResult(summary()), tmp_path / "report.html", {}, {"source": source, "walks": [walk], "more": 0}
+    )
+    watched = Watched(chromium, page)
+    assert watched("document.querySelector('#walking img').naturalWidth") == 900
+    assert watched("document.querySelector('nav a[href=\"#walking\"]').textContent") == "Walking"
+    assert watched.complaints == []
+
+
 def test_a_hostile_name_does_no_harm_and_is_shown_as_it_is(report):
     watched = report(hostile())
     assert watched("window.harmed") is None

@@ -4,6 +4,7 @@ import pytest
 
 from opsim.libraries import LibraryMissing, library_people, library_tasks, load_library, resolve_library
 from opsim.shipped import shipped_folder
+from tests.opsim.made_walks import made_library
 
 
 def test_the_scenario_s_folder_comes_before_the_shipped_one(tmp_path, monkeypatch):
@@ -61,3 +62,23 @@ def test_a_task_whose_people_are_not_named_has_none(tmp_path, monkeypatch):
     monkeypatch.setattr("emulator.library.read_header", lambda path: header)
     (tmp_path / "moves.npz").write_bytes(b"")
     assert library_people(tmp_path / "moves.npz") == {"lift": (), "carry": (), "turn": (), "walk": ("ana", "7")}
+
+
+def test_a_library_says_how_fast_its_walkers_walk_and_of_other_tasks_nothing(tmp_path, monkeypatch):
+    from opsim.libraries import library_speeds
+
+    path = made_library(tmp_path, monkeypatch)
+    assert library_speeds(path) == {"walk": (0.3, 2.5)}
+    assert library_speeds(resolve_library("libraries/bench_work.npz", tmp_path)) == {}
+    assert list(library_speeds(resolve_library("libraries/walking.npz", tmp_path))) == ["walk"]
+
+
+@pytest.mark.parametrize(
+    "said", [None, {}, {"kind": "cyclic"}, {"kind": "cyclic", "pace": 3}, {"pace": {"steps": True}}]
+)
+def test_tasks_that_do_not_walk_have_no_speeds(tmp_path, said):
+    from emulator.archive import write_archive
+    from opsim.libraries import library_speeds
+
+    write_archive(tmp_path / "odd.npz", {"tasks": {"walk": said}}, {})
+    assert library_speeds(tmp_path / "odd.npz") == {}

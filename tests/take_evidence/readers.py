@@ -38,7 +38,7 @@ def _imported(path: Path, out: Path, options: dict[str, Any]) -> tuple[str, str,
     same = np.array_equal(take.positions_m, again.positions_m, equal_nan=True) and take.name == again.name
     said = f"{take.n_frames} frames at {take.rate_hz:g} Hz, {len(take.names)} joints, sides {found[0].sides.verdict}"
     tall_m = float(np.nanmax(take.positions_m[..., 2]))
-    holds = same and found[0].sides.verdict == "right" and 1.2 < tall_m < 2.4 and not found[0].mapping.of("unknown")
+    holds = same and found[0].sides.verdict == "as named" and 1.2 < tall_m < 2.4 and not found[0].mapping.of("unknown")
     return f"{path.name} is imported, drawn, written and read again", f"{said}, highest {tall_m:.2f} m", bool(holds)
 
 
@@ -85,7 +85,7 @@ def _all_recordings(motion: Path) -> Iterator[tuple[str, str, bool]]:
             lain = turned_up(take.positions_m, "-y")
             units += sum(found_unit_m(lain / unit_m, take.names)[0] == unit_m for unit_m in UNITS_M.values())
             placed += found_up(lain, take.names)[0] == "y"
-            accused += checked_sides(take)[1].verdict != "right"
+            accused += checked_sides(take)[1].verdict != "as named"
             found += sum(checked_sides(wrong(take))[1].verdict == "swapped" for wrong in (swapped_names, mirrored))
     yield f"the unit is found from the body, {n} takes in {len(UNITS_M)} units", f"{units}", units == n * len(UNITS_M)
     yield "the upward axis is found from the body in every take", f"{placed} of {n}", placed == n

@@ -10,12 +10,14 @@ from opsim.problems import Problem
 from opsim.scenario.checks.additions import addition_problems
 from opsim.scenario.checks.files import file_problems
 from opsim.scenario.checks.material import material_problems
+from opsim.scenario.checks.motions import motion_problems
 from opsim.scenario.checks.people import person_problems
 from opsim.scenario.checks.plugins import plugin_problems
 from opsim.scenario.checks.references import reference_problems
 from opsim.scenario.checks.routing import routing_problems
 from opsim.scenario.checks.staffing import patrol_problems, staffing_problems
 from opsim.scenario.checks.walking import walking_problems
+from opsim.scenario.checks.walking_emulator import walking_emulator_problems
 from opsim.scenario.positions import Node
 
 
@@ -33,6 +35,8 @@ def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
         material_problems(tree),
         addition_problems(tree, base),
         file_problems(tree, folder),
+        motion_problems(tree, folder),
         person_problems(tree, folder),
         plugin_problems(tree),
+        walking_emulator_problems(tree, folder),
     )

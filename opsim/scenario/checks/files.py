@@ -8,6 +8,7 @@ from pathlib import Path
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.recorded import RecordedError, read_times, resolve_times
+from opsim.scenario.checks.references import emulators
 from opsim.scenario.positions import Node, child, entries, problem, text
 
 
@@ -21,14 +22,12 @@ def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
             tasks_of[name] = library_tasks(resolve_library(node.value, folder))
         except LibraryMissing as error:
             yield problem(node.place, ("libraries", name), error.message, error.hint)
-    for name, task in entries(tree, "tasks").items():
-        library, _, inside = (text(task, "emulator") or "").partition("/")
+    for path, model in emulators(tree):
+        library, _, inside = model.value.partition("/")
         if inside and library in tasks_of and inside not in tasks_of[library]:
             hint = did_you_mean(inside, tasks_of[library], otherwise="tasks in it")
-            place = task.value["emulator"].place
-            yield problem(
-                place, ("tasks", name, "emulator"), f"no task {shown(inside)} in library {shown(library)}", hint
-            )
+            yield problem(model.place, path, f"no task {shown(inside)} in library {shown(library)}", hint)
+    for name, task in entries(tree, "tasks").items():
         yield from _recorded(task, ("tasks", name), folder)
     gap = child(tree, "release", "every")
     if gap is not None:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.ways import onward
-from opsim.scenario.positions import Node, Part, child, entries, items, problem
+from opsim.scenario.positions import Node, Part, child, entries, items, problem, text
 from opsim.scenario.schema.routing import OUT, START
 
 
@@ -53,16 +53,13 @@ def _routing(product: Node, stations: Collection[str], path: tuple[Part, ...]) -
 
 
 def _libraries(tree: Node) -> Iterator[Problem]:
+    """Emulators, of tasks and of walking, that do not name a task of a library of the file."""
     libraries = entries(tree, "libraries")
-    for name, task in entries(tree, "tasks").items():
-        model = child(task, "emulator")
-        if model is None or not isinstance(model.value, str):
-            continue
-        path = ("tasks", name, "emulator")
+    for path, model in emulators(tree):
         library, slash, inside = model.value.partition("/")
         if not (library and slash and inside):
             found = f"expected library/task, found {shown(model.value)}"
-            hint = f"such as {next(iter(libraries), 'moves')}/deep_squat"
+            hint = f"such as {next(iter(libraries), 'moves')}/{'walk' if path[0] == 'walking' else 'deep_squat'}"
             yield problem(model.place, path, found, hint)
         elif library not in libraries:
             hint = (
@@ -70,6 +67,28 @@ def _libraries(tree: Node) -> Iterator[Problem]:
                 or "there are no libraries in this file: add 'libraries: {moves: FILE.npz}'"
             )
             yield problem(model.place, path, f"no library {shown(library)}", hint)
+
+
+def emulators(tree: Node) -> Iterator[tuple[tuple[Part, ...], Node]]:
+    """Where a scenario names an emulator as a text: in its tasks, in their motions, and for walking."""
+    for name, task in entries(tree, "tasks").items():
+        if text(task, "emulator") is not None:
+            yield ("tasks", name, "emulator"), task.value["emulator"]
+        yield from ((path, node) for path, _, node in motion_emulators(tree, name, task) if path[-1] != "walk")
+    if text(tree, "walking", "emulator") is not None:
+        yield ("walking", "emulator"), tree.value["walking"].value["emulator"]
+
+
+def motion_emulators(tree: Node, name: str, task: Node) -> Iterator[tuple[tuple[Part, ...], str, Node]]:
+    """(path, emulator, where it stands) of each motion of a task; of a walk, the emulator of walking."""
+    for number, motion in enumerate(items(task, "motions")):
+        path = ("tasks", name, "motions", number)
+        if isinstance(motion.value, str):
+            yield path, motion.value, motion
+        elif (said := text(motion, "emulator")) is not None:
+            yield (*path, "emulator"), said, motion.value["emulator"]
+        elif child(motion, "walk") is not None and (walking := text(tree, "walking", "emulator")) is not None:
+            yield (*path, "walk"), walking, motion.value["walk"]
 
 
 def _named(node: Node | None, known: Collection[str], what: str, path: tuple[Part, ...]) -> Iterator[Problem]:

@@ -5,11 +5,13 @@ from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, U
 from opsim.scenario.schema.distributions import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Weibull
 from opsim.scenario.schema.layout import Layout, Path
 from opsim.scenario.schema.material import Product, Station
+from opsim.scenario.schema.motions import Motions, Step
 from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
 from opsim.scenario.schema.task_kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Task
 from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
+from opsim.scenario.schema.walking import Walking
 from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 
 __all__ = [
@@ -29,6 +31,7 @@ __all__ = [
     "Hyperexponential",
     "Layout",
     "Lognormal",
+    "Motions",
     "Normal",
     "Path",
     "Plugged",
@@ -38,10 +41,12 @@ __all__ = [
     "Run",
     "Scenario",
     "Station",
+    "Step",
     "Task",
     "TaskBlock",
     "Triangular",
     "Uniform",
+    "Walking",
     "Weibull",
     "Worker",
     "Workforce",

@@ -8,6 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from opsim.scenario.fields import Seconds, plain_error
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.motions import Motions
 from opsim.scenario.schema.task_kinds import Task
 from opsim.scenario.schema.tasks import Emulated, Plugged, TaskBlock
 
@@ -62,7 +63,7 @@ class Release(Block):
 
     def _check_gap(self) -> None:
         """A gap between jobs is a time and nothing else."""
-        if isinstance(self.gap, Emulated | Plugged):
+        if isinstance(self.gap, Emulated | Motions | Plugged):
             raise plain_error("nobody moves between two jobs", "take fixed, recorded or dist", on="every")
         given = set() if self.gap is None else self.gap.model_fields_set & set(_NOT_OF_A_GAP)
         if given:

@@ -15,6 +15,7 @@ from opsim.scenario.schema.material import Product, Station
 from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.task_kinds import Task
+from opsim.scenario.schema.walking import Walking
 from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 
 
@@ -59,6 +60,9 @@ class Scenario(Block):
     )
     workforce: Workforce | None = Field(None, description="workers drawn beside the named ones", examples=["{n: 12}"])
     workers: dict[Name, Worker] = Field({}, description="the people who work here")
+    walking: Walking | None = Field(
+        None, description="how people walk between places", examples=["{emulator: walking/walk}"]
+    )
     allocation: Allocation = Field(Allocation.model_validate({}), description="the rules by which workers choose")
     outputs: list[Annotated[str, BeforeValidator(_known_output)]] = Field(
         list(USUAL), description="the figures wanted, first those that matter most"
@@ -73,5 +77,6 @@ BLOCKS: dict[str, type[Block]] = {
     "release": Release,
     "workforce": Workforce,
     "workers": Worker,
+    "walking": Walking,
     "allocation": Allocation,
 }

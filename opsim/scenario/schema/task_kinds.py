@@ -1,4 +1,4 @@
-"""Which kind of task a block is: one of ``emulator``, ``fixed``, ``recorded`` and ``dist`` stands in it."""
+"""Which kind of task a block is: one of ``emulator``, ``motions``, ``fixed``, ``recorded``, ``dist`` stands in it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import plain_error
 from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, Uniform
 from opsim.scenario.schema.distributions import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Weibull
+from opsim.scenario.schema.motions import Motions
 from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
 
 DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
@@ -27,12 +28,13 @@ DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
 }
 TASK_KINDS: dict[str, type[TaskBlock]] = {
     "<emulator>": Emulated,
+    "<motions>": Motions,
     "<plugin>": Plugged,
     "<fixed>": Fixed,
     "<recorded>": Recorded,
     **{f"<{name}>": model for name, model in DISTRIBUTIONS.items()},
 }
-KIND_KEYS = ("emulator", "plugin", "fixed", "recorded", "dist")
+KIND_KEYS = ("emulator", "motions", "plugin", "fixed", "recorded", "dist")
 
 
 def _one_kind(value: object) -> object:
@@ -43,7 +45,7 @@ def _one_kind(value: object) -> object:
     if not kinds:
         near = next((hint for key in value if (hint := did_you_mean(key, KIND_KEYS)).startswith("did")), "")
         raise plain_error(
-            "nothing says how long this task takes", near or "add one of: emulator, fixed, recorded, dist"
+            "nothing says how long this task takes", near or "add one of: emulator, motions, fixed, recorded, dist"
         )
     if len(kinds) > 1:
         raise plain_error(f"the time comes from {kinds[0]} and from {kinds[1]}", "keep one of them", on=kinds[1])
@@ -60,6 +62,7 @@ def _kind_tag(value: Any) -> str:
 
 Task = Annotated[
     Annotated[Emulated, Tag("<emulator>")]
+    | Annotated[Motions, Tag("<motions>")]
     | Annotated[Plugged, Tag("<plugin>")]
     | Annotated[Fixed, Tag("<fixed>")]
     | Annotated[Recorded, Tag("<recorded>")]

@@ -187,7 +187,9 @@ def test_shift_and_pace_change_the_time():
 
 def test_a_fit_says_what_it_found():
     rows = dict(small().report.rows())
-    assert {"components", "contact states", "stride time, recorded / drawn", "foot skate, recorded / drawn"} <= set(rows)
+    assert {"components", "contact states", "stride time, recorded / drawn", "foot skate, recorded / drawn"} <= set(
+        rows
+    )
     assert small().report.skate_drawn_cm < 0.1
     assert small().pace.slope == pytest.approx(0.5, abs=0.08)
 
@@ -239,7 +241,9 @@ def test_other_cycles_have_any_count_and_time(task):
     busy = wrist[60:-60]
     middle, strokes, low = 0.5 * (busy.min() + busy.max()), 0, True
     for height in wrist:
-        strokes, low = (strokes + 1, False) if low and height > middle + 0.05 else (strokes, low or height < middle - 0.05)
+        strokes, low = (
+            (strokes + 1, False) if low and height > middle + 0.05 else (strokes, low or height < middle - 0.05)
+        )
     assert abs(strokes - 11) <= 1
     assert foot_skate_m(positions, np.ones((400, 2), bool)).max() < 1e-9
     with pytest.raises(ValueError, match="nobody walks"):

@@ -26,7 +26,7 @@ def test_a_bvh_comes_back_as_it_was_written(tmp_path):
     (found,) = imported(tmp_path / "s01_e01.bvh")
     assert found.take.names == TAKE.names and found.take.parents == TAKE.parents
     assert np.allclose(found.take.positions_m, TAKE.positions_m, atol=1e-5)
-    assert found.take.name == "s01/e01" and found.sides.verdict == "right" and found.format == "BVH"
+    assert found.take.name == "s01/e01" and found.sides.verdict == "as named" and found.format == "BVH"
     assert not found.gap_share.any() and found.spread_m.max() < 1e-4
 
 

@@ -40,7 +40,7 @@ def exchanged(take, joints):
 def test_every_exchange_is_found_in_real_takes_and_no_true_one_is_accused(name):
     for take in read_recording(recording(name)).takes:
         same, found = checked_sides(take)
-        assert (found.verdict, found.mended) == ("right", ()) and same is take, take.name
+        assert (found.verdict, found.mended) == ("as named", ()) and same is take, take.name
         for wrong in (swapped_names(take), mirrored(take)):
             assert checked_sides(wrong)[1].verdict == "swapped", take.name
 
@@ -50,7 +50,7 @@ def test_every_exchange_is_found_in_real_takes_and_no_true_one_is_accused(name):
 def test_names_of_one_limb_alone_are_mended(name, limb):
     for take in read_recording(recording(name)).takes[::5]:
         mended, found = checked_sides(exchanged(take, LIMBS[limb]))
-        assert (found.verdict, found.mended) == ("right", (limb,)), take.name
+        assert (found.verdict, found.mended) == ("as named", (limb,)), take.name
         assert np.array_equal(mended.positions_m, take.positions_m)
 
 
@@ -58,7 +58,7 @@ def test_names_of_one_limb_alone_are_mended(name, limb):
 def test_knees_tell_where_there_are_no_toes(name):
     for take in read_recording(recording(name)).takes[::7]:
         slim = without(take, "left_toe", "right_toe", "left_foot", "right_foot")
-        assert checked_sides(slim)[1].verdict == "right"
+        assert checked_sides(slim)[1].verdict == "as named"
         assert checked_sides(mirrored(slim))[1].verdict == "swapped"
 
 
@@ -75,7 +75,7 @@ def test_sides_do_not_depend_on_where_the_body_looks():
     for angle in np.linspace(0, 2 * np.pi, 7):
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
         turned = replace(take, positions_m=take.positions_m @ turn.T)
-        assert checked_sides(turned)[1].verdict == "right"
+        assert checked_sides(turned)[1].verdict == "as named"
         assert checked_sides(mirrored(turned))[1].verdict == "swapped"
 
 
@@ -104,7 +104,7 @@ def test_toes_and_knees_that_contradict_each_other_tell_nothing():
     from emulator.recordings.sides import _verdict
 
     assert _verdict({"toes": 0.9, "knees": -0.9}) == "not told"
-    assert _verdict({"toes": 0.9, "knees": -0.1, "walking": -1.0}) == "right"
+    assert _verdict({"toes": 0.9, "knees": -0.1, "walking": -1.0}) == "as named"
     assert _verdict({"walking": -0.9, "elbows": 0.9}) == "swapped"
     assert _verdict({"elbows": -0.9}) == "not told"
 
@@ -113,7 +113,7 @@ def test_gaps_do_not_accuse():
     take = body()
     holes = take.positions_m.copy()
     holes[np.random.default_rng(3).random(holes.shape[:2]) < 0.3] = np.nan
-    assert checked_sides(replace(take, positions_m=holes))[1].verdict == "right"
+    assert checked_sides(replace(take, positions_m=holes))[1].verdict == "as named"
     assert checked_sides(mirrored(replace(take, positions_m=holes)))[1].verdict == "swapped"
 
 

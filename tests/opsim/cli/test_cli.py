@@ -29,7 +29,7 @@ VERBS = dict(verbs())
 def test_the_verbs_are_these():
     assert set(VERBS) == {
         *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",), ("schema",), ("doctor",)),
-        *(("motion", verb) for verb in ("fit", "sample", "show", "judge", "people")),
+        *(("motion", verb) for verb in ("import", "clean", "segment", "fit", "sample", "show", "judge", "people")),
     }
 
 

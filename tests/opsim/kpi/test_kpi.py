@@ -13,6 +13,7 @@ from opsim.kpi.names import USUAL
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
 from opsim.report.words import NAMES
 from tests.opsim.kpi.made_logs import found, made, row, tiled, work
+from tests.opsim.made_walks import walking
 
 HAND = """
 opsim: 1
@@ -91,7 +92,7 @@ def test_states_sum_to_one(text):
 
 
 def test_every_name_a_scenario_may_ask_for_is_computed():
-    p = plan(CELL)
+    p = walking(plan(CELL))
     assert {figure.kpi for figure in figures(run_plan(p), p, KPIS)} == set(KPIS)
 
 

@@ -60,3 +60,28 @@ def test_shares_are_drawn_and_not_in_the_table_in_front():
 
 def test_a_hostile_worker_is_text_and_nothing_else():
     assert SCRIPT not in page(*rows(worker=SCRIPT))
+
+
+WALKED = [
+    kpi("walking_min_per_h", unit="min/h", mean=12.0, half_width=0.5),
+    kpi("steps_per_h", unit="1/h", mean=1400.0, half_width=40.0),
+    kpi("trunk_flexion_mean_deg", "", "walking", "deg", 4.2, 0.1),
+    kpi("trunk_beyond_20_min_per_h", "ben", "together", "min/h", 9.0, 0.1),
+]
+
+
+def test_walking_is_said_where_it_has_postures():
+    words = " ".join(posture_section([*rows(), *WALKED], {})["sentences"])
+    assert "Walking takes 12.0 minutes of each hour of a worker (11.5 to 12.5), 1,400 (1,360 to 1,440) steps" in words
+    assert "trunk flexed 4.20° (4.10 to 4.30) on average." in words
+    assert "Walking takes" not in said()
+
+
+def test_who_is_most_bent_is_said_of_work_alone():
+    words = " ".join(posture_section([*rows(), *WALKED], {})["sentences"])
+    assert "Trunk flexed 20° or more: ana for longest, 3.00" in words
+
+
+def test_walking_is_said_too_where_no_work_has_a_body():
+    words = posture_section([*rows(measured=0.0, beyond=(None, None)), *WALKED], {})["sentences"]
+    assert len(words) == 2 and words[0].startswith("No task that was worked on has a body")

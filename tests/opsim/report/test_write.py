@@ -151,3 +151,21 @@ def test_the_figures_are_json_that_cannot_end_their_script():
 def test_the_bundle_is_the_one_its_licence_note_names(asset):
     digest = hashlib.sha256((HERE / asset).read_bytes()).hexdigest()
     assert digest in (HERE / "assets/plotly-cartesian.LICENSE.txt").read_text()
+
+
+def walks(worker="ana", source="Made walks 2026"):
+    behind = {"source": source, "licence": "public domain", "n_sequences": 12, "n_workers": 4}
+    walk = {"worker": worker, "picture": b"<svg/>", "words": "1.20 m/s, steps of 0.62 m"}
+    return {"source": {"model": "emulator walking/walk", "library": "w.npz", **behind}, "walks": [walk], "more": 3}
+
+
+def test_walking_has_a_section_only_where_it_has_postures():
+    text = report_html(summary(), {}, {}, walks())
+    assert text.count('id="walking"') == 1 and text.count('href="#walking"') == 1
+    assert "ana: 1.20 m/s, steps of 0.62 m." in text and "3 more walk" in text and "12 recordings of 4 people" in text
+    assert "walking" not in [*page().ids, *page().addresses]
+
+
+def test_a_hostile_walker_is_text_and_nothing_else():
+    plain, harmed = (Page(report_html(summary(), {}, {}, walks(*names))) for names in ((), (SCRIPT, SCRIPT)))
+    assert sorted(harmed.tags) == sorted(plain.tags) and harmed.text.count(SCRIPT) >= 2

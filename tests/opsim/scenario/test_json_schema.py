@@ -64,6 +64,7 @@ RIGHT = [
     GOOD.replace(
         "workers:\n", "workforce: {n: 12, from: population, prefix: q, like: ana, skills: {pack: 1}}\nworkers:\n"
     ),
+    GOOD.replace("workers:\n", "libraries: {w: libraries/walking.npz}\nwalking: {emulator: w/walk}\nworkers:\n"),
     GOOD.replace("{pack: 1.1}", "{pack: expert}").replace("workers:\n", "skill_levels: {expert: 1.15}\nworkers:\n"),
 ]
 WRONG = [
@@ -76,6 +77,8 @@ WRONG = [
     (GOOD.replace("start: Mon 06:00", "start: '06:00'"), ".run.start: '06:00' does not look right"),
     (GOOD.replace("{pack: 1.1}", "{pack: 11}"), ".workers.ana.skills.pack: 11 is beyond 10"),
     (GOOD.replace("{route: [pack]}", "{share: 1}"), ".products.carton: none of 2 fits"),
+    (GOOD.replace("workers:\n", "walking: {}\nworkers:\n"), ".walking: emulator is missing"),
+    (GOOD.replace("workers:\n", "walking: {emulator: w/walk, by: foot}\nworkers:\n"), ".walking: unknown key by"),
     (GOOD.replace("workers:\n", "workforce: {from: population}\nworkers:\n"), ".workforce: n is missing"),
     (GOOD.replace("workers:\n", "workforce: {n: 3, person: s03}\nworkers:\n"), ".workforce: unknown key person"),
     (GOOD.replace("like: ana", "like: ana, age: 4"), ".workers.ben.age: none of 2 fits"),

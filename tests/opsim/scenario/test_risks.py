@@ -108,3 +108,10 @@ def test_postures_of_times_without_a_body_are_warned_of():
         "outputs: trunk_beyond_60_min_per_h made from postures, and no task has an emulator: nothing will be measured"
     ]
     assert risks(("release: {kind: saturated}", asked), ("fixed: 3 s", "plugin: exponential, with: {mean: 3 s}")) == []
+
+
+def test_figures_of_walking_without_walking_are_warned_of():
+    asked = "release: {kind: saturated}\noutputs: [steps_per_h, walking_min_per_h, walked_m]"
+    (said,) = risks(("release: {kind: saturated}", asked))
+    assert said.startswith("outputs: steps_per_h and walking_min_per_h made from postures of walking, and nothing says")
+    assert "walking: {emulator: walking/walk}" in said
