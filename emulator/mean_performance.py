@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -55,7 +55,13 @@ class MeanPerformance:
         return times_s
 
 
-def mean_performance(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> MeanPerformance:
+def mean_performance(model: Any, worker: str | WorkerEffect | None = None) -> Any:
+    """The mean performance of any model: a cyclic one knows its own, a MotionEmulator's is ``mean_of``."""
+    own = getattr(model, "mean_performance", None)
+    return mean_of(model, worker) if own is None else own(worker)
+
+
+def mean_of(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> MeanPerformance:
     """Mean posture, path, pace, marks and bones after registration, at the mean duration.
 
     worker : as for ``MotionEmulator.sample``: whose mean; None: over the population

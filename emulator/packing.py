@@ -17,8 +17,15 @@ DWELLS = ("clock", "zero_share", "mark_share")
 SMOOTHED = ("scores", "owner", "reach", "factor", "spread")
 
 
-def pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """JSON values of a model for the header, and its arrays by name."""
+def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """JSON values of a model for the header, and its arrays by name; of a cyclic one: see ``cyclic.packing``."""
+    from emulator.cyclic import packing as cyclic
+    from emulator.cyclic.model import CyclicEmulator
+
+    return cyclic.pack(model) if isinstance(model, CyclicEmulator) else _pack(model)
+
+
+def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     plain = {
         "skeleton": {"names": list(model.skeleton.names), "parents": list(model.skeleton.parents)},
         "mark_names": list(model.mark_names),

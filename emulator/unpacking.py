@@ -26,8 +26,22 @@ from emulator.told import Told
 from emulator.workforce import Workforce
 
 
-def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> MotionEmulator:
-    """The model; ``arrays`` are named task/name. Raises KeyError, TypeError or ValueError for what is no model."""
+def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> Any:
+    """The model; ``arrays`` are named task/name. Raises KeyError, TypeError or ValueError for what is no model.
+
+    The header says of what kind it is; one that says nothing is a MotionEmulator, as in libraries of before.
+    """
+    kind = plain.get("kind", "repetitions")
+    if kind == "repetitions":
+        return _unpack(task, plain, arrays)
+    if kind == "cyclic":
+        from emulator.cyclic.packing import unpack as cyclic
+
+        return cyclic(task, plain, arrays)
+    raise ValueError(f"{task}: is of kind {kind!r}, expected repetitions or cyclic; is the library newer than opsim?")
+
+
+def _unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> MotionEmulator:
     parts = _Parts(task, plain, arrays)
     skeleton = Skeleton(tuple(plain["skeleton"]["names"]), tuple(plain["skeleton"]["parents"]))
     n_times, size = parts.n_times, dict(zip(BLOCKS, parts.sizes))

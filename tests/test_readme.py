@@ -4,13 +4,15 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from long_take import long_take
 
 from emulator.recordings.bvh_write import write_bvh
-from emulator.recordings.take import Take
+from emulator.synthetic import make
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 
@@ -49,11 +51,11 @@ def squats():
 
 @pytest.fixture
 def folder(tmp_path, squats):
-    """The files that README.md names: its own scenario, a recording, and a take of it as BVH."""
+    """The files that README.md names: its own scenario, a recording, and a long take of six reaches as BVH."""
     (tmp_path / "two_benches.yaml").write_text(next(text for language, text in BLOCKS if language == "yaml"))
     np.savez(tmp_path / "deep_squat.npz", **squats)
-    first = squats["positions"][: squats["offsets"][1]]
-    write_bvh(Take(squats["names"], tuple(squats["parents"].tolist()), first, squats["fps"]), tmp_path / "squat.bvh")
+    motions = [replace(motion, mark_s=np.zeros(0)) for motion in make("reach", 1, 6)[0].motions]
+    write_bvh(long_take(motions, np.random.default_rng(0))[0], tmp_path / "take.bvh")
     return tmp_path
 
 

@@ -18,7 +18,11 @@ LIMITS = {
     "distance_m": (0.05, 100_000.0, "metres from 0.05"),
     "cycles": (1.0, 1_000_000.0, "a whole number from 1"),
     "length_s": (0.2, 1_000_000.0, "seconds from 0.2"),
-    "speed_m_per_s": (SLOWEST_M_PER_S, FASTEST_M_PER_S, f"{SLOWEST_M_PER_S:g} to {FASTEST_M_PER_S:g} m/s, as people walk"),
+    "speed_m_per_s": (
+        SLOWEST_M_PER_S,
+        FASTEST_M_PER_S,
+        f"{SLOWEST_M_PER_S:g} to {FASTEST_M_PER_S:g} m/s, as people walk",
+    ),
     "pace": (0.05, 20.0, "a positive ratio"),
     "log_duration_shift": (-3.0, 3.0, "a number from -3 to 3"),
 }
@@ -98,6 +102,8 @@ def _together(said: Mapping[str, np.ndarray]) -> list[str]:
         if "speed_m_per_s" in said:
             return ["found distance_m, length_s and speed_m_per_s, expected two of them"]
         if np.any((speed < low) | (speed > high)):
-            return [f"distance_m over length_s: found {speed.min():g} to {speed.max():g} m/s, expected {low:g} to {high:g}"]
+            return [
+                f"distance_m over length_s: found {speed.min():g} to {speed.max():g} m/s, expected {low:g} to {high:g}"
+            ]
         return []
     return [f"found {' and '.join(lengths)}, expected one of them"] if len(lengths) > 1 else []

@@ -29,7 +29,9 @@ def foot_skate_m(
     for side, bears in zip(SIDES, np.asarray(contact, bool).T):
         joints = positions_m[:, [skeleton.index(f"{side}_ankle"), skeleton.index(f"{side}_toe")], :2]
         step = np.linalg.norm(np.diff(joints, axis=0), axis=-1).min(axis=1)
-        slid += [float(step[start : stop - 1].sum()) for start, stop in stretches(bears) if stop - start >= least_frames]
+        slid += [
+            float(step[start : stop - 1].sum()) for start, stop in stretches(bears) if stop - start >= least_frames
+        ]
     return np.array(slid)
 
 
@@ -60,12 +62,12 @@ def shares(contact: np.ndarray) -> np.ndarray:
     """
     contact = np.asarray(contact, bool)
     share = contact.astype(float)
-    for start, stop in stretches(contact.all(axis=1)):
+    for start, stop in stretches(np.all(contact, axis=1)):
         before = share[start - 1] if start else np.full(2, 0.5)
         after = share[stop] if stop < len(share) else np.full(2, 0.5)
         ease = ((np.arange(stop - start) + 1) / (stop - start + 1))[:, None]
         share[start:stop] = (1 - ease) * before + ease * after
-    for start, stop in stretches(~contact.any(axis=1)):
+    for start, stop in stretches(~np.any(contact, axis=1)):
         share[start:stop] = share[start - 1] if start else np.full(2, 0.5)
     total = share.sum(axis=1, keepdims=True)
     return np.asarray(share / np.where(total > 0, total, 1.0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from emulator.cyclic.crew import Crew
 from emulator.cyclic.guide import Guide
 from emulator.cyclic.latent import PoseLatent
 from emulator.cyclic.measured import Measured, measured, paced
-from emulator.cyclic.model import CyclicEmulator
+from emulator.cyclic.model import CyclicEmulator, rates
 from emulator.cyclic.prepare import (
     ENERGY,
     MOST_UNITS,
@@ -43,7 +44,7 @@ def fit(
     task: str = "walk",
     steps: bool | None = None,
     components: int | float = ENERGY,
-    n_states: int = 2,
+    n_states: int = 1,
     points: int = 200,
     seed: int = 0,
     where: str = "all",
@@ -54,7 +55,7 @@ def fit(
 
     steps      : whether it is walking; None: whether the takes go somewhere
     components : of the latent, a number or a share of the variation
-    n_states   : of the dynamics, found without labels, where no feet step; 1 for one process
+    n_states   : of the dynamics where no feet step, found without labels; 1: one process
     points     : of each state that the dynamics keep; seed decides nothing but the figures of the report
     Contact of the takes is used where they have it, else found.
     Raises ValueError for takes of markers, with gaps, or with too few cycles.
@@ -109,7 +110,10 @@ def _fitted(recording: Recording, wanted: Wanted, said: Callable[[int, int, str]
     cyclic = [z[rows] for z, (_, _, rows, _) in zip(zs, cuts)]
     states = _states(parts, cuts, cyclic, steps, wanted.n_states)
     known = [np.full((len(z), 1), c) for z, c in zip(cyclic, control)] if steps and np.ptp(control) > 0 else None
-    dynamics = SwitchingDynamics.fit([z[:, :moved] for z in cyclic], states, controls=known, at_most=wanted.points, on_support=False)
+    order, usual = (1, 0) if steps else (2, _beat_frames(takes)[1])
+    dynamics = SwitchingDynamics.fit(
+        [_seen(z[:, :moved], usual) for z in cyclic], states, controls=known, at_most=wanted.points, on_support=False
+    )
     dynamics = unbounded(dynamics)
     inputs = [np.hstack([z[:, :moved], k]) for z, k in zip(cyclic, known or [z[:, :0] for z in cyclic])]
     finer = Finer.fit(inputs, [z[:, moved:] for z in cyclic]) if latent.n_components > moved else nothing_finer(moved)
@@ -125,6 +129,7 @@ def _fitted(recording: Recording, wanted: Wanted, said: Callable[[int, int, str]
         dynamics=dynamics,
         finer=finer,
         temper=1.0,
+        order=order,
         starts=starts,
         stops=stops,
         entries=spread_out(every_beat, 2 * MOST_UNITS),
@@ -146,6 +151,14 @@ def _fitted(recording: Recording, wanted: Wanted, said: Callable[[int, int, str]
     model = replace(model, report=judged(model, parts, takes, wanted.seed))
     said(4, 4, "done")
     return model
+
+
+def _seen(z: np.ndarray, beat_frames: int) -> np.ndarray:
+    """(T, d) what the dynamics see: latents, and, of work that is no walking, how they change."""
+    if not beat_frames:
+        return z
+    before = np.concatenate([2 * z[:1] - z[1:2], z[:-1]])
+    return np.hstack([z, rates(z, before, beat_frames)])
 
 
 def _n(unit: Unit | None) -> int:
@@ -193,7 +206,7 @@ def _entries(parts: list[Prepared], zs: list[np.ndarray], cuts: list[Cut], contr
     return [
         Unit(z[start : stop + 1], part.contact[start : stop + 1], c, dict(part.beats)[start])
         for part, z, (_, _, _, frames), c in zip(parts, zs, cuts, control)
-        for start, stop in zip(frames[:-1], frames[1:])
+        for start, stop in pairwise(frames)
     ]
 
 

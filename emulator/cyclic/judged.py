@@ -20,17 +20,24 @@ MOST_DRAWN = 40
 TEMPERS = (0.6, 0.45, 0.3, 0.15)
 ROUGHEST = 1.1
 """Roughness drawn over recorded that is let pass."""
+GIVEN_UP = 0.02
+"""Share of beats at which the dynamics may come to none."""
 
 
 def tempered(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured], seed: int) -> CyclicEmulator:
-    """The model with the largest of ``TEMPERS`` at which its draws are hardly rougher than the recordings."""
-    recorded = _roughness([part.positions_m for part in parts])
+    """The model with the first of ``TEMPERS`` at which draws are no rougher than recordings and come to beats.
+
+    If there is none, the one at which the fewest beats are given up.
+    """
+    recorded, best = _roughness([part.positions_m for part in parts]), (np.inf, model)
     for temper in TEMPERS:
         model = replace(model, temper=temper)
         drawn = _drawn(model, takes, np.random.default_rng(seed))
-        if _roughness([_frames(one) for one in drawn]) <= ROUGHEST * recorded:
-            break
-    return model
+        given_up = _given_up(drawn)
+        if given_up <= GIVEN_UP and _roughness([_frames(one) for one in drawn]) <= ROUGHEST * recorded:
+            return model
+        best = min(best, (given_up, model), key=lambda pair: pair[0])
+    return best[1]
 
 
 def judged(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured], seed: int) -> CyclicReport:
@@ -41,7 +48,7 @@ def judged(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured], 
     report = replace(
         model.report,
         beat_s=(*_mean_cv([take.beat_s for take in takes], model.pace.time_cv), *_mean_cv(beats)),
-        given_up=float(sum(one.tracks[0].line.given_up for one in drawn) / max(sum(len(b) for b in beats), 1)),
+        given_up=_given_up(drawn),
         jump_ratio=_roughness(frames) / _roughness([part.positions_m for part in parts]),
     )
     if not model.pace.steps:
@@ -77,6 +84,12 @@ def _drawn(model: CyclicEmulator, takes: list[Measured], rng: np.random.Generato
             condition["speed_m_per_s"] = float(np.clip(mean, 0.3, 2.5))
         drawn.append(model.sample(1, rng, worker=take.worker, condition=condition))
     return drawn
+
+
+def _given_up(drawn: list[CyclicPerformances]) -> float:
+    """Share of the beats at which the dynamics came to none."""
+    beats = sum(len(one.tracks[0].line.beat_frame) - 1 for one in drawn)
+    return float(sum(one.tracks[0].line.given_up for one in drawn) / max(beats, 1))
 
 
 def _frames(one: CyclicPerformances) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Legs put on given ankles: two rigid bones from hip to ankle, the knee to the side where it was; bones keep their length."""
+"""Legs put on given ankles: two rigid bones from hip to ankle, the knee to the side where it was."""
 
 from __future__ import annotations
 

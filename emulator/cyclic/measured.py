@@ -66,7 +66,7 @@ def measured(part: Prepared, skeleton: Skeleton, frames: list[int], starts: int,
 def paced(
     takes: list[Measured], steps: bool, names: tuple[str, ...], quantum_s: float
 ) -> tuple[Pace, dict[str, float]]:
-    """The law of pace, counted in frames of ``quantum_s``, and each worker's own log step (or log cycle time) beside it."""
+    """The law of pace, counted in frames of ``quantum_s``, and each worker's own log step (or cycle time)."""
     owner = np.array([names.index(take.worker) for take in takes])
     froude = np.array([take.froude for take in takes]) if steps else np.zeros(len(takes))
     size = [take.log_step if steps else np.log(take.beat_s.mean()) for take in takes]

@@ -1,7 +1,7 @@
-"""CyclicEmulator: motion that goes on and on (walking, hammering, cranking), of any length, with feet that stay planted.
+"""CyclicEmulator: motion that goes on and on (walking, hammering, cranking), of any length, on planted feet.
 
 Source: Remillard & Kry (2010): latents by principal components, switching Gaussian process dynamics with a classifier
-of the contact state. Beyond the paper: the length of a step is a known input of the dynamics, so that postures follow it;
+of the contact state. Beyond the paper: the length of a step is a known input of the dynamics, so that postures follow;
 beats are set before postures (how many, how long, how far), so that times cost nothing and ways end where they shall;
 the drawn latents are laid on those beats, and feet are planted on the footprints by inverse kinematics.
 """
@@ -44,8 +44,9 @@ class CyclicEmulator:
     pace, crew : what times, steps and workers are like; control_at, control_by : log step to the dynamics' input
     guide : what recorded beats are like, by the control
     finer : the components of latents beyond those that the dynamics move
-    temper : share of the dynamics' predictive spread that draws have: that at which they are as rough as the recordings,
+    temper : share of the dynamics' predictive spread that draws have: at which they are as rough as recordings,
              since what tells takes apart is no noise from frame to frame
+    order : 2 where the dynamics see the latents' rates besides (a hammer goes up and down the same way), else 1
     ankle_legs, toe_legs : heights of a standing ankle and toe in legs
     contact_states : whether the dynamics' states are left + 2 right
     """
@@ -57,6 +58,7 @@ class CyclicEmulator:
     dynamics: SwitchingDynamics
     finer: Finer
     temper: float
+    order: int
     starts: tuple[Unit, ...]
     stops: tuple[Unit, ...]
     entries: tuple[Unit, ...]
@@ -127,7 +129,7 @@ class CyclicEmulator:
         return float(itinerary(self.pace, asked, leg_m, who.log_step).duration_s[0])
 
     def draw_worker(self, rng: np.random.Generator, body: Any = None, **_others: Any) -> CyclicWorker:
-        """A new worker, or, if ``person`` names one, the recorded one; ``height_m`` scales the bones, ``pace`` the speed.
+        """A new worker, or, if ``person`` names one, the recorded one; ``height_m`` scales bones, ``pace`` speed.
 
         body : None, or something with any of ``body_keys``, as attributes or keys
         """
@@ -168,6 +170,16 @@ class CyclicEmulator:
         if not self.contact_states:
             return np.ones((*np.shape(state), 2), bool)
         return np.stack([(state & 1) > 0, (state & 2) > 0], axis=-1)
+
+    @property
+    def n_moved(self) -> int:
+        """How many of the latents the dynamics move."""
+        return self.dynamics.n_latents // self.order
+
+    def seen(self, z: np.ndarray, before: np.ndarray) -> np.ndarray:
+        """(d,) what the dynamics see of latents z (D,) after ``before`` (D,) one frame earlier."""
+        now = z[: self.n_moved]
+        return now if self.order == 1 else np.append(now, rates(now, before[: self.n_moved], self.beat_frames[1]))
 
     def whole(self, z: np.ndarray, control: float) -> np.ndarray:
         """All components (T, D) of the latents, from those that the dynamics move (T, d)."""
@@ -216,7 +228,7 @@ class CyclicEmulator:
     def _drawn(
         self, who: CyclicWorker, asked: Asked, leg_m: np.ndarray, first_foot: np.ndarray, seed: np.ndarray
     ) -> CyclicPerformances:
-        """Beats of every performance: each from its own seed, so that a row alone is the row of the block; 0: no scatter."""
+        """Beats of every performance: each from its own seed, so a row alone is the row of the block; 0: no scatter."""
         n, plan = len(leg_m), itinerary(self.pace, asked, leg_m, who.log_step)
         most = int(plan.n_beats.max()) if n else 0
         beat_s, place_m, duration_s = np.full((n, most), np.nan), np.full((n, most), np.nan), plan.duration_s.copy()
@@ -251,6 +263,11 @@ class CyclicEmulator:
             step[0] = 0.0
         place = np.cumsum(step) * (plan.step_m[i] * plan.n_beats[i] / max(step.sum(), 1e-12))
         return ends[:-1], place, float(ends[-1])
+
+
+def rates(z: np.ndarray, before: np.ndarray, beat_frames: int) -> np.ndarray:
+    """Steps of latents from frame to frame, as large as the latents where these go round once a beat."""
+    return np.asarray((z - before) * (beat_frames / (2 * np.pi)))
 
 
 def _said(body: Any, name: str) -> Any:

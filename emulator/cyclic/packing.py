@@ -43,6 +43,7 @@ def pack(model: CyclicEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         "control": [model.control_at, model.control_by],
         "floor": [model.ankle_legs, model.toe_legs],
         "temper": model.temper,
+        "order": model.order,
         "contact_states": model.contact_states,
         "beat_frames": list(model.beat_frames),
         "guide": [model.guide.spread, model.guide.apart],
@@ -56,7 +57,7 @@ def pack(model: CyclicEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     arrays |= {"offsets": model.crew.offsets, "bone_length_m": model.crew.bone_length_m}
     for name in UNITS:
         plain[name], arrays[f"{name}_z"], arrays[f"{name}_contact"] = _units(getattr(model, name))
-    return plain, {name: np.float32(a) if a.dtype.kind == "f" else a for name, a in arrays.items()}
+    return plain, {name: a.astype(np.float32) if a.dtype.kind == "f" else a for name, a in arrays.items()}
 
 
 def _units(units: tuple[Unit, ...]) -> tuple[list[list[float]], np.ndarray, np.ndarray]:
@@ -94,7 +95,11 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
         _shaped(task, own, "latent_energy", -1),
     )
     dynamics = dynamics_of(task, {k.removeprefix("dynamics_"): v for k, v in own.items() if k.startswith("dynamics_")})
-    moved, inputs = dynamics.n_latents, dynamics.n_latents + dynamics.n_controls
+    order = int(plain["order"])
+    if order not in (1, 2) or dynamics.n_latents % order:
+        raise ValueError(f"{task}: dynamics of order {order} make no sense")
+    moved = dynamics.n_latents // order
+    inputs = moved + dynamics.n_controls
     if not (moved <= n and dynamics.n_controls in (0, 1)):
         raise ValueError(f"{task}: dynamics of {moved} latents and {dynamics.n_controls} inputs for {n} components")
     names = tuple(str(name) for name in plain["workers"])
@@ -118,6 +123,7 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
         dynamics=dynamics,
         finer=_finer(task, own, inputs, n - moved),
         temper=_positive(task, "temper", plain["temper"]),
+        order=order,
         **units,
         guide=_guide(task, own, plain["guide"], n, moved, 2 if pace.steps else 1),
         pace=pace,
@@ -165,9 +171,7 @@ def _guide(task: str, own: Mapping[str, np.ndarray], plain: Any, n: int, moved: 
     return Guide(anchors, log_frames, spread, apart, low, high)
 
 
-def _units_of(
-    task: str, rows: Any, own: Mapping[str, np.ndarray], name: str, n: int, steps: bool
-) -> tuple[Unit, ...]:
+def _units_of(task: str, rows: Any, own: Mapping[str, np.ndarray], name: str, n: int, steps: bool) -> tuple[Unit, ...]:
     frames = [int(row[0]) for row in rows]
     if any(not 2 <= count < MOST_FRAMES for count in frames):
         raise ValueError(f"{task}: {name} of {frames} frames make no sense")

@@ -25,7 +25,7 @@ class CyclicPerformances:
 
     duration_s (n,) seconds; scores (n, K) what was drawn: the worker's own latents and step, the first foot, the speed
     beat_s, place_m : (n, M) when each beat comes and, of steps, where along the way the foot comes down; nan beyond
-    bone_length_m (n, B) metres; ``performances[3]`` and slices are performances again, with the same postures (to 1e-10)
+    bone_length_m (n, B) metres; ``performances[3]`` and slices are performances again, postures the same to 1e-10
     """
 
     model: CyclicEmulator
@@ -79,7 +79,7 @@ class CyclicPerformances:
     def positions_m(
         self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
     ) -> np.ndarray:
-        """(n, T, J, 3) joints in metres, z up, floor at 0; the way goes along x from x = y = 0; times as ``directions``."""
+        """(n, T, J, 3) joints in metres, z up, floor at 0; the way goes along x from x = y = 0; times as above."""
         times = self._times(times_s, n_times)
         return np.stack([track.joints_m(at).astype(dtype) for track, at in zip(self.tracks, times)])
 

@@ -1,4 +1,4 @@
-"""Takes made ready for a cyclic fit: frames at one rate, contact, beats, what stands still, and units cut out of them."""
+"""Takes made ready for a cyclic fit: frames at one rate, contact, beats, and units cut out of them."""
 
 from __future__ import annotations
 
@@ -94,12 +94,12 @@ def crew_of(parts: list[Prepared], offsets: dict[str, np.ndarray], log_step: dic
     """The workers in order of appearance, their bones the median over their takes."""
     names = tuple(dict.fromkeys(part.take.worker for part in parts))
     bones = [np.median([part.bone_length_m for part in parts if part.take.worker == name], axis=0) for name in names]
-    return Crew(
-        names, np.array([offsets[n] for n in names]), np.array([log_step[n] for n in names]), np.array(bones)
-    )
+    return Crew(names, np.array([offsets[n] for n in names]), np.array([log_step[n] for n in names]), np.array(bones))
 
 
-def cut(part: Prepared, z: np.ndarray, control: float, steps: bool) -> tuple[Unit | None, Unit | None, slice, list[int]]:
+def cut(
+    part: Prepared, z: np.ndarray, control: float, steps: bool
+) -> tuple[Unit | None, Unit | None, slice, list[int]]:
     """Start and stop unit of a take (None where it does not start or end standing), its cyclic frames, beats in these.
 
     In walking the last full step's strike begins the stop unit, in which the other foot comes to stand beside.
@@ -135,6 +135,4 @@ def with_turns(part: Prepared, z: np.ndarray) -> Prepared:
     from dataclasses import replace
 
     found = turns(z, RATE_HZ)
-    return replace(
-        part, beats=[(frame, -1) for frame in found], beat_s=np.array(found) / RATE_HZ, still=(True, True)
-    )
+    return replace(part, beats=[(frame, -1) for frame in found], beat_s=np.array(found) / RATE_HZ, still=(True, True))

@@ -27,7 +27,7 @@ class Finer:
 
     @classmethod
     def fit(cls, x: Sequence[np.ndarray], y: Sequence[np.ndarray], at_most: int = 220) -> Finer:
-        """From all frames of the takes, seen through evenly thinned points (subset of data for the hyper-parameters)."""
+        """From all frames of the takes, seen through evenly thinned points, which alone give the hyper-parameters."""
         from emulator.cyclic.gp import GaussianProcess
 
         inputs, outputs = np.concatenate(list(x)), np.concatenate(list(y))

@@ -2,8 +2,8 @@
 
 A planted foot does not twist. While it points up from the floor it turns about its ankle, once it points further down
 than it stands about its toe; the point about which it turns does not move. Between two stances it flies as the posture
-says, plus what is missing at both ends, eased. Where a leg is too short for a foot behind, the heel rises further; where
-it is too short for a foot in flight, that comes nearer.
+says, plus what is missing at both ends, eased. Where a leg is too short for a foot behind, the heel rises further;
+where it is too short for a foot in flight, that comes nearer.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class FootStances:
     def ankle(
         self, time_s: np.ndarray, raw_m: np.ndarray, foot: np.ndarray, hip_m: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """(T, 3) ankles and feet, for postures with ankles raw_m, feet pointing along ``foot`` and hips hip_m, each (T, 3)."""
+        """(T, 3) ankles and feet, for postures with ankles raw_m, feet along ``foot`` and hips hip_m, each (T, 3)."""
         at, bears = self._at(time_s), self.bears(time_s)[:, None]
         pitch = np.where(time_s <= self.rise_s[at], np.maximum(foot[:, 2], self.flat), foot[:, 2])
         planted, standing = planted_foot(
@@ -104,7 +104,7 @@ def planted_foot(
     hip_m: np.ndarray,
     leg_m: float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(T, 3) ankle and direction of a bearing foot: pitch (T,) is the z of the posture's foot, the rest as in the class."""
+    """(T, 3) ankle and direction of a bearing foot: pitch (T,) is the z of the posture's foot."""
     toe = ankle_m + foot_m * pointing(way_rad, np.full_like(pitch, flat))
     pitch = pitch.copy()
     ankle = toe - foot_m * pointing(way_rad, np.minimum(pitch, flat))
@@ -122,18 +122,13 @@ def planted_foot(
 def _heel_up(
     pitch: np.ndarray, toe: np.ndarray, way_rad: np.ndarray, foot_m: float, hip_m: np.ndarray, leg_m: float
 ) -> np.ndarray:
-    """(T,) lower pitches at which the leg is as long as ``drawn_in`` lets it be, by halving; as low as can be if none."""
-    high, low = pitch, np.full_like(pitch, LOWEST)
-
-    def apart(at: np.ndarray) -> np.ndarray:
-        return np.asarray(np.linalg.norm(toe - foot_m * pointing(way_rad, at) - hip_m, axis=-1))
-
-    wanted = drawn_in(apart(pitch), leg_m)
-    for _ in range(24):
-        middle = 0.5 * (high + low)
-        far = apart(middle) > wanted
-        high, low = np.where(far, middle, high), np.where(far, low, middle)
-    return np.minimum(0.5 * (high + low), pitch)
+    """(T,) lower pitches at which the leg is as long as ``drawn_in`` lets it be (law of cosines); LOWEST if none."""
+    gap = toe - hip_m
+    wanted = drawn_in(np.linalg.norm(gap - foot_m * pointing(way_rad, pitch), axis=-1), leg_m)
+    ahead = gap[:, 0] * np.cos(way_rad) + gap[:, 1] * np.sin(way_rad)
+    share = (np.sum(gap * gap, axis=-1) + foot_m**2 - wanted**2) / (2 * foot_m * np.hypot(ahead, gap[:, 2]))
+    angle = np.arctan2(gap[:, 2], ahead) + np.arccos(np.clip(share, -1.0, 1.0))
+    return np.minimum(np.sin(np.maximum(angle, np.arcsin(LOWEST))), pitch)
 
 
 def drawn_in(apart_m: np.ndarray, leg_m: float) -> np.ndarray:
@@ -169,7 +164,7 @@ def stances(
 ) -> FootStances:
     """The stances of one foot: runs (start, stop) of nodes at time_s (T,) in which it bears; hip_m (T, 3).
 
-    raw_m (T, 3) ankles of the postures, foot (T, 3) unit vectors to the toe, place_m (S, 3) where the ankles shall stand
+    raw_m (T, 3) ankles of the postures, foot (T, 3) unit vectors to the toe, place_m (S, 3) where the ankles stand
     """
     flat = float(np.clip((toe_least_m - place_m[0, 2]) / foot_m, -0.95, 0.95))
     raw = np.column_stack([raw_m, np.unwrap(_way(foot)), foot[:, 2]])
@@ -198,12 +193,12 @@ def stances(
     if runs[-1][1] == len(time_s):
         off_s[-1] = np.inf
     way_rad, gaps = np.array(ways), np.stack(missing)
-    return FootStances(on_s, np.array(rise_s), off_s, place_m, way_rad, flat, foot_m, toe_least_m, leg_m, gaps, np.stack(rates))
+    return FootStances(
+        on_s, np.array(rise_s), off_s, place_m, way_rad, flat, foot_m, toe_least_m, leg_m, gaps, np.stack(rates)
+    )
 
 
-def raised(
-    foot: np.ndarray, ankle_m: np.ndarray, toe_least_m: float, foot_m: float, soft_m: np.ndarray
-) -> np.ndarray:
+def raised(foot: np.ndarray, ankle_m: np.ndarray, toe_least_m: float, foot_m: float, soft_m: np.ndarray) -> np.ndarray:
     """Unit vectors foot (T, 3), turned up as far as the toe must not be below ``toe_least_m``, within soft_m (T,)."""
     soft = soft_m / foot_m
     least = np.minimum((toe_least_m - ankle_m[:, 2]) / foot_m, 0.9)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from emulator.cyclic.model import CyclicEmulator
 
 SMOOTH_FRAMES = 1.2
-"""What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching is seen to tremble."""
+"""What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching trembles."""
 
 PULLED = 0.6
 TRIES = 4
@@ -56,7 +56,7 @@ def timeline(
     z, contact = (start.z, start.contact) if model.starts else (start.z[:1], start.contact[:1])
     foot, beats, given_up = start.foot, [len(z) - 1], 0
     for _ in range(n_beats - 1):
-        more = one_beat(model, z[-1], foot, control, rng)
+        more = one_beat(model, z[-2:], foot, control, rng)
         given_up += any(more is one for one in model.entries)
         z, contact = joined(z, more.z), np.concatenate([contact[:-1], more.contact])
         foot = 1 - foot if foot >= 0 else foot
@@ -68,25 +68,26 @@ def timeline(
 
 
 def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rng: np.random.Generator | None) -> Unit:
-    """From the latents z (D,) at a beat to the next one, drawn from the dynamics.
+    """From a beat to the next one, drawn from the dynamics; z (1 or 2, D) are the last latents, up to the beat.
 
     A draw begins some way back towards the usual posture of a beat at this speed (``PULLED``), so that a walk of a
     kilometre stays a walk. One that comes to no beat, or to an odd one, is drawn again (``TRIES``), then the mean is
     taken, then the nearest recorded beat: the predictive density, truncated to beats like the recorded ones.
     """
     usual = model.guide.usual(foot, control)
-    begin = z + PULLED * (usual - z)
+    begin = z[-1] + PULLED * (usual - z[-1])
+    seen = model.seen(begin, begin - (z[-1] - z[0]))
     for source in [rng] * TRIES + [None] if rng is not None else [None]:
         drawn, state = model.dynamics.sample(
-            begin[None, : model.dynamics.n_latents],
+            seen[None],
             int(1.6 * model.guide.frames(control)) + 4,
             Tempered(source, model.temper),  # type: ignore[arg-type]
             controls=np.array([[control]]) if model.dynamics.n_controls else None,
         )
-        contact = model.contact_of(state[0])
-        end = _end(model, drawn[0], contact, foot, int(0.6 * model.guide.frames(control)))
-        if end is not None and model.guide.allows(drawn[0, : end + 1], foot, control):
-            whole = model.whole(_smoothed(drawn[0]), control)[: end + 1]
+        contact, moved = model.contact_of(state[0]), drawn[0, :, : model.n_moved]
+        end = _end(model, moved, contact, foot, int(0.6 * model.guide.frames(control)))
+        if end is not None and model.guide.allows(moved[: end + 1], foot, control):
+            whole = model.whole(_smoothed(moved), control)[: end + 1]
             return Unit(whole, _clean(contact[: end + 1], foot), control, foot)
     near = [one for one in model.entries if one.foot == foot] or list(model.entries)
     near = sorted(near, key=lambda one: abs(one.control - control))[:5]

@@ -208,7 +208,7 @@ class Track:
 
     @cached_property
     def _lowered(self) -> tuple[np.ndarray, np.ndarray]:
-        """Times and metres by which the hips come down ahead of need and without haste, so that no leg has to stretch."""
+        """Times and metres by which the hips come down ahead of need and without haste: no leg has to stretch."""
         from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
         assert self.model.legs is not None

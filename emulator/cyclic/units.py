@@ -1,4 +1,4 @@
-"""Units of cyclic motion: how it starts from standing, and how it comes to an end; kept as latents, joined at a beat."""
+"""Units of cyclic motion: how it starts from standing, and how it ends; kept as latents, joined at a beat."""
 
 from __future__ import annotations
 

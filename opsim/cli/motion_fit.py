@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ from opsim.cli.verbs import Mistake, mistakes
     metavar="NUMBER",
     help="How strongly marks are drawn together, 0 to 1; 0.01 is strong.  [default: 0]",
 )
+@click.option("--cyclic", is_flag=True, help="Takes of several cycles (walking, cranking): emulators of any length.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="For the figures of the report only.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
@@ -47,6 +49,7 @@ def command(
     scheme: str | None,
     n_times: int,
     landmarks: str | None,
+    cyclic: bool,
     seed: int,
     as_json: bool,
 ) -> None:
@@ -57,8 +60,8 @@ def command(
 
     with mistakes():
         asked, wrong = asked_of(n_components=n_components, scheme=scheme, n_times=n_times, landmarks=landmarks)
-        sets = read(files, task, where, out, asked, wrong)
-    said = _said(files, out, task, where, asked)
+        sets = _cyclic(files, task, where, out, asked, wrong) if cyclic else read(files, task, where, out, asked, wrong)
+    said = _said(files, out, task, where, asked) + " --cyclic" * cyclic
     with no_empty_folders(out.parent):
         with mistakes():
             ready(out, ".npz")
@@ -94,9 +97,34 @@ def _fitted(sets: Sequence[Any], asked: dict[str, Any], seed: int, said: str, ou
     return library, failed
 
 
+@dataclass(frozen=True)
+class CyclicTakes:
+    """The takes of one file, to be fitted as motion that goes on and on."""
+
+    task: str
+    recording: Any
+    where: str
+
+
+def _cyclic(
+    files: Sequence[str], task: str | None, where: str | None, out: Path, asked: dict[str, Any], wrong: Sequence[str]
+) -> list[CyclicTakes]:
+    from opsim.cli.motion_fit_asked import wrong_names
+    from opsim.cli.motion_fit_cyclic import read_cyclic, wrong_with_cyclic
+
+    other = wrong_with_cyclic(**{name: name in asked for name in ("scheme", "n_times", "landmarks")})
+    found = read_cyclic(files, task, where, [*wrong_names(files, task, out), *wrong, *other])
+    return [CyclicTakes(name, recording, where or "all") for name, recording in found]
+
+
 def _model(motions: Any, asked: dict[str, Any], seed: int, said: str) -> Any:
     from emulator import MotionEmulator
+    from opsim.cli.motion_fit_cyclic import cyclic_model
     from opsim.cli.progress import progress
+
+    if isinstance(motions, CyclicTakes):
+        components = asked.get("n_components")
+        return cyclic_model(motions.task, motions.recording, components, seed, motions.where, said)
 
     with progress(f"fit {motions.task}") as report:
         return MotionEmulator.fit(motions, progress=report, seed=seed, command=said, **asked)

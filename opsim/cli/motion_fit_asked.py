@@ -50,6 +50,11 @@ def read(
     return sets
 
 
+def wrong_names(files: Sequence[str], task: str | None, out: Path) -> list[str]:
+    """What speaks against the file to write and the name of the task."""
+    return [*_wrong_out(out, files), *_named_wrongly(files, task)]
+
+
 def _components(text: str) -> tuple[int | float | None, list[str]]:
     """A number of components, or a share of the variance between 0 and 1."""
     number = _number(text)

@@ -60,10 +60,25 @@ def _strips(model: Any, out: Path, asked: Asked, seed: int, title: str) -> dict[
     from opsim.report.strips import draw_strips, strips_of
     from opsim.report.view import Strip
 
+    if getattr(model, "walks", False):
+        return _walks(model, out, asked.n or 3, seed, title)
     mean, drawn = mean_performance(model), strips_of(model, n_samples=asked.n or 3, seed=seed)[1:]
     row = Strip("mean performance", mean.positions_m(n_times=61)[0], float(mean.duration_s[0]), mean.mark_s[0])
     draw_strips([row, *drawn], out, skeleton=model.skeleton, mark_names=model.mark_names, title=title)
     return {"samples": len(drawn)}
+
+
+def _walks(model: Any, out: Path, n: int, seed: int, title: str) -> dict[str, Any]:
+    """Walks at their own places, over their footprints."""
+    import numpy as np
+
+    from opsim.report.walks import draw_walks, walk_of
+
+    drawn = model.sample(n, np.random.default_rng(seed))
+    rows = [walk_of("mean performance", model.typical())]
+    rows += [walk_of(f"sample {k + 1}", drawn[k]) for k in range(n)]
+    draw_walks(rows, out, model.skeleton, title=title)
+    return {"samples": n}
 
 
 def _video(model: Any, out: Path, asked: Asked, seed: int, _title: str) -> dict[str, Any]:

@@ -75,7 +75,12 @@ def test_json_for_machines(tmp_path, csv):
         csv("a.csv"), "-o", tmp_path / "out.npz", "--rate", 50, "--worker", "ana", "--trial", "7", "--json"
     )
     take = json.loads(said)["takes"][0]
-    assert code == 0 and (take["take"], take["frames"], take["sides"], take["gap_share"]) == ("ana/7", 40, "right", 0)
+    assert code == 0 and (take["take"], take["frames"], take["sides"], take["gap_share"]) == (
+        "ana/7",
+        40,
+        "as named",
+        0,
+    )
     assert take["joints"] == list(TAKE.names)
 
 

@@ -1,0 +1,136 @@
+"""Walking of any length: drawn walks over their footprints, slide of feet, durations and steps against law."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+SPEEDS_M_PER_S, HEIGHTS_M = (0.7, 1.2, 1.7), (1.55, 1.90)
+SHIPPED = Path(__file__).parents[2] / "scenarios" / "libraries" / "walking.npz"
+
+
+def evidence(motion: Path, out: Path) -> Iterator[tuple[str, str, bool]]:
+    """Claims about the shipped walking, and about a fit of the recorded walks in ``motion``."""
+    from emulator.library import MotionLibrary
+
+    model = MotionLibrary.load(SHIPPED)["walk"]
+    yield from _planted(model, out)
+    yield from _durations(model)
+    yield _steps(model, out)
+    yield _ends(model)
+    yield _speed(model)
+    yield from _recorded(motion, out)
+
+
+def _walks(model, distance_m=4.0):
+    for speed in SPEEDS_M_PER_S:
+        for height in HEIGHTS_M:
+            worker = model.draw_worker(np.random.default_rng(3), {"height_m": height})
+            condition = {"distance_m": distance_m, "speed_m_per_s": speed}
+            yield speed, height, model.sample(1, np.random.default_rng(7), worker=worker, condition=condition)
+
+
+def _planted(model, out):
+    from emulator.cyclic.feet import foot_skate_m
+    from opsim.report.walks import draw_walks, walk_of
+
+    slid, stretched, rows = [], [], []
+    for speed, height, one in _walks(model):
+        rows.append(walk_of(f"{speed} m/s, {height:.2f} m tall", one))
+        at = np.arange(0.0, one.duration_s[0], 1 / 60)
+        positions = one.positions_m(at)[0]
+        slid.append(foot_skate_m(positions, one.contact(at)[0], model.skeleton).max())
+        stretched.append(np.ptp(model.skeleton.bone_lengths(positions), axis=0).max())
+    draw_walks(rows, out / "walks.png", model.skeleton, title="Drawn walks at three speeds, by two statures")
+    yield "feet that bear stay", f"at most {1000 * max(slid):.2f} mm in a stance (1.5 mm)", max(slid) < 1.5e-3
+    yield "bones keep their length", f"within {max(stretched):.0e} m (1e-9)", max(stretched) < 1e-9
+
+
+def _durations(model):
+    for distance_m, speed in ((3.0, 1.0), (8.0, 1.3), (50.0, 1.6)):
+        condition = {"distance_m": distance_m, "speed_m_per_s": speed}
+        many = model.sample(2000, np.random.default_rng(11), condition=condition).duration_s
+        half = 1.96 * many.std(ddof=1) / np.sqrt(len(many))
+        found = f"{many.mean():.3f} +/- {half:.3f} s, CV {100 * many.std() / many.mean():.1f} %"
+        yield (
+            f"{distance_m:g} m at {speed} m/s take {distance_m / speed:.3f} s",
+            found,
+            abs(many.mean() - distance_m / speed) < half,
+        )
+
+
+def _steps(model, out):
+    """Of the typical worker, long ways: step length against the walk ratio that the made walks were given."""
+    from matplotlib.figure import Figure
+
+    from emulator.walk_plan import step_length_m
+    from opsim.report.person import LEFT, RIGHT
+
+    figure = Figure(figsize=(7.0, 4.2), facecolor="white")
+    axes, off = figure.add_subplot(), []
+    for colour, height in zip((LEFT, RIGHT), HEIGHTS_M):
+        worker = model.draw_worker(np.random.default_rng(3), {"height_m": height, "person": "w1"})
+        leg = float(model.channel.leg_m(worker.bone_length_m)) * 0.92 / 0.84
+        speeds = np.linspace(0.5, 2.0, 9)
+        found, law = [], [step_length_m(v, leg) for v in speeds]
+        for v in speeds:
+            one = model.sample(
+                1, np.random.default_rng(0), worker=worker, condition={"distance_m": 200.0, "speed_m_per_s": v}
+            )
+            found.append(200.0 / np.isfinite(one.beat_s).sum())
+        own = np.exp(np.mean(np.log(found) - np.log(law)))
+        off.append(np.abs(np.array(found) / (own * np.array(law)) - 1).max())
+        axes.plot(speeds, found, "o", color=colour, label=f"{height:.2f} m tall, drawn")
+        axes.plot(speeds, own * np.array(law), color=colour, lw=1.2, label="walk ratio, at this person's level")
+    axes.set(xlabel="speed (m/s)", ylabel="step (m)", title="Step length follows speed and leg")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(out / "steps.png", dpi=130)
+    return "step length follows the square root of the speed", f"within {100 * max(off):.1f} % (5 %)", max(off) < 0.05
+
+
+def _ends(model):
+    off = []
+    for distance_m in (0.3, 1.0, 2.5, 10.0, 100.0):
+        one = model.sample(1, np.random.default_rng(2), condition={"distance_m": distance_m})
+        off.append(abs(one.root_m(one.duration_s)[0, -1, 0] - distance_m))
+    return "ways of 0.3 to 100 m end where they shall", f"within {100 * max(off):.2f} cm (1 cm)", max(off) < 0.01
+
+
+def _speed(model):
+    import time
+
+    model.sample(2, np.random.default_rng(0), condition={"distance_m": 10.0})
+    start = time.perf_counter()
+    many = model.sample(500, np.random.default_rng(0), condition={"distance_m": 10.0})
+    ratio = many.duration_s.sum() / (time.perf_counter() - start)
+    few = many[:40]
+    few[:1].positions_m(n_times=10)
+    start = time.perf_counter()
+    for k in range(len(few)):
+        few[k].positions_m(np.arange(0.0, few.duration_s[k], 1 / 30))
+    with_postures = few.duration_s.sum() / (time.perf_counter() - start)
+    found = f"{ratio:.0f} times real time (1000); postures at 30 Hz besides: {with_postures:.0f} times"
+    return "walking is drawn faster than it is walked", found, ratio > 1000
+
+
+def _recorded(motion, out):
+    """Fitted to recordings, from which nothing is shipped."""
+    from emulator.cyclic.model import CyclicEmulator
+    from emulator.recordings.takes_npz import read_recording
+    from opsim.report.walks import draw_walks, walk_of
+
+    model = CyclicEmulator.fit(read_recording(motion / "bandai2_walk.npz"))
+    report = model.report
+    found = f"{report.skate_recorded_cm:.2f} cm recorded, {report.skate_drawn_cm:.3f} cm drawn, a stance"
+    yield "fitted to bandai2_walk, feet do not slide", found, report.skate_drawn_cm < 0.15
+    found = f"{report.step_m[0]:.3f} m recorded, {report.step_m[2]:.3f} m drawn"
+    yield "steps are as long as recorded", found, abs(report.step_m[2] / report.step_m[0] - 1) < 0.03
+    drawn = model.sample(2, np.random.default_rng(0))
+    rows = [walk_of(f"drawn after bandai2_walk, {k + 1}", drawn[k]) for k in range(2)]
+    draw_walks(
+        rows, out / "recorded.png", model.skeleton, title="Fitted to recorded walks: begins and ends in the cycle"
+    )
