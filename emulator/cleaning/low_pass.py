@@ -1,7 +1,7 @@
 """Low-pass: tracking noise taken out of the joints that have any, by a Butterworth filter run both ways.
 
 Source: Winter, Biomechanics and Motor Control of Human Movement, 4th ed., 3.4.4.2 (order 2, both ways, so that nothing
-is shifted in time; the cut-off of each way raised by 1 / 0.802, since two ways cut twice) and 3.4.4.3, residual
+is shifted in time; the cut-off of each way, warped as tan(pi hz / rate), raised by 1 / 0.802 since two cut twice) and 3.4.4.3, residual
 analysis: what a filter takes out, over its cut-off, is a straight line where it is noise only; drawn on to 0 Hz the
 line says how much noise there is, and the cut-off is where the filter takes out that much. How much noise there is at
 all is asked of eighth differences, in which little of a movement is left; a smooth joint is not filtered.
@@ -24,6 +24,8 @@ LOWEST_HZ = 3.0
 """No cut-off is lower: a foot that stands has none of its own, but may be about to move."""
 TAIL = (0.5, 0.9)
 """The part of the frequencies below the highest cut-off in which there is noise only."""
+HIGHEST = 0.76
+"""Of half the frame rate."""
 N_CUT_OFFS = 24
 ORDER = 8
 
@@ -63,7 +65,8 @@ def filtered(positions_m: np.ndarray, rate_hz: float, cut_off_hz: float) -> np.n
     """Positions (T, ...) through the filter; 3 dB less at ``cut_off_hz`` after both ways."""
     from scipy.signal import butter, sosfiltfilt
 
-    sections = butter(2, cut_off_hz / BOTH_WAYS / (rate_hz / 2), output="sos")
+    raised = np.arctan(np.tan(np.pi * cut_off_hz / rate_hz) / BOTH_WAYS)
+    sections = butter(2, raised / (np.pi / 2), output="sos")
     return np.asarray(sosfiltfilt(sections, positions_m, axis=0))
 
 
@@ -81,5 +84,5 @@ def residual_analysis(positions_m: np.ndarray, rate_hz: float) -> tuple[float, f
 
 
 def highest_hz(rate_hz: float) -> float:
-    """The highest cut-off the filter can have: a little below half the frame rate."""
-    return 0.95 * BOTH_WAYS * rate_hz / 2
+    """The highest cut-off that is used: the filter needs room below half the frame rate."""
+    return HIGHEST * rate_hz / 2

@@ -37,11 +37,11 @@ class CleaningSettings:
     rigid_m           : standard deviation of the distance up to which a point moves with the joint
     kept_share        : a take of which less is without a longer gap is left out
     least_slip_share  : a bone that is longer or shorter by this share after a step shows which side of it is wrong
-    bad_bone_share    : a take with a bone that leaves its median length by more (in 99 % of frames) is bad
+    bad_bone_share    : a take with a bone that leaves its median length by more (in more than 1 % of frames) is bad
     least_offset_deg  : a joint angle that differs by less from the person's other takes is not offset
     tolerance_deg     : this far beyond the limit an angle is still believed
-    cut_off_hz        : of the low-pass; None: found for each take by Winter's residual analysis
-    noise_m           : a take with less noise than this is smooth and is not filtered
+    cut_off_hz        : of the low-pass; None: found for each joint by Winter's residual analysis
+    noise_m           : a joint with less noise than this is smooth and is not filtered
     shortest_m, tallest_m : what a body can measure
     """
 

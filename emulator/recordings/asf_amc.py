@@ -17,6 +17,7 @@ from emulator.recordings.acclaim import INCH_M, Acclaim, Bone
 from emulator.recordings.amc import AmcValues, read_amc_values
 from emulator.recordings.asf import read_asf
 from emulator.recordings.take import Take
+from emulator.recordings.text import refuse_swelling
 
 USUAL_RATE_HZ = 120.0
 
@@ -43,6 +44,7 @@ def read_amc(
     skeleton_path = _skeleton_beside(path) if asf is None else Path(asf)
     skeleton = read_asf(skeleton_path)
     values = read_amc_values(path, skeleton)
+    refuse_swelling(path, len(values.values), len(skeleton.bones))
     positions = amc_positions(skeleton, values)
     notes = [f"skeleton from {skeleton_path.name}", *_notes(skeleton)]
     if unit_m is None:

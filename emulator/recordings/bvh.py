@@ -12,6 +12,7 @@ from emulator.recordings import RecordingError
 from emulator.recordings.bvh_header import CHANNELS, MOST_WORDS, HierarchyReader, words_of
 from emulator.recordings.bvh_motion import opened, read_values
 from emulator.recordings.take import Take
+from emulator.recordings.text import refuse_swelling
 
 WHOLE_RATE = 1e-9
 
@@ -80,6 +81,7 @@ def read_bvh(path: str | Path, *, unit_m: float | None = None, up: str | None = 
 
     path = Path(path)
     file = read_bvh_file(path)
+    refuse_swelling(path, len(file.values), len(file.names) + len(file.end_parents))
     names, parents, positions = bvh_positions(file)
     if not np.all(np.isfinite(positions)):
         raise RecordingError(f"{path}: found positions beyond all numbers, expected a body")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -110,7 +111,7 @@ def _labels(header: Header, n_points: int) -> tuple[list[str], list[int], int]:
     labels = [*labels[:n_points], *[""] * (n_points - len(labels))]
     others = {word for group in _NO_POINTS for word in header.parameters.get(f"POINT:{group}", _EMPTY).text}
     at = [i for i, label in enumerate(labels) if label and not label.startswith("*") and label not in others]
-    double = sorted({labels[i] for i in at if labels.count(labels[i]) > 1})
+    double = sorted(label for label, count in Counter(labels[i] for i in at).items() if count > 1)
     if double:
         raise C3dError(f"found {len(double)} labels more than once: {', '.join(map(repr, double[:5]))}")
     if not at:

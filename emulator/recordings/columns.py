@@ -11,8 +11,11 @@ from emulator.recordings import RecordingError
 from emulator.recordings.text import quoted, text_lines
 
 _COORDINATE = re.compile(r"^(?:pos(?:ition)?[\s_.]*)?([xyz])\d*(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
-_SUFFIX = re.compile(r"^(.+?)[\s_.:\-/]*(?:pos(?:ition)?)?[\s_.:\-/]*([xyz])(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
-_SCORE = re.compile(r"^(.+?)[\s_.:\-]+(score|likelihood|confidence|conf|visibility|c|p)$", re.IGNORECASE)
+_AXIS_LAST = re.compile(r"([xyz])(?:[ \t]*[\[(][^\[\]()]*[\])])?$", re.IGNORECASE)
+_SCORE_LAST = re.compile(r"(?:score|likelihood|confidence|conf|visibility|c|p)$", re.IGNORECASE)
+_POSITION_LAST = re.compile(r"pos(?:ition)?$", re.IGNORECASE)
+_BETWEEN = " \t_.:-/"
+"""What stands between a name and its axis. NOTE: cut off by hand: patterns with two runs of these are cubic."""
 _TYPES = ("Bone", "Marker", "Bone Marker", "Rigid Body Marker", "Rigid Body")
 """What Motive exports; the first of these that a file has is read."""
 _SCORES = {"score", "likelihood", "confidence", "conf", "visibility", "c", "p"}
@@ -99,13 +102,15 @@ def _passed_over(header: Sequence[Sequence[str]], at: int) -> list[bool]:
 
 
 def _split(label: str) -> tuple[str, str]:
-    score = _SCORE.match(label)
     if TIME.match(label) or FRAME.match(label):
         return label, ""
-    if score:
-        return score.group(1), "score"
-    found = _SUFFIX.match(label)
-    return (found.group(1), found.group(2).lower()) if found else (label, "")
+    score = _SCORE_LAST.search(label)
+    if score and (name := label[: score.start()]) != (bare := name.rstrip(_BETWEEN)) and bare:
+        return bare, "score"
+    axis = _AXIS_LAST.search(label)
+    if not axis or not (name := label[: axis.start()].rstrip(_BETWEEN)):
+        return label, ""
+    return _POSITION_LAST.sub("", name).rstrip(_BETWEEN) or name, axis.group(1).lower()
 
 
 def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: int) -> Columns:

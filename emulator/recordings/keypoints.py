@@ -8,6 +8,7 @@ Read are: frames as lists ``[[x, y, z(, score)], ...]``, as ``{name: [x, y, z]}`
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -53,7 +54,7 @@ def read_json(
         raise RecordingError(
             f"{path}: found {points.shape[1]} points a frame, expected {len(names)} as there are names"
         )
-    double = sorted({name for name in names if names.count(name) > 1})
+    double = sorted(name for name, count in Counter(names).items() if count > 1)
     if double:
         raise RecordingError(f"{path}: found the names {', '.join(double[:5])} more than once")
     positions, doubted = points[..., :3].copy(), points[..., 3] < min_score

@@ -12,6 +12,8 @@ from emulator.recordings import RecordingError
 BLOCK_BYTES = 1 << 20
 MOST_LINE_BYTES = 1 << 20
 """A longer line is a damaged or hostile file: a frame of 10,000 channels has a tenth of that."""
+MOST_TIMES_LARGER = 16
+"""Joints take at most so many times the bytes of their file, besides the first 64 MB: a digit and a blank are 2."""
 _MARKS = (
     (codecs.BOM_UTF32_LE, "utf-32"),
     (codecs.BOM_UTF32_BE, "utf-32"),
@@ -54,6 +56,16 @@ def text_lines(path: Path) -> Iterator[tuple[int, str]]:
         _short(path, number + 1, rest)
     if rest:
         yield number + 1, decoded(rest)
+
+
+def refuse_swelling(path: Path, n_frames: int, n_joints: int) -> None:
+    """Raises RecordingError where joints (T, J, 3) would take far more memory than the file that tells of them."""
+    expected = MOST_TIMES_LARGER * path.stat().st_size + (64 << 20)
+    if 24 * n_frames * n_joints > expected:
+        raise RecordingError(
+            f"{path}: found {n_frames:,} frames of {n_joints:,} joints in {path.stat().st_size / 2**20:.1f} MB, "
+            "expected numbers for more of them"
+        )
 
 
 def decoded(text: bytes) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -72,7 +73,7 @@ def _names(path: Path, header, lines, said: dict[str, str]) -> list[str]:  # typ
         raise RecordingError(f"{path}:4: found no line of names, expected 'Frame#', 'Time' and the markers")
     line, cells = row
     names = [cell for cell in cells[2:] if cell]
-    double = sorted({name for name in names if names.count(name) > 1})
+    double = sorted(name for name, count in Counter(names).items() if count > 1)
     if double:
         raise RecordingError(f"{path}:{line}: found {', '.join(map(quoted, double[:5]))} more than once")
     _count(path, "NumMarkers", said["NumMarkers"], len(names))

@@ -6,6 +6,7 @@ Source: spatio-temporal LTSA (seed 003), end of sec. 4. The joining itself is ``
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from emulator.skeleton import Skeleton
 
 ALIKE_RAD, MOST_RAD = 0.05, 0.25
 """Postures are one and the same within the first, and too far apart to be joined beyond the second."""
+MOST_COMPARED = 2000
+"""Frames of each motion that are compared; of longer ones every second, third, ..."""
 
 
 def motion_of(take: Take, start: int = 0, stop: int | None = None) -> Motion:
@@ -66,7 +69,8 @@ def common_postures(before: Motion, after: Motion, most_rad: float = MOST_RAD) -
     """
     from scipy.spatial.distance import cdist
 
-    apart = cdist(_state(before), _state(after)) / np.sqrt(before.skeleton.n_bones)
+    thin, thinner = (-(-len(motion.time_s) // MOST_COMPARED) for motion in (before, after))
+    apart = cdist(_state(before)[::thin], _state(after)[::thinner]) / np.sqrt(before.skeleton.n_bones)
     least = float(apart.min())
     if least > most_rad:
         raise ValueError(
@@ -75,7 +79,7 @@ def common_postures(before: Motion, after: Motion, most_rad: float = MOST_RAD) -
         )
     one, other = np.nonzero(apart <= max(ALIKE_RAD, 1.2 * least))
     best = int(np.argmax(one - other))
-    return int(one[best]), int(other[best]), float(apart[one[best], other[best]])
+    return int(one[best]) * thin, int(other[best]) * thinner, float(apart[one[best], other[best]])
 
 
 def joined_at_common_posture(
@@ -94,10 +98,10 @@ def part(motion: Motion, start: int, stop: int | None) -> Motion:
     last = len(motion.time_s) - 1 if stop is None else stop
     start = min(start, last - 1)
     positions = motion.positions_m(world=True)[start : last + 1]
-    rate_hz = (len(motion.time_s) - 1) / motion.duration_s
-    return motion_from_positions(
-        motion.skeleton, positions, rate_hz, worker=motion.worker, trial=motion.trial, covariates=motion.covariates
+    cut = motion_from_positions(
+        motion.skeleton, positions, 1.0, worker=motion.worker, trial=motion.trial, covariates=motion.covariates
     )
+    return replace(cut, time_s=motion.time_s[start : last + 1] - motion.time_s[start])
 
 
 def _state(motion: Motion) -> np.ndarray:

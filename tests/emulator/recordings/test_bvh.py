@@ -263,3 +263,15 @@ def test_only_the_bandai_files_trunk_breathes():
     spread = dict(zip(take.names[1:], np.ptp(bones, axis=0)))
     assert max(v for name, v in spread.items() if name != "Hips") < 2e-6
     assert spread["Hips"] > 1e-3  # from a root on the floor: the way of the body, not a bone
+
+
+def test_a_small_file_that_asks_for_gigabytes_is_refused(tmp_path):
+    joints = "".join(f"JOINT j{i}\n{{\nOFFSET 0 1 0\nCHANNELS 0\n}}\n" for i in range(1500))
+    frames = "\n".join(["0 0 0"] * 30_000)
+    path = tmp_path / "swelling.bvh"
+    path.write_text(
+        f"HIERARCHY\nROOT hips\n{{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n{joints}}}\n"
+        f"MOTION\nFrames: 30000\nFrame Time: 0.01\n{frames}\n"
+    )
+    with pytest.raises(RecordingError, match="30,000 frames of 1,501 joints in"):
+        read_bvh(path)

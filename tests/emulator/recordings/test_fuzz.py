@@ -12,7 +12,7 @@ from tests.emulator.recordings.bvh_texts import ARM, random_file, written
 from tests.emulator.recordings.mutations import damaged
 from tests.emulator.recordings.test_asf_amc import AMC, ASF, files
 
-MANY = settings(max_examples=250, deadline=2000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+MANY = settings(max_examples=250, suppress_health_check=[HealthCheck.function_scoped_fixture])
 TREE = random_file(np.random.default_rng(5), n_joints=5)[0]
 
 

@@ -19,7 +19,7 @@ from tests.emulator.recordings.body import body, json_text, table_text, trc_text
 from tests.emulator.recordings.mutations import damaged
 from tests.emulator.recordings.test_c3d import by_hand
 
-MANY = settings(max_examples=100, deadline=2000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+MANY = settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
 TAKE = body(4, 50.0)
 MM = 1000 * TAKE.positions_m
 CSV = table_text(["frame,time," + ",".join(f"{n}_{a}" for n in TAKE.names for a in "xyz")], MM,
