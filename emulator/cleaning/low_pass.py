@@ -1,10 +1,10 @@
 """Low-pass: tracking noise taken out of the joints that have any, by a Butterworth filter run both ways.
 
 Source: Winter, Biomechanics and Motor Control of Human Movement, 4th ed., 3.4.4.2 (order 2, both ways, so that nothing
-is shifted in time; the cut-off of each way, warped as tan(pi hz / rate), raised by 1 / 0.802 since two cut twice) and 3.4.4.3, residual
-analysis: what a filter takes out, over its cut-off, is a straight line where it is noise only; drawn on to 0 Hz the
-line says how much noise there is, and the cut-off is where the filter takes out that much. How much noise there is at
-all is asked of eighth differences, in which little of a movement is left; a smooth joint is not filtered.
+is shifted in time; the cut-off of each way, warped as tan(pi hz / rate), raised by 1 / 0.802 since two cut twice) and
+3.4.4.3, residual analysis: what a filter takes out, over its cut-off, is a straight line where it is noise only; drawn
+on to 0 Hz the line says how much noise there is, and the cut-off is where the filter takes out that much. How much
+noise there is at all is asked of eighth differences, in which little of a movement is left; a smooth joint stays.
 """
 
 from __future__ import annotations
