@@ -56,7 +56,7 @@ class CompositeEmulator:
 
         worker    : an effect of ``draw_worker``, the name of somebody whom all parts know, or None: each part by
                     other workers of the population, all with the bones of the first part that goes a way, so that
-                    further ways come out a few per cent longer or shorter than asked; a drawn worker walks them as asked
+                    further ways come out a few per cent longer or shorter; a drawn worker walks them as asked
         condition : None, {"pace": 1.1} or {"log_duration_shift": d}: passed to all parts
         Raises ValueError for an unknown worker or condition.
         """
