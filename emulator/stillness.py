@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from emulator.motion import Motion
-from emulator.runs import runs_of
+from emulator.runs import stretches
 
 SLOW_SHARE = 0.05
 """Slower than this share of the repetition's own typical speed is still. A soft turn at 10 % is no hold."""
@@ -39,7 +39,7 @@ def find(motion: Motion) -> list[tuple[int, int]]:
     shaky = np.sqrt(2 * feigned * np.sqrt(1 / state.shape[1]))  # what noise feigns at two standard errors
     limit = np.hypot(SLOW_SHARE * typical, min(shaky, 0.5 * SLOW_SHARE * typical))
     near = float(np.hypot(1.3 * np.sqrt(3.0) * noise, limit * half / 2))
-    runs = _joined(state, runs_of(speed < limit), half, near)
+    runs = _joined(state, [(start, stop - 1) for start, stop in stretches(speed < limit)], half, near)
     wide = _apart_again([_widened(state, run, half, near) for run in runs])
     return [(first, last) for first, last in wide if last - first + 1e-9 >= SHORTEST_S * rate_hz]
 

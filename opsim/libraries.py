@@ -116,6 +116,11 @@ def _speeds(plain: Any) -> tuple[float, float] | None:
     pace = plain.get("pace")
     if not isinstance(pace, dict) or pace.get("steps") is not True:
         return None
+    return walked_m_per_s()
+
+
+def walked_m_per_s() -> tuple[float, float]:
+    """The slowest and the fastest that people of any walking emulator walk."""
     from emulator.cyclic.pace import FASTEST_M_PER_S, SLOWEST_M_PER_S
 
     return SLOWEST_M_PER_S, FASTEST_M_PER_S

@@ -48,8 +48,8 @@ def asked_of(model: CyclicEmulator, condition: Any, n: int, leg_m: np.ndarray, w
         way_m = said["distance_m"]
         speed = way_m / total_s if "length_s" in said else speed
     elif "cycles" in said:
-        beyond = model.pace.start_beats + model.pace.stop_beats - 1
-        way_m = beats * model.pace.step_m(speed * (beats + beyond) / beats, leg_m, who.log_step)
+        gone = beats + model.pace.halves
+        way_m = gone * model.pace.step_m(speed * (beats + model.pace.beyond) / gone, leg_m, who.log_step)
     else:
         way_m = speed * total_s
     return Asked(way_m, speed, total_s, beats)

@@ -147,7 +147,7 @@ def _fitted(recording: Recording, wanted: Wanted, said: Callable[[int, int, str]
     from emulator.cyclic.judged import judged, tempered
     from emulator.cyclic.packing import rounded
 
-    model = tempered(rounded(model), parts, takes, wanted.seed)
+    model = tempered(rounded(model), parts, takes)
     model = replace(model, report=judged(model, parts, takes, wanted.seed))
     said(4, 4, "done")
     return model

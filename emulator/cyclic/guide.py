@@ -54,12 +54,15 @@ class Guide:
         """How many a beat takes."""
         return float(np.exp(self.log_frames @ np.array([1.0, control])))
 
+    def lasts(self, frames: int, control: float) -> bool:
+        """Whether a beat may take so many."""
+        return bool(abs(np.log(frames / self.frames(control))) <= ROOM * self.spread)
+
     def allows(self, z: np.ndarray, foot: int, control: float) -> bool:
         """Whether a beat z (T, d), up to and with the first frame of the next one, is like a recorded one."""
-        off = abs(np.log((len(z) - 1) / self.frames(control)))
         after = self.usual(1 - foot if foot >= 0 else foot, control)[: z.shape[1]]
         near = np.linalg.norm(z[-1] - after) <= ROOM * self.apart
-        return bool(off <= ROOM * self.spread and near and np.all((z >= self.low) & (z <= self.high)))
+        return bool(self.lasts(len(z) - 1, control) and near and np.all((z >= self.low) & (z <= self.high)))
 
 
 def _anchor(beats: list[Unit]) -> np.ndarray:

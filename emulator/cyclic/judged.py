@@ -20,11 +20,13 @@ MOST_DRAWN = 40
 TEMPERS = (0.6, 0.45, 0.3, 0.15)
 ROUGHEST = 1.1
 """Roughness drawn over recorded that is let pass."""
+TEMPERING_SEED = 0
+"""Of the draws by which the temper is chosen: a model does not depend on the seed of its report's figures."""
 GIVEN_UP = 0.02
 """Share of beats at which the dynamics may come to none."""
 
 
-def tempered(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured], seed: int) -> CyclicEmulator:
+def tempered(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured]) -> CyclicEmulator:
     """The model with the first of ``TEMPERS`` at which draws are no rougher than recordings and come to beats.
 
     If there is none, the one at which the fewest beats are given up.
@@ -32,7 +34,7 @@ def tempered(model: CyclicEmulator, parts: list[Prepared], takes: list[Measured]
     recorded, best = _roughness([part.positions_m for part in parts]), (np.inf, model)
     for temper in TEMPERS:
         model = replace(model, temper=temper)
-        drawn = _drawn(model, takes, np.random.default_rng(seed))
+        drawn = _drawn(model, takes, np.random.default_rng(TEMPERING_SEED))
         given_up = _given_up(drawn)
         if given_up <= GIVEN_UP and _roughness([_frames(one) for one in drawn]) <= ROUGHEST * recorded:
             return model
@@ -79,8 +81,7 @@ def _drawn(model: CyclicEmulator, takes: list[Measured], rng: np.random.Generato
         cycles = max(len(take.beat_s) // (2 if model.pace.steps else 1), 1)
         condition: dict[str, float] = {"cycles": cycles}
         if model.pace.steps:
-            beyond = model.pace.start_beats + model.pace.stop_beats - 1
-            mean = take.speed_m_per_s * 2 * cycles / (2 * cycles + beyond)
+            mean = take.speed_m_per_s * (2 * cycles + model.pace.halves) / (2 * cycles + model.pace.beyond)
             condition["speed_m_per_s"] = float(np.clip(mean, 0.3, 2.5))
         drawn.append(model.sample(1, rng, worker=take.worker, condition=condition))
     return drawn

@@ -57,7 +57,11 @@ class PoseLatent:
 
     def inverse(self, z: np.ndarray) -> Poses:
         """The poses of latents (..., T, d), their directions of unit length again."""
-        return unflattened(np.asarray(z, float) @ (self.basis.T * self.scale) + self.mean)
+        return unflattened(self.flat(z))
+
+    def flat(self, z: np.ndarray) -> np.ndarray:
+        """(..., T, D) the poses of latents laid flat, see ``flattened``, their directions not yet of unit length."""
+        return np.asarray(np.asarray(z, float) @ (self.basis.T * self.scale) + self.mean)
 
     def first(self, components: int) -> PoseLatent:
         """The same space with its first components only."""

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emulator.cyclic.asked import asked_of
+from emulator.cyclic.contact_states import contact_of_state
 from emulator.cyclic.crew import Crew, CyclicWorker
 from emulator.cyclic.guide import Guide
 from emulator.cyclic.latent import PoseLatent
@@ -91,10 +92,11 @@ class CyclicEmulator:
         worker    : an effect of ``draw_worker``, a recorded worker's name, or None: each by another new worker
         condition : one of {"distance_m": 3.0}, {"cycles": 4}, {"length_s": 5.0}, numbers or (n,); None: as long as a
                     recorded one. Of a walk besides "speed_m_per_s" (0.3 to 2.5), the mean over the whole way; distance
-                    and length_s together say it, too. "pace" and "log_duration_shift" make it faster or slower.
+                    and length_s together say it, too. "pace" and "log_duration_shift" make it faster or slower, as a
+                    worker's own pace does, but nobody walks slower than 0.3 m/s or faster than 2.5 m/s thereby.
         The mean duration is distance over speed, as long as no step would take less than ``SHORTEST_STEP_S``; length_s
         is met exactly. A cycle of walking is two steps.
-        Raises ValueError for an unknown worker or condition, and speeds at which nobody walks.
+        Raises ValueError for an unknown worker or condition, and for a "speed_m_per_s" at which nobody walks.
         """
         if n < 0:
             raise ValueError(f"{self.task}: found n = {n}, expected a number of performances from 0")
@@ -165,11 +167,24 @@ class CyclicEmulator:
         """The legs to be planted, where the skeleton has such."""
         return Legs.of(self.skeleton)
 
+    @cached_property
+    def leg_chain(self) -> np.ndarray:
+        """(b, 3) the part of the skeleton's chain that the legs hang on."""
+        assert self.legs is not None
+        return self.legs.chain(self.skeleton)
+
+    @cached_property
+    def manner(self) -> Any:
+        """What the kernel of a beat reads besides the dynamics' tables."""
+        from emulator.cyclic.timeline import manner_of
+
+        return manner_of(self)
+
     def contact_of(self, state: np.ndarray) -> np.ndarray:
         """(T, 2) whether the feet bear in states (T,) of the dynamics; both, where states are of something else."""
         if not self.contact_states:
             return np.ones((*np.shape(state), 2), bool)
-        return np.stack([(state & 1) > 0, (state & 2) > 0], axis=-1)
+        return contact_of_state(state)
 
     @property
     def n_moved(self) -> int:
@@ -259,9 +274,10 @@ class CyclicEmulator:
         if plan.exact[i]:
             weight = weight * (start + count - 1 + stop) / weight.sum()
         ends = np.cumsum(mean_s * weight)
-        if not self.starts:
-            step[0] = 0.0
-        place = np.cumsum(step) * (plan.step_m[i] * plan.n_beats[i] / max(step.sum(), 1e-12))
+        if pace.before_first:
+            step[0] = 0.5
+        place, gone = np.cumsum(step), count - pace.before_first + pace.halves
+        place = place * (plan.step_m[i] * gone / max(float(pace.gone_m(place[None])[0]), 1e-12))
         return ends[:-1], place, float(ends[-1])
 
 

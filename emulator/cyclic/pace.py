@@ -53,6 +53,30 @@ class Pace:
         """(n,) the speed of a usual walk with these legs."""
         return np.asarray(np.exp(self.usual) * np.sqrt(GRAVITY_M_PER_S2 * leg_m))
 
+    @property
+    def before_first(self) -> int:
+        """How many beats come before the first step: none from standing, else one, at which a draw begins."""
+        return int(self.start_beats == 0)
+
+    @property
+    def beyond(self) -> float:
+        """How many beats longer than its n steps a walk takes: n + beyond is positive for n = 1, too."""
+        return self.start_beats + self.stop_beats - 1 + self.before_first
+
+    @property
+    def halves(self) -> float:
+        """How many steps further than n the root goes in n steps.
+
+        At a strike it is half a step behind the foot that comes down, so what ends at one goes half a step less, and
+        what begins at one but ends standing half a step more.
+        """
+        return 0.5 * self.before_first - 0.5 * (self.stop_beats == 0)
+
+    def gone_m(self, place_m: np.ndarray) -> np.ndarray:
+        """(n,) how far the root goes over footprints at places (n, B), nan beyond the last; 0 where there are none."""
+        last = np.sort(np.hstack([np.zeros((len(place_m), 2)), np.nan_to_num(place_m)]), axis=1)[:, -2:]
+        return np.asarray(last[:, 1] if self.stop_beats else last.mean(axis=1))
+
     def as_dict(self) -> dict[str, Any]:
         return asdict(self)
 
@@ -73,7 +97,8 @@ class Asked:
 
 @dataclass(frozen=True, eq=False)
 class Itinerary:
-    """Beats of n performances before any scatter. n_beats (n,) B: full steps, or cycles and one.
+    """Beats of n performances before any scatter. n_beats (n,) B: full steps (and the strike that a walk begins at,
+    where it does not begin standing), or cycles and one.
 
     beat_s (n,) mean seconds of a beat, step_m (n,) mean step (0 where nothing is walked), duration_s (n,) its mean
     speed_m_per_s (n,) while the beats go on
@@ -98,20 +123,21 @@ def _walked(pace: Pace, asked: Asked, leg_m: np.ndarray, log_step: np.ndarray) -
     exact = np.isfinite(asked.total_s)
     duration_s = np.where(exact, asked.total_s, way_m / speed)
     usual_m = pace.step_m(speed, leg_m, log_step)
-    beyond = pace.start_beats + pace.stop_beats - 1
-    n = _n_steps(way_m, usual_m, asked)
+    beyond, halves = pace.beyond, pace.halves
+    n = _n_steps(way_m, usual_m, halves, asked)
     for _ in range(3):
-        steady = way_m / n / (duration_s / (n + beyond))
+        steady = way_m / (n + halves) / (duration_s / (n + beyond))
         step_m = np.minimum(pace.step_m(np.maximum(steady, speed), leg_m, log_step), LONGEST * usual_m)
-        n = _n_steps(way_m, step_m, asked)
+        n = _n_steps(way_m, step_m, halves, asked)
     least_s = np.where(exact, 0.0, SHORTEST_STEP_S * np.sqrt(leg_m / 0.92))
     beat_s = np.maximum(duration_s / (n + beyond), least_s)
-    return Itinerary(n.astype(int), beat_s, way_m / n, beat_s * (n + beyond), way_m / n / beat_s, exact)
+    mean_m, n_beats = way_m / (n + halves), n.astype(int) + pace.before_first
+    return Itinerary(n_beats, beat_s, mean_m, beat_s * (n + beyond), mean_m / beat_s, exact)
 
 
-def _n_steps(way_m: np.ndarray, step_m: np.ndarray, asked: Asked) -> np.ndarray:
+def _n_steps(way_m: np.ndarray, step_m: np.ndarray, halves: float, asked: Asked) -> np.ndarray:
     """(n,) so many that none is more than an eighth longer than ``step_m``."""
-    enough = np.maximum(np.ceil(way_m / step_m - 0.4), np.ceil(way_m / step_m / 1.125 - 1e-9))
+    enough = np.maximum(np.ceil(way_m / step_m - halves - 0.4), np.ceil(way_m / step_m / 1.125 - halves - 1e-9))
     return np.asarray(np.where(np.isfinite(asked.steps), asked.steps, np.maximum(enough, 1.0)))
 
 

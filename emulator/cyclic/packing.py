@@ -115,6 +115,8 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
     units = {name: _units_of(task, plain[name], own, name, n, pace.steps) for name in UNITS}
     if not units["entries"]:
         raise ValueError(f"{task}: it has no recorded beat")
+    if pace.steps and [len(units[k]) > 0 for k in ("starts", "stops")] != [pace.start_beats > 0, pace.stop_beats > 0]:
+        raise ValueError(f"{task}: its starts and stops do not fit the time that starting and stopping take")
     return CyclicEmulator(
         task=task,
         skeleton=skeleton,

@@ -64,7 +64,7 @@ class CyclicPerformances:
     @property
     def distance_m(self) -> np.ndarray:
         """(n,) metres from the first to the last place of the root; 0 where nothing is walked."""
-        return np.nan_to_num(np.max(np.nan_to_num(self.place_m, nan=0.0), axis=1, initial=0.0))
+        return self.model.pace.gone_m(self.place_m)
 
     def directions(
         self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
@@ -74,14 +74,16 @@ class CyclicPerformances:
         times_s : (T,) or (n, T) seconds from the start; before it and after the end the posture is held.
         """
         times = self._times(times_s, n_times)
-        return np.stack([_unturned(track, at, self.skeleton).astype(dtype) for track, at in zip(self.tracks, times)])
+        found = [_unturned(track, at, self.skeleton) for track, at in zip(self.tracks, times)]
+        return _stacked(found, times, self.skeleton.n_bones, 3).astype(dtype, copy=False)
 
     def positions_m(
         self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
     ) -> np.ndarray:
         """(n, T, J, 3) joints in metres, z up, floor at 0; the way goes along x from x = y = 0; times as above."""
         times = self._times(times_s, n_times)
-        return np.stack([track.joints_m(at).astype(dtype) for track, at in zip(self.tracks, times)])
+        found = [track.joints_m(at) for track, at in zip(self.tracks, times)]
+        return _stacked(found, times, len(self.skeleton.names), 3).astype(dtype, copy=False)
 
     def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 3) path of the root in metres; times as ``directions``."""
@@ -90,14 +92,13 @@ class CyclicPerformances:
     def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
         times, root = self._times(times_s, n_times), self.skeleton.root
-        return np.stack(
-            [np.column_stack([t.joints_m(at)[:, root], t.yaw_rad(at)]) for t, at in zip(self.tracks, times)]
-        )
+        found = [np.column_stack([t.joints_m(at)[:, root], t.yaw_rad(at)]) for t, at in zip(self.tracks, times)]
+        return _stacked(found, times, 4)
 
     def contact(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 2) whether the left and the right foot bear; times as ``directions``."""
         times = self._times(times_s, n_times)
-        return np.stack([track.contact(at) for track, at in zip(self.tracks, times)])
+        return _stacked([track.contact(at) for track, at in zip(self.tracks, times)], times, 2).astype(bool)
 
     @cached_property
     def tracks(self) -> tuple[Track, ...]:
@@ -117,14 +118,21 @@ class CyclicPerformances:
         return np.broadcast_to(own, (len(self), np.shape(own)[-1]))
 
 
+def _stacked(found: list[np.ndarray], times_s: np.ndarray, *shape: int) -> np.ndarray:
+    """(n, T, ...) of what was found for each performance, of times (n, T); n may be 0."""
+    return np.stack(found) if found else np.empty((*times_s.shape, *shape))
+
+
 def _node_s(beat_frame: np.ndarray, n: int, beat_s: np.ndarray, duration_s: float) -> np.ndarray:
     """(n,) seconds of each frame: beats at their times, between them without a jump of the tempo."""
-    from scipy.interpolate import PchipInterpolator
+    from emulator.kernels.monotone import monotone
 
-    frame = np.concatenate([[0], beat_frame, [n - 1]])
+    frame = np.concatenate([[0.0], beat_frame, [n - 1.0]])
     time_s = np.concatenate([[0.0], beat_s, [duration_s]])
     kept = np.concatenate([[True], np.diff(frame) > 0])
-    return np.asarray(PchipInterpolator(frame[kept], time_s[kept])(np.arange(n)))
+    node_s = np.empty((n, 1))
+    monotone(frame[kept], time_s[kept][None], np.arange(float(n)), node_s)
+    return np.ascontiguousarray(node_s[:, 0])
 
 
 def _unturned(track: Track, time_s: np.ndarray, skeleton: Skeleton) -> np.ndarray:

@@ -22,6 +22,8 @@ FINER = 0.995
 """Share in all components: with less the feet end where nobody put them."""
 MOST_LATENTS, MOST_MOVED = 20, 8
 MOST_UNITS = 16
+TRAVELS_M = 1.0
+"""Whose root stays within less (the diagonal of what it covers) works at one place."""
 Progress = Callable[[int, int, str], None] | None
 
 
@@ -84,10 +86,13 @@ def resampled(positions_m: np.ndarray, rate_hz: float) -> np.ndarray:
 
 
 def walks(recording: Recording) -> bool:
-    """Whether the takes go somewhere: feet given or found that take turns, and a root that travels."""
-    first = recording.takes[0]
-    root = first.positions_m[:, first.names.index("pelvis") if "pelvis" in first.names else 0, :2]
-    return bool(np.linalg.norm(np.nanmax(root, axis=0) - np.nanmin(root, axis=0)) > 1.0)
+    """Whether the takes go somewhere: the root of the median take travels more than ``TRAVELS_M``."""
+    gone_m = []
+    for take in recording.takes:
+        root = take.positions_m[:, take.names.index("pelvis") if "pelvis" in take.names else 0, :2]
+        seen = root[np.isfinite(root).all(axis=1)]
+        gone_m.append(float(np.linalg.norm(np.ptp(seen, axis=0))) if len(seen) else 0.0)
+    return float(np.median(gone_m)) > TRAVELS_M
 
 
 def crew_of(parts: list[Prepared], offsets: dict[str, np.ndarray], log_step: dict[str, float]) -> Crew:
@@ -112,10 +117,11 @@ def cut(
     start = stop = None
     if part.still[0]:
         begin = onset(part.speed) if steps else 0
+        begin = max(min(begin, frames[0] - 1), 0)
         start = Unit(z[begin : frames[0] + 1], part.contact[begin : frames[0] + 1], control, feet[0])
-    if part.still[1]:
-        end = len(z) - (onset(part.speed[::-1]) if steps else 0)
-        end = max(end, min(frames[-1] + 3, len(z)))
+    end = len(z) - (onset(part.speed[::-1]) if steps else 0)
+    end = max(end, min(frames[-1] + 3, len(z)))
+    if part.still[1] and end > frames[last] + 1:
         stop = Unit(z[frames[last] : end], part.contact[frames[last] : end], control, feet[last])
     return start, stop, slice(frames[0], frames[last] + 1), frames[: last + 1]
 

@@ -12,7 +12,8 @@ class CyclicReport:
     """skate_recorded_cm, skate_drawn_cm : mean slide of a bearing foot in one stance
 
     beat_s, step_m : mean time and length of a beat, recorded and drawn, with their coefficients of variation
-    hyper : a line for each state of the dynamics; jump_ratio : fastest change of speed drawn over recorded
+    hyper : a line for each state of the dynamics; jump_ratio : roughness drawn over recorded, which is
+    the root mean square of the joints' change of velocity from frame to frame
     """
 
     task: str

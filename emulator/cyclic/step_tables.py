@@ -50,6 +50,7 @@ def kernel_tables(arrays: dict[str, np.ndarray]) -> Any:
 
     numbers: dict[str, Any] = {name: arrays[name].item() for name in ("leading", "reach", "radius2")}
     rows: dict[str, Any] = {name: np.ascontiguousarray(arrays[name]) for name in Tables._fields if name not in numbers}
+    rows |= {name: np.ascontiguousarray(rows[name].swapaxes(1, 2)) for name in ("points", "border_points")}
     return Tables(**rows, **numbers)
 
 

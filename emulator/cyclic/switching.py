@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -124,7 +126,7 @@ class SwitchingDynamics:
         z, state = np.empty((len(z0), n_steps, self.n_latents)), np.empty((len(z0), n_steps), dtype=np.int64)
         z[:, 0] = z0
         shape = (len(z0), n_steps - 1, TRIES if noise else 1, self.n_latents)
-        steps(kernel_tables(self.tables), control, rng.standard_normal(shape) if noise else np.zeros(shape), z, state)
+        steps(self.kernel_tables, control, rng.standard_normal(shape) if noise else np.zeros(shape), z, state)
         return z, self.states[state]
 
     def state(self, z: np.ndarray, controls: np.ndarray | None = None) -> np.ndarray:
@@ -136,8 +138,13 @@ class SwitchingDynamics:
         known = np.empty((*z.shape[:-1], 0)) if controls is None else np.asarray(controls, float)
         x = np.hstack([flat, np.broadcast_to(known, (*z.shape[:-1], known.shape[-1])).reshape(len(flat), -1)])
         out = np.empty(len(flat), dtype=np.int64)
-        states_of(np.ascontiguousarray(x), kernel_tables(self.tables), out)
+        states_of(np.ascontiguousarray(x), self.kernel_tables, out)
         return self.states[out].reshape(z.shape[:-1])
+
+    @cached_property
+    def kernel_tables(self) -> Any:
+        """``tables`` as the kernels take them."""
+        return kernel_tables(self.tables)
 
     @property
     def n_latents(self) -> int:

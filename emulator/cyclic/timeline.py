@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emulator.cyclic.beats import next_strike
+from emulator.cyclic.beats import FEWEST_FRAMES
+from emulator.cyclic.guide import ROOM
+from emulator.cyclic.switching import TRIES as STEP_TRIES
 from emulator.cyclic.units import Unit, chosen, joined
 
 if TYPE_CHECKING:
     from emulator.cyclic.model import CyclicEmulator
+    from emulator.kernels.beat import Manner
 
 SMOOTH_FRAMES = 1.2
 """What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching trembles."""
@@ -77,39 +80,94 @@ def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rn
     usual = model.guide.usual(foot, control)
     begin = z[-1] + PULLED * (usual - z[-1])
     seen = model.seen(begin, begin - (z[-1] - z[0]))
+    draw = _step if foot >= 0 else _cycle
     for source in [rng] * TRIES + [None] if rng is not None else [None]:
-        drawn, state = model.dynamics.sample(
-            seen[None],
-            int(1.6 * model.guide.frames(control)) + 4,
-            Tempered(source, model.temper),  # type: ignore[arg-type]
-            controls=np.array([[control]]) if model.dynamics.n_controls else None,
-        )
-        contact, moved = model.contact_of(state[0]), drawn[0, :, : model.n_moved]
-        end = _end(model, moved, contact, foot, int(0.6 * model.guide.frames(control)))
-        if end is not None and model.guide.allows(moved[: end + 1], foot, control):
-            whole = model.whole(_smoothed(moved), control)[: end + 1]
-            return Unit(whole, _clean(contact[: end + 1], foot), control, foot)
+        found = draw(model, seen, foot, control, Tempered(source, model.temper))
+        if found is not None:
+            return found
     near = [one for one in model.entries if one.foot == foot] or list(model.entries)
     near = sorted(near, key=lambda one: abs(one.control - control))[:5]
     return near[0 if rng is None else int(rng.integers(len(near)))]
 
 
-def _end(model: CyclicEmulator, z: np.ndarray, contact: np.ndarray, foot: int, low: int) -> int | None:
-    """The frame of the next beat, None where none comes."""
-    if foot < 0:
-        return next((frame for frame in model.turns(z) if frame > low), None)
-    return next_strike(contact, 1 - foot, low)
+def _step(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
+    """A step of the other foot from what the dynamics see (d,) on; None where none like the recorded ones comes."""
+    from emulator.kernels.beat import beat, made_whole
+    from emulator.kernels.beat import usual as is_usual
+
+    guide, dynamics, manner = model.guide, model.dynamics, model.manner
+    usual_frames = guide.frames(control)
+    n, known = int(1.6 * usual_frames) + 4, np.full(dynamics.n_controls, control)
+    noise = source.standard_normal((n - 1, STEP_TRIES, dynamics.n_latents))
+    z, state = np.empty((n, dynamics.n_latents)), np.empty(n, dtype=np.int64)
+    z[0] = seen
+    bears, beyond = manner.bears, len(manner.taps) // 2
+    end, drawn = beat(
+        dynamics.kernel_tables,
+        known,
+        noise,
+        bears[:, 1 - foot],
+        int(0.6 * usual_frames),
+        beyond,
+        FEWEST_FRAMES,
+        z,
+        state,
+    )
+    if end < 0 or not guide.lasts(end, control):
+        return None
+    moved = z[:drawn, : model.n_moved]
+    after = guide.usual(1 - foot, control)
+    if not is_usual(moved[: end + 1], manner.low, manner.high, after, ROOM * guide.apart):
+        return None
+    whole = np.empty((end + 1, model.latent.n_components))
+    made_whole(moved, manner, known, whole)
+    return Unit(whole, _clean(bears[state[: end + 1]], foot), control, foot)
+
+
+def _cycle(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
+    """A cycle of work that is no walking, likewise."""
+    drawn, state = model.dynamics.sample(
+        seen[None],
+        int(1.6 * model.guide.frames(control)) + 4,
+        source,  # type: ignore[arg-type]
+        controls=np.array([[control]]) if model.dynamics.n_controls else None,
+    )
+    moved, low = drawn[0, :, : model.n_moved], int(0.6 * model.guide.frames(control))
+    end = next((frame for frame in model.turns(moved) if frame > low), None)
+    if end is None or not model.guide.allows(moved[: end + 1], foot, control):
+        return None
+    whole = model.whole(_smoothed(moved), control)[: end + 1]
+    return Unit(whole, model.contact_of(state[0])[: end + 1], control, foot)
 
 
 def _clean(contact: np.ndarray, foot: int) -> np.ndarray:
     """From one beat to the next one foot bears, the other leaves the floor once and comes down in the last frame."""
-    if foot < 0:
-        return contact
     out, swings, n = np.ones((len(contact), 2), bool), 1 - foot, len(contact)
     up = np.flatnonzero(~contact[:, swings])
     leave = int(up[0]) if len(up) else n // 4
     out[min(max(leave, 2), n - 4) : n - 1, swings] = False
     return out
+
+
+def manner_of(model: CyclicEmulator) -> Manner:
+    """What beats are like and what smooths and completes them, for the kernel."""
+    from emulator.kernels.beat import Manner
+
+    impulse = np.zeros((2 * int(4 * SMOOTH_FRAMES + 0.5) + 1, 1))
+    impulse[len(impulse) // 2] = 1.0
+    finer, guide = model.finer, model.guide
+    points = np.ascontiguousarray((finer.points / finer.length).T)
+    taps = np.ascontiguousarray(_smoothed(impulse)[:, 0])
+    return Manner(
+        guide.low,
+        guide.high,
+        taps,
+        points,
+        1 / finer.length,
+        finer.weight,
+        finer.mean,
+        model.contact_of(model.dynamics.states),
+    )
 
 
 def _smoothed(z: np.ndarray) -> np.ndarray:

@@ -9,16 +9,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from emulator.clean import turn
-from emulator.cyclic.feet import path_from_contacts, stretches
+from emulator.cyclic.feet import path_from_contacts
+from emulator.cyclic.latent import TRAVEL_WEIGHT, unflattened
 from emulator.cyclic.legs import stand_on, wanting_m
-from emulator.cyclic.pose import Poses
 from emulator.cyclic.stances import FootStances, stances
+from emulator.runs import stretches
 
 if TYPE_CHECKING:
     from emulator.cyclic.model import CyclicEmulator
     from emulator.cyclic.timeline import Timeline
 
 
+TURNING = -2
+"""Where a pose laid flat has its turning."""
 GRID_S, LOOK_AHEAD = 1 / 50, 5
 """The hips look so many grid steps ahead for legs that will be too short."""
 SPARE_M = 0.003
@@ -43,9 +46,7 @@ class Track:
         """(T, J, 3) metres at times (T,), held before the start and after the end."""
         time_s = np.clip(time_s, 0.0, self.node_s[-1])
         values = self._spline(time_s)
-        poses = self.model.latent.inverse(values[:, :-3])
-        raw = self._standing(poses, values[:, -3], values[:, -2:])
-        return self._planted(time_s, raw)
+        return self._planted(time_s, self._standing(self.model.latent.flat(values[:, :-3]), values[:, -3:]))
 
     def yaw_rad(self, time_s: np.ndarray) -> np.ndarray:
         """(T,) heading, 0 at the start."""
@@ -60,12 +61,18 @@ class Track:
         return np.stack([foot.bears(time_s) for foot in self._feet], axis=1)
 
     @cached_property
+    def way_m(self) -> float:
+        """How far the root goes, 0 where nothing is walked."""
+        return 0.0 if self.place_m is None else float(self.model.pace.gone_m(self.place_m[None])[0])
+
+    @cached_property
     def leg_m(self) -> float:
         return float(self.model.channel.leg_m(self.bone_length_m))
 
     @cached_property
-    def _poses(self) -> Poses:
-        return self.model.latent.inverse(self.line.z)
+    def _flat(self) -> np.ndarray:
+        """(N, D) the poses at the nodes, laid flat."""
+        return self.model.latent.flat(self.line.z)
 
     @cached_property
     def _yaw(self) -> np.ndarray:
@@ -73,7 +80,7 @@ class Track:
         from scipy.ndimage import uniform_filter1d
 
         step_s = np.diff(self.node_s)
-        yaw = np.concatenate([[0.0], np.cumsum(self._poses.travel[:-1, 2] * step_s)])
+        yaw = np.concatenate([[0.0], np.cumsum(self._flat[:-1, TURNING] / TRAVEL_WEIGHT * step_s)])
         if not self.model.pace.steps:
             return yaw - np.linspace(0.0, yaw[-1], len(yaw))
         yaw = yaw - uniform_filter1d(yaw, min(2 * self.model.beat_frames[1], len(yaw)), mode="nearest")
@@ -86,20 +93,27 @@ class Track:
 
         if self.model.legs is None:
             return self._travelled()
-        hanging = self._standing(self._poses, self._yaw, np.zeros((len(self.node_s), 2)), height=False)
+        hanging = self._hanging
         level = path_from_contacts(hanging, self.line.contact, self.model.skeleton)
         level = gaussian_filter1d(level, SMOOTH_FRAMES, axis=0, mode="nearest")
         level = level - level[0]
         if self.place_m is None:
             return level
-        return level + self._bent(level[:, None] + hanging[:, [leg[2] for leg in self.model.legs.joints], :2])
+        level = level + self._bent(level[:, None] + hanging[:, [leg[2] for leg in self.model.legs.joints], :2])
+        return self._arriving(level)
+
+    def _arriving(self, level: np.ndarray) -> np.ndarray:
+        """(N, 2) level with what lacks of the whole way at its end made good, softly, within a last beat."""
+        over = np.clip(1.0 - np.arange(len(level))[::-1] / min(self.model.beat_frames[1], len(level) - 1), 0.0, 1.0)
+        lacking = (self.way_m - level[-1, 0]) * over**2 * (3 - 2 * over)
+        return np.column_stack([level[:, 0] + lacking, level[:, 1]])
 
     def _bent(self, raw: np.ndarray) -> np.ndarray:
         """(N, 2) what the way lacks for its footprints raw (N, 2, 2), eased from the middle of each stance to the next.
 
         Along the way to the places asked for; aside, what they drift off a straight line.
         """
-        from scipy.interpolate import PchipInterpolator
+        from emulator.kernels.monotone import monotone
 
         rows = [
             ((on + stop - 1) / 2, self._ahead(on, stop, side, raw), raw[(on + stop - 1) // 2, side])
@@ -108,13 +122,14 @@ class Track:
         ]
         frame, ahead = np.array([row[0] for row in rows]), np.array([row[1] for row in rows])
         here = np.array([row[2] for row in rows])
-        aside = -np.polyval(np.polyfit(frame, here[:, 1], 1), frame) if len(rows) > 4 else 0.0 * frame
+        aside = -_straight(frame, here[:, 1]) if len(rows) > 4 else 0.0 * frame
         at, which = np.unique(frame, return_inverse=True)
         missing = np.column_stack([ahead - here[:, 0], aside])
         bend = np.stack([np.bincount(which, missing[:, c]) / np.bincount(which) for c in (0, 1)], axis=1)
         if len(at) < 2:
             return np.asarray(bend - bend[0])
-        eased = PchipInterpolator(at, bend)(np.clip(np.arange(len(raw)), at[0], at[-1]))
+        eased = np.empty((len(raw), 2))
+        monotone(at, np.ascontiguousarray(bend.T), np.clip(np.arange(len(raw)), at[0], at[-1]), eased)
         return np.asarray(eased - eased[0])
 
     def _ahead(self, on: int, stop: int, side: int, raw: np.ndarray) -> float:
@@ -130,6 +145,8 @@ class Track:
         along = self.place_m[int(np.abs(beats - on).argmin())] if on <= beats[-1] + 1 else self.place_m[-1]
         if stop == len(raw) and self.model.stops:
             return float(along + self._ankle_end[side])
+        if on >= beats[-1]:
+            return self.way_m + float(self._ankle_end[side])
         share = along / max(float(self.place_m[-1]), 1e-9)
         return float(along + ends[0] + share * (ends[1] - ends[0]))
 
@@ -137,13 +154,12 @@ class Track:
     def _ankle_end(self) -> np.ndarray:
         """(2,) how far before the root the ankles are in the last frame."""
         assert self.model.legs is not None
-        last = Poses(self._poses.directions[-1:], self._poses.travel[-1:], self._poses.height[-1:])
-        joints = self._standing(last, self._yaw[-1:], np.zeros((1, 2)))
-        return np.asarray(joints[0, [leg[2] for leg in self.model.legs.joints], 0])
+        return np.asarray(self._hanging[-1, [leg[2] for leg in self.model.legs.joints], 0])
 
     def _travelled(self) -> np.ndarray:
         """Of a body without legs: the latents' own travel."""
-        step = turn(np.pad(self._poses.travel[:-1, :2], ((0, 0), (0, 1))), self._yaw[:-1])[:, :2]
+        travel = unflattened(self._flat).travel
+        step = turn(np.pad(travel[:-1, :2], ((0, 0), (0, 1))), self._yaw[:-1])[:, :2]
         step = step * np.diff(self.node_s)[:, None] * self.leg_m
         return np.concatenate([np.zeros((1, 2)), np.cumsum(step, axis=0)])
 
@@ -154,11 +170,23 @@ class Track:
 
         return CubicSpline(self.node_s, np.column_stack([self.line.z, self._yaw, self._level]))
 
-    def _standing(self, poses: Poses, yaw: np.ndarray, level: np.ndarray, height: bool = True) -> np.ndarray:
-        """Joints (T, J, 3) of poses at these headings and places."""
-        tall = poses.height * self.leg_m if height else np.zeros(len(yaw))
-        root = np.column_stack([level, tall])
-        return self.model.skeleton.positions(turn(poses.directions, yaw[:, None]), self.bone_length_m, root)
+    def _standing(self, flat: np.ndarray, path: np.ndarray, legs_only: bool = False) -> np.ndarray:
+        """Joints (T, J, 3) of poses laid flat (T, D) on a path (T, 3) of headings and places; perhaps only the legs."""
+        from emulator.kernels.limbs import hung
+
+        skeleton = self.model.skeleton
+        root = np.column_stack([path[:, 1:], flat[:, -1] / TRAVEL_WEIGHT * self.leg_m])
+        joints = np.empty((len(flat), skeleton.n_joints, 3))
+        chain = self.model.leg_chain if legs_only else skeleton.chain
+        hung(flat, path[:, 0], root, self.bone_length_m, chain, joints)
+        return joints
+
+    @cached_property
+    def _hanging(self) -> np.ndarray:
+        """(N, J, 3) legs at the nodes with their heading, the root at 0."""
+        path = np.column_stack([self._yaw, np.zeros((len(self.node_s), 2))])
+        joints = self._standing(self._flat, path, legs_only=True)
+        return np.asarray(joints - joints[:, [self.model.skeleton.root]])
 
     @cached_property
     def _bone_m(self) -> dict[int, float]:
@@ -168,24 +196,24 @@ class Track:
     def _feet(self) -> tuple[FootStances, FootStances] | None:
         if self.model.legs is None:
             return None
-        raw = self._standing(self._poses, self._yaw, self._level)
+        root = np.column_stack([self._level, self._flat[:, -1] / TRAVEL_WEIGHT * self.leg_m])
+        raw = self._hanging + root[:, None]
         left, right = (self._stances(side, raw) for side in (0, 1))
         return left, right
 
     def _stances(self, side: int, raw: np.ndarray) -> FootStances:
         assert self.model.legs is not None
-        hip, knee, ankle, toe = self.model.legs.joints[side]
-        foot = raw[:, toe] - raw[:, ankle]
-        foot_m = float(np.linalg.norm(foot[0]))
-        foot = foot / np.linalg.norm(foot, axis=-1, keepdims=True)
+        legs = self.model.legs.tables[0]
+        _, knee, ankle, toe = legs[side].tolist()
+        foot_m = float(np.linalg.norm(raw[0, toe] - raw[0, ankle]))
         runs = stretches(self.line.contact[:, side])
         place = np.array([raw[(on + stop - 1) // 2, ankle] for on, stop in runs])
         place[:, 2] = self.model.ankle_legs * self.leg_m
         if self.place_m is not None:
-            flat = np.stack([raw[:, leg[2], :2] for leg in self.model.legs.joints], axis=1)
+            flat = raw[:, legs[:, 2], :2]
             place[:, 0] = [self._ahead(on, stop, side, flat) for on, stop in runs]
         least, leg_m = self.model.toe_legs * self.leg_m, self._bone_m[knee] + self._bone_m[ankle]
-        return stances(self.node_s, runs, raw[:, ankle], foot, place, foot_m, least, raw[:, hip], leg_m)
+        return stances(self.node_s, runs, raw, legs[side], place, foot_m, least, leg_m)
 
     def _planted(self, time_s: np.ndarray, raw: np.ndarray) -> np.ndarray:
         if self.model.legs is None or self._feet is None:
@@ -198,13 +226,10 @@ class Track:
     def _targets(self, time_s: np.ndarray, raw: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(T, 2, 3) where the ankles belong, and unit vectors of the feet, for raw joints (T, J, 3) at these times."""
         assert self.model.legs is not None and self._feet is not None
-        found = []
-        for own, (hip, _, ankle, toe) in zip(self._feet, self.model.legs.joints):
-            foot = raw[:, toe] - raw[:, ankle]
-            foot = foot / np.linalg.norm(foot, axis=-1, keepdims=True)
-            found.append(own.ankle(time_s, raw[:, ankle], foot, raw[:, hip]))
-        left, right = found
-        return np.stack([left[0], right[0]], axis=1), np.stack([left[1], right[1]], axis=1)
+        ankles, feet = np.empty((2, len(time_s), 3)), np.empty((2, len(time_s), 3))
+        for side, own in enumerate(self._feet):
+            own.targets(time_s, raw, self.model.legs.tables[0][side], ankles[side], feet[side])
+        return ankles.swapaxes(0, 1), feet.swapaxes(0, 1)
 
     @cached_property
     def _lowered(self) -> tuple[np.ndarray, np.ndarray]:
@@ -214,8 +239,14 @@ class Track:
         assert self.model.legs is not None
         time_s = np.arange(0.0, self.node_s[-1] + 0.5 * GRID_S, GRID_S)
         values = self._spline(np.minimum(time_s, self.node_s[-1]))
-        raw = self._standing(self.model.latent.inverse(values[:, :-3]), values[:, -3], values[:, -2:])
+        raw = self._standing(self.model.latent.flat(values[:, :-3]), values[:, -3:], legs_only=True)
         ankles, _ = self._targets(time_s, raw)
         need = np.maximum(wanting_m(raw, ankles, self.model.legs, self._bone_m) + SPARE_M, 0.0)
         need = maximum_filter1d(need, 2 * LOOK_AHEAD + 1, mode="nearest")
         return time_s, gaussian_filter1d(need, 0.7 * LOOK_AHEAD, mode="nearest")
+
+
+def _straight(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The values at x of the line through (x, y) by least squares."""
+    off = x - x.mean()
+    return np.asarray(y.mean() + off * (off @ y) / (off @ off))

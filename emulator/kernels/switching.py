@@ -15,7 +15,7 @@ from emulator.kernels.compiled import compiled
 class Tables(NamedTuple):
     """What a step needs, padded: S states of at most M points, C classifying processes of at most M'."""
 
-    points: np.ndarray  # (S, M, p) each state's points over its lengths
+    points: np.ndarray  # (S, p, M) each state's points over its lengths
     per_length: np.ndarray  # (S, p)
     used: np.ndarray  # (S,) how many of the points count
     variance: np.ndarray  # (S,) of the signal
@@ -24,7 +24,7 @@ class Tables(NamedTuple):
     shrink: np.ndarray  # (S, M, M) the variance at a point is signal - k @ shrink @ k
     scale: np.ndarray  # (S, d) of the outputs' variances
     keep: np.ndarray  # (S,) 1 where the output is added to z, 0 where it replaces it
-    border_points: np.ndarray  # (C, M', p)
+    border_points: np.ndarray  # (C, p, M')
     border_per_length: np.ndarray  # (C, p)
     border_used: np.ndarray  # (C,)
     border_weight: np.ndarray  # (C, M')
@@ -35,15 +35,46 @@ class Tables(NamedTuple):
     radius2: float  # square of the distance from these steps that a draw may have; infinite: anywhere
 
 
+SHIFT = 1.5 * 2.0**52
+"""Added to a number it leaves the nearest whole one in the last bits."""
+LOG2_HIGH, LOG2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
+"""log 2, its first part with so few digits that small multiples of it are exact. Source: Cody & Waite (1980)."""
+
+
+@compiled(error_model="numpy", nogil=True)
+def fading(squares):
+    """Each of squares (n,), none below 0, becomes exp(-square / 2), to the last digit or two.
+
+    NOTE: a series in a plain loop, since calls of exp cannot be vectorised: they were half of a step's time.
+    """
+    n = squares.size
+    whole, left = np.empty(n), np.empty(n)
+    for j in range(n):
+        x = max(-0.5 * squares[j], -700.0)
+        whole[j] = x * 1.4426950408889634 + SHIFT
+        times = whole[j] - SHIFT
+        left[j] = (x - times * LOG2_HIGH) - times * LOG2_LOW
+    power = whole.view(np.int64)
+    for j in range(n):
+        power[j] = (power[j] + 1023) << 52
+    for j in range(n):
+        r = left[j]
+        high = 1.0 / 5040 + r * (1.0 / 40320 + r * (1.0 / 362880 + r * (1.0 / 3628800 + r * (1.0 / 39916800))))
+        low = 1.0 + r * (1.0 + r * (0.5 + r * (1.0 / 6 + r * (1.0 / 24 + r * (1.0 / 120 + r * (1.0 / 720))))))
+        r3 = r * r * r
+        squares[j] = (low + r3 * r3 * r * (high + r3 * r * r * (1.0 / 479001600 + r * (1.0 / 6227020800)))) * whole[j]
+
+
 @compiled(error_model="numpy", nogil=True)
 def near(x, points, per_length, used, out):
-    """out[j] = exp(-1/2 |x / length - points[j]|^2) for the first ``used`` points."""
-    for j in range(used):
-        square = 0.0
-        for c in range(x.size):
-            gap = x[c] * per_length[c] - points[j, c]
-            square += gap * gap
-        out[j] = np.exp(-0.5 * square)
+    """out[j] = exp(-1/2 |x / length - points[:, j]|^2) for the first ``used`` points."""
+    out[:used] = 0.0
+    for c in range(x.size):
+        here, row = x[c] * per_length[c], points[c]
+        for j in range(used):
+            gap = here - row[j]
+            out[j] += gap * gap
+    fading(out[:used])
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -64,20 +95,41 @@ def state_of(x, tables, scratch):
 
 
 @compiled(error_model="numpy", nogil=True)
-def foretell(x, s, tables, mean, scratch):
+def squared(k, matrix, across):
+    """k @ matrix @ k of k (m,) and a symmetric matrix, of which the lower half is read; across (m,) is scratch.
+
+    NOTE: sums go down the columns, four rows at a time, since a sum along a row cannot be vectorised: 8 times as fast.
+    """
+    m = k.size
+    across[:m] = 0.0
+    for j in range(0, m - 3, 4):
+        one, two, three, four = k[j], k[j + 1], k[j + 2], k[j + 3]
+        first, second, third, fourth = matrix[j], matrix[j + 1], matrix[j + 2], matrix[j + 3]
+        for i in range(j):
+            across[i] += one * first[i] + two * second[i] + three * third[i] + four * fourth[i]
+        across[j] += two * second[j] + three * third[j] + four * fourth[j]
+        across[j + 1] += three * third[j + 1] + four * fourth[j + 1]
+        across[j + 2] += four * fourth[j + 2]
+    for j in range(m - m % 4, m):
+        for i in range(j):
+            across[i] += k[j] * matrix[j, i]
+    total = 0.0
+    for j in range(m):
+        total += k[j] * (2.0 * across[j] + matrix[j, j] * k[j])
+    return total
+
+
+@compiled(error_model="numpy", nogil=True)
+def foretell(x, s, tables, mean, scratch, across):
     """Writes the mean (d,) of the latent after x (p,) in state s; returns the variance at unit scale, with noise."""
     used = tables.used[s]
     near(x, tables.points[s], tables.per_length[s], used, scratch)
     for c in range(mean.size):
         mean[c] = tables.keep[s] * x[c]
-    known = 0.0
     for j in range(used):
-        row = 0.5 * tables.shrink[s, j, j] * scratch[j]
-        for i in range(j):
-            row += tables.shrink[s, j, i] * scratch[i]
-        known += 2.0 * row * scratch[j]
         for c in range(mean.size):
             mean[c] += scratch[j] * tables.weight[s, j, c]
+    known = squared(scratch[:used], tables.shrink[s], across)
     return max(tables.variance[s] - known, 0.0) + tables.noise[s]
 
 
@@ -138,6 +190,33 @@ def follow(z, tables, new):
 
 
 @compiled(error_model="numpy", nogil=True)
+def step(tables, x, z, s, noise, near_step, new, scratch):
+    """Writes new (d,) after z (d,), which is in state s at x (p,); noise (R, d) as in ``steps``.
+
+    near_step : number of the support step that z is near to. Returns that of new, and whether a recorded step was taken
+    scratch (3, ...) : at least as wide as there are points
+    """
+    d = z.size
+    mean = scratch[2, :d]
+    variance = foretell(x, s, tables, mean, scratch[0], scratch[1])
+    for r in range(noise.shape[0]):
+        for c in range(d):
+            new[c] = mean[c] + np.sqrt(variance * tables.scale[s, c]) * noise[r, c]
+        found = inside(new, tables, near_step)
+        if found >= 0:
+            return found, False
+    new[:] = mean
+    found = inside(new, tables, near_step)
+    return (found, False) if found >= 0 else (follow(z, tables, new), True)
+
+
+@compiled(error_model="numpy", nogil=True)
+def room(tables, d):
+    """Scratch for ``step``."""
+    return np.empty((3, max(tables.points.shape[2], tables.border_points.shape[2], d)))
+
+
+@compiled(error_model="numpy", nogil=True)
 def steps(tables, control, noise, z, state):
     """Paths: z (n, T, d) with z[:, 0] given, and state (n, T), written here; returns how many steps are recorded ones.
 
@@ -147,40 +226,24 @@ def steps(tables, control, noise, z, state):
     """
     n_paths, n_times, d = z.shape
     x = np.empty(d + control.shape[2])
-    mean = np.empty(d)
-    scratch = np.empty(max(tables.points.shape[1], tables.border_points.shape[1]))
+    scratch = room(tables, d)
     followed = 0
     for i in range(n_paths):
         near_step = 0
         for t in range(n_times):
             x[:d] = z[i, t]
             x[d:] = control[i, t]
-            s = state_of(x, tables, scratch)
+            s = state_of(x, tables, scratch[0])
             state[i, t] = s
-            if t + 1 == n_times:
-                break
-            variance = foretell(x, s, tables, mean, scratch)
-            new = z[i, t + 1]
-            found = -1
-            for r in range(noise.shape[2]):
-                for c in range(d):
-                    new[c] = mean[c] + np.sqrt(variance * tables.scale[s, c]) * noise[i, t, r, c]
-                found = inside(new, tables, near_step)
-                if found >= 0:
-                    break
-            if found < 0:
-                new[:] = mean
-                found = inside(new, tables, near_step)
-            if found < 0:
-                followed += 1
-                found = follow(z[i, t], tables, new)
-            near_step = found
+            if t + 1 < n_times:
+                near_step, led = step(tables, x, z[i, t], s, noise[i, t], near_step, z[i, t + 1], scratch)
+                followed += led
     return followed
 
 
 @compiled(error_model="numpy", nogil=True)
 def states_of(x, tables, out):
     """The number (m,) of the likeliest state at each x (m, p)."""
-    scratch = np.empty(tables.border_points.shape[1])
+    scratch = np.empty(tables.border_points.shape[2])
     for i in range(x.shape[0]):
         out[i] = state_of(x[i], tables, scratch)

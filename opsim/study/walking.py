@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from opsim.bodies import keys_read
+from opsim.libraries import walked_m_per_s
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
@@ -21,6 +22,12 @@ def walking(_loaded: Any, plan: Plan) -> Iterator[tuple[str, str]]:
         "and at the worker's walking speed, which with his legs decides how long his steps are; it takes distance / "
         "speed to the bit, as it would without postures, starting and stopping included, so that in the middle of a "
         "short way people are faster than their walking speed",
+    )
+    slowest, fastest = walked_m_per_s()
+    yield (
+        "walking",
+        f"people walk at {slowest:g} to {fastest:g} m/s: a walking speed beyond is refused, and where "
+        "walking is a task of its own, a pace or slowness that would lead beyond counts only as far as that",
     )
     yield (
         "walking",

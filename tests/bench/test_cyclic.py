@@ -1,6 +1,7 @@
 """Cyclic motion: what a fit and what a drawn pose cost. The answer is asserted first. Run by ``make bench``."""
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,11 +16,13 @@ from emulator.cyclic.pose import poses_of
 from emulator.cyclic.projected import Projected
 from emulator.cyclic.support import distance
 from emulator.cyclic.switching import SwitchingDynamics
+from emulator.library import MotionLibrary
 from emulator.recordings.takes_npz import read_recording
 from emulator.skeleton import Skeleton
 from tests.recordings import recording
 
 N_POSES, RATE_HZ = 100_000, 30.0
+SHIPPED = Path(__file__).parents[2] / "scenarios" / "libraries" / "walking.npz"
 
 
 @cache
@@ -61,6 +64,30 @@ def test_walking_is_drawn_and_decoded_1000_times_as_fast_as_it_is_walked(togethe
     times = N_POSES / RATE_HZ / best_s(draw, rounds=2)[0]
     print(f"\n{together} walks together, drawn and decoded to directions: {times:.0f} times real time")
     assert times > 1000
+
+
+def test_the_shipped_walk_is_drawn_and_decoded_1000_times_as_fast_as_it_is_walked():
+    """64 walks of 3 to 8 m: beats, latents, and all joints on planted feet at the rate of the recordings."""
+    model = MotionLibrary.load(SHIPPED)["walk"]
+    at = {"distance_m": np.random.default_rng(0).uniform(3, 8, 64)}
+
+    def draw(rate_hz=model.rate_hz):
+        block = model.sample(64, np.random.default_rng(1), condition=at)
+        return block, [track.joints_m(np.arange(0, s, 1 / rate_hz)) for track, s in zip(block.tracks, block.duration_s)]
+
+    block, joints = draw()
+    ends = [track.joints_m(track.node_s[-1:])[0, 0, 0] for track in block.tracks]
+    assert np.allclose(ends, at["distance_m"], atol=0.01)
+    alone, some_s = block[7].tracks[0], np.arange(0, 2, 0.1)
+    assert np.abs(alone.joints_m(some_s) - block.tracks[7].joints_m(some_s)).max() < 1e-10
+    spent_s = best_s(draw, lambda: draw(60.0), lambda: model.sample(64, np.random.default_rng(1), condition=at).tracks)
+    own, twice, tracks = (block.duration_s.sum() / one for one in spent_s)
+    frames = np.mean([len(one) for one in joints])
+    print(
+        f"\nshipped walk, {frames:.0f} frames each, drawn and decoded: {own:.0f} times real"
+        f" time at {model.rate_hz:.0f} Hz, {twice:.0f} at 60 Hz; latents and beats alone {tracks:.0f}"
+    )
+    assert own > 1000
 
 
 def test_a_projected_step_is_cheaper_than_an_exact_one_and_as_good():

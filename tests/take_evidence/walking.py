@@ -7,7 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from emulator.runs import stretches
+
 SPEEDS_M_PER_S, HEIGHTS_M = (0.7, 1.2, 1.7), (1.55, 1.90)
+WALKS, LONG_M = 240, 3000.0
 SHIPPED = Path(__file__).parents[2] / "scenarios" / "libraries" / "walking.npz"
 
 
@@ -17,6 +20,7 @@ def evidence(motion: Path, out: Path) -> Iterator[tuple[str, str, bool]]:
 
     model = MotionLibrary.load(SHIPPED)["walk"]
     yield from _planted(model, out)
+    yield from _near(model)
     yield from _durations(model)
     yield _steps(model, out)
     yield _ends(model)
@@ -46,6 +50,69 @@ def _planted(model, out):
     draw_walks(rows, out / "walks.png", model.skeleton, title="Drawn walks at three speeds, by two statures")
     yield "feet that bear stay", f"at most {1000 * max(slid):.2f} mm in a stance (1.5 mm)", max(slid) < 1.5e-3
     yield "bones keep their length", f"within {max(stretched):.0e} m (1e-9)", max(stretched) < 1e-9
+
+
+def _near(model):
+    """Draws beside the model's own training poses, in the latents that the dynamics move: nearest distances."""
+    from emulator.cyclic.support import distance, held_out_distances
+
+    takes = _training(model)
+    frames = np.concatenate(takes)
+    bound = float(np.concatenate(held_out_distances(takes)).max())
+    many, (long,) = (_latents(model, n, metres) for n, metres in ((WALKS, 10.0), (1, LONG_M)))
+    away = [distance(z, frames) for z in (*many, long)]
+    every, beyond = np.concatenate(away), [one > bound for one in away]
+    lasts = max((stop - start for one in beyond for start, stop in stretches(one)), default=0)
+    half = len(long) // 2
+    free, linear = (float(distance(z, frames).max()) for z in (_free(model, half), _linear(takes, half)))
+    share = float(np.mean(every > bound))
+    found = (
+        f"{len(every):,} poses of {WALKS} walks of 10 m and one of {LONG_M / 1000:g} km; the training's own maximum "
+        f"(a take to the others) is {bound:.3f}, draws come to {every.max():.3f}, {every.max() / bound:.2f} times: "
+        f"{100 * share:.3f} % of poses are beyond it, for at most {lasts} frames at a time; first and second half of "
+        f"the long way: at most {away[-1][:half].max():.3f} and {away[-1][half:].max():.3f}, median "
+        f"{np.median(away[-1][:half]):.3f} and {np.median(away[-1][half:]):.3f}; in {half:,} poses the same dynamics "
+        f"without guide come to {free:.2g}, a linear control to {linear:.2g}"
+    )
+    holds = share < 0.001 and every.max() < 2 * bound < min(free, linear) and lasts < 2 * model.beat_frames[1]
+    claim = "shipped walking does not drift: 99.9 % of poses are within the training's own maximum, "
+    yield claim + "all within twice (not each within once), what is beyond is back within a stride", found, bool(holds)
+
+
+def _training(model):
+    """Latents (T, d) of the takes that the shipped library is fitted to, without the workers' own offsets."""
+    from emulator.cyclic.prepare import prepared
+    from emulator.synthetic_walk import make_walks
+
+    recording, _ = make_walks(len(model.workers), model.report.n_sequences // len(model.workers), seed=0)
+    assert len(recording.takes) == model.report.n_sequences
+    parts = [prepared(take, model.skeleton, True) for take in recording.takes]
+    own = [model.known_worker(part.take.worker).z for part in parts]
+    return [(model.latent.forward(part.poses) - z)[:, : model.n_moved] for part, z in zip(parts, own)]
+
+
+def _latents(model, n, distance_m):
+    """The same of n drawn walks, from standing to standing."""
+    drawn = model.sample(n, np.random.default_rng(7), condition={"distance_m": distance_m})
+    return [(track.line.z - own)[:, : model.n_moved] for track, own in zip(drawn.tracks, drawn.offset)]
+
+
+def _free(model, n):
+    """n poses of the dynamics alone, with all of their spread: no beat is asked for, and none is drawn again."""
+    start, known = model.entries[0].z[:1, : model.n_moved], np.zeros((1, model.dynamics.n_controls))
+    return model.dynamics.sample(start, n, np.random.default_rng(7), controls=known)[0][0]
+
+
+def _linear(takes, n):
+    """z_{t+1} = A z_t + b + noise by least squares: what keeps to no cycle."""
+    before, after = (np.concatenate([z[cut] for z in takes]) for cut in (slice(None, -1), slice(1, None)))
+    before = np.column_stack([before, np.ones(len(before))])
+    way = np.linalg.lstsq(before, after, rcond=None)[0]
+    spread = np.linalg.cholesky(np.cov((after - before @ way).T))
+    rng, path = np.random.default_rng(7), [after[100]]
+    for _ in range(n - 1):
+        path.append(np.append(path[-1], 1.0) @ way + spread @ rng.standard_normal(len(spread)))
+    return np.array(path)
 
 
 def _durations(model):

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.feet import foot_skate_m, path_from_contacts, shares, stretches
+from emulator.cyclic.feet import foot_skate_m, path_from_contacts, shares
 from emulator.cyclic.legs import Legs, stand_on, wanting_m
+from emulator.runs import stretches
 from emulator.skeleton import standard_skeleton
 from emulator.synthetic_walk import make_walks
 

@@ -162,6 +162,42 @@ def test_what_cannot_be_walked_is_refused_in_plain_words(condition, words):
         walk().sample(1, np.random.default_rng(0), condition=condition)
 
 
+@pytest.mark.parametrize("speed", [0.1, 2.6, 3.6])
+def test_a_speed_asked_for_at_which_nobody_walks_is_refused(speed):
+    with pytest.raises(ValueError, match=r"0\.3 to 2\.5 m/s"):
+        drawn(distance_m=20.0, speed_m_per_s=speed)
+
+
+@pytest.mark.parametrize(
+    ("condition", "speed"),
+    [
+        ({"pace": 3.0}, 2.5),
+        ({"log_duration_shift": -2.0}, 2.5),
+        ({"log_duration_shift": 2.0}, 0.3),
+        ({"speed_m_per_s": 1.2, "pace": 3.0}, 2.5),
+    ],
+)
+def test_a_pace_makes_nobody_walk_faster_or_slower_than_people_do(condition, speed):
+    assert walk().mean_duration_s(condition={"distance_m": 100.0, **condition}) == pytest.approx(100.0 / speed)
+    assert drawn(4, distance_m=100.0, **condition).duration_s == pytest.approx(100.0 / speed, rel=0.05)
+
+
+def test_a_slow_worker_walks_no_slower_than_people_do():
+    slow = walk().draw_worker(np.random.default_rng(0), {"pace": 0.05})
+    assert walk().mean_duration_s(slow, {"distance_m": 3.0}) == pytest.approx(3.0 / 0.3)
+    assert "0.3 m/s" in CyclicEmulator.sample.__doc__ and "2.5 m/s" in CyclicEmulator.sample.__doc__
+
+
+def test_no_performances_have_empty_postures():
+    none, (bones, joints) = drawn(0, distance_m=3.0), (walk().skeleton.n_bones, len(walk().skeleton.names))
+    assert none.directions().shape == (0, 101, bones, 3)
+    assert none.positions_m(np.arange(4.0), dtype=np.float32).shape == (0, 4, joints, 3)
+    assert none.positions_m(np.arange(4.0), dtype=np.float32).dtype == np.float32
+    assert none.root_m(n_times=5).shape == (0, 5, 3) and none.path(n_times=5).shape == (0, 5, 4)
+    assert none.contact(n_times=5).shape == (0, 5, 2) and none.contact(n_times=5).dtype == bool
+    assert none.distance_m.shape == (0,) and none.mark_s.shape == (0, 0)
+
+
 def test_every_mistake_of_a_condition_is_named_at_once():
     with pytest.raises(ValueError) as error:
         walk().sample(1, np.random.default_rng(0), condition={"distance_m": -1, "speed_m_per_s": 9, "foo": 1})
