@@ -78,6 +78,11 @@ def placed(
     return turned_up(positions, up) * unit_m, tuple(notes)
 
 
+def said_unit(word: str, unit_m: float | None) -> str:
+    """A note on the unit that a file states; ``unit_m`` None where nobody knows it."""
+    return f"unit said by the file: {word}" if unit_m is not None else f"the file's unit, {word!r:.40}, is not known"
+
+
 def turned_up(positions: np.ndarray, up: str) -> np.ndarray:
     """Positions (..., 3) turned so that the axis ``up`` points along z; a turn, never a mirror."""
     turn = np.array(_TURNS[up])
@@ -90,7 +95,7 @@ def found_unit_m(positions: np.ndarray, names: Sequence[str]) -> tuple[float, st
 
     Raises NotTold where the size fits no unit in use.
     """
-    size, how = _size(_few(positions), names)
+    size, how = body_size(positions, names)
     if not (np.isfinite(size) and size > 0):
         raise NotTold("no frame shows enough of the body")
     for name, unit_m in (*UNITS_M.items(), *_ODD_UNITS_M.items()):
@@ -99,8 +104,12 @@ def found_unit_m(positions: np.ndarray, names: Sequence[str]) -> tuple[float, st
     raise NotTold(f"{how} {size:.4g} units, {SHORTEST_M:g} to {LONGEST_M:g} m in none of {', '.join(UNITS_M)}")
 
 
-def _size(positions: np.ndarray, names: Sequence[str]) -> tuple[float, str]:
-    """The size of the body in the file's unit: along its chain where names tell, else between its furthest points."""
+def body_size(positions: np.ndarray, names: Sequence[str]) -> tuple[float, str]:
+    """The median size of the body in the unit of (T, J, 3), and how it was measured; nan where not enough is seen.
+
+    Along the chain from head to feet where names tell, whatever the posture; else between its furthest points.
+    """
+    positions = _few(positions)
     places = part_places(positions, names)
     if "head" in places and "feet" in places and len(places) > 2:
         chain = [places[part] for part in PARTS if part in places]

@@ -116,7 +116,7 @@ class HierarchyReader:
             expected = f"0 to {MOST_CHANNELS}" if said == str(len(words)) else quoted(said)
             self._wrong(line, f"found {len(words)} channels of {quoted(joint.name)}, expected {expected}")
         joint.channels = tuple(self._channel(word, line) for word in words)
-        moved = [channel for channel in joint.channels if channel.endswith("position")]
+        moved = [word.lower() for word in words if word.lower() in _CHANNEL and word.lower().endswith("position")]
         if len(set(moved)) < len(moved):
             self._wrong(line, f"found a position channel of {quoted(joint.name)} twice")
 

@@ -11,7 +11,7 @@ from emulator.recordings import RecordingError
 from emulator.recordings.axes import UNITS_M, placed
 from emulator.recordings.c3d_parts import BLOCK, MIPS, C3dError, Header, Parameter, floats_of, read_header
 from emulator.recordings.take import Take
-from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ
+from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ, short
 
 MOST_BYTES = 4 * 2**30
 _NO_POINTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS", "MODELED_MARKERS")
@@ -53,7 +53,7 @@ def _points(content: bytes, header: Header) -> np.ndarray:
     if n_points < 1:
         raise C3dError("found no points, only other channels")
     if n_frames < 2:
-        raise C3dError(f"found {n_frames} frames, expected two or more")
+        raise C3dError(short(n_frames))
     held = max(0, len(content) - start) // frame_bytes if start >= BLOCK else 0
     if held < n_frames:
         raise C3dError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from emulator.recordings import RecordingError
+from emulator.recordings.axes import body_size
 from emulator.recordings.file_names import named
 from emulator.recordings.mapping import mapped
 from emulator.recordings.mapping_report import MappingReport
+from emulator.recordings.plausible_body import checked_body
 from emulator.recordings.raw import format_of, read_takes
 from emulator.recordings.sides import SidesFound, checked_sides, mirrored, swapped_names
 from emulator.recordings.take import Recording, Take
@@ -29,6 +31,7 @@ class Imported:
     """A take and what was found on the way: ``gap_share`` (J,) of the frames, ``bone_m`` (B,) and ``spread_m`` (B,).
 
     spread_m : standard deviation of each bone's length over the frames
+    body_m   : from head to feet in the median frame, along the joints; nan where these are not known
     """
 
     file: str
@@ -40,6 +43,7 @@ class Imported:
     bone_m: np.ndarray
     spread_m: np.ndarray
     notes: tuple[str, ...]
+    body_m: float = float("nan")
     source: str = ""
     licence: str = ""
 
@@ -68,12 +72,18 @@ def imported(
     source, licence = _provenance(path)
     done = []
     for take in takes:
+        take = replace(take, notes=(*take.notes, *checked_body(take, str(path), _again(path, options), options)))
         joints, report = mapped(take, mapping_file, where=str(path))
         joints, found = _sided(joints, sides, path)
         if format_of(path) != "npz" or worker or trial:
             joints = named(joints, path, worker, trial, names_as, len(takes))
         done.append(replace(_looked_at(path, joints, report, found), source=source, licence=licence))
     return tuple(done)
+
+
+def _again(path: Path, options: dict[str, Any]) -> Callable[..., Take]:
+    """The same file once more, with other options."""
+    return lambda **other: read_takes(path, **{**options, **other})[0]
 
 
 def together(found: Sequence[Imported], source: str | None = None, licence: str | None = None) -> Recording:
@@ -88,11 +98,8 @@ def together(found: Sequence[Imported], source: str | None = None, licence: str 
         wrong += _unlike(first, each)
     seen: dict[str, str] = {}
     for each in found:
-        if each.take.name in seen and each.file != seen[each.take.name]:
-            both = f"{seen[each.take.name]} and {each.file}"
-            wrong.append(
-                f"{both}: both are called {each.take.name}, expected names of their own; see --worker, --trial"
-            )
+        if each.take.name in seen:
+            wrong.append(_called_alike(seen[each.take.name], each))
         seen[each.take.name] = each.file
     if wrong:
         raise RecordingError("\n".join(dict.fromkeys(wrong)))
@@ -100,6 +107,13 @@ def together(found: Sequence[Imported], source: str | None = None, licence: str 
     takes = [replace(e.take, mark_frame={k: v for k, v in e.take.mark_frame.items() if k in shared}) for e in found]
     notes = [f"{Path(each.file).name}: {note}" for each in found for note in each.notes]
     return Recording(tuple(takes), source, licence, tuple(dict.fromkeys(notes)))
+
+
+def _called_alike(file: str, other: Imported) -> str:
+    if file == other.file:
+        return f"{file}: found two takes called {other.take.name}, expected names of their own, and each file once"
+    both = f"{file} and {other.file}"
+    return f"{both}: both are called {other.take.name}, expected names of their own; see --worker, --trial, --names"
 
 
 def _unlike(first: Imported, other: Imported) -> list[str]:
@@ -164,7 +178,8 @@ def _looked_at(path: Path, take: Take, report: MappingReport, sides: SidesFound)
     if _is_pinned(take):
         notes.append("the pelvis stays where it is while the feet move: way and height above the floor are not known")
     notes.append(f"sides: {sides.words()}")
-    return Imported(str(path), format_of(path), take, report, sides, gaps.mean(axis=0), bone_m, spread_m, tuple(notes))
+    share, body_m = gaps.mean(axis=0), body_size(take.positions_m, take.names)[0]
+    return Imported(str(path), format_of(path), take, report, sides, share, bone_m, spread_m, tuple(notes), body_m)
 
 
 def _is_pinned(take: Take) -> bool:

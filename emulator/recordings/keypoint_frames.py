@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -39,15 +40,22 @@ def points_of_frames(path: Path, frames: Sequence[Any], names: list[str]) -> tup
         rows.append(row)
     sizes = {len(row) for row in rows if row is not None}
     if len(sizes) > 1 and not wrong:
-        wrong.append(
-            f"{path}: found frames of {' and '.join(map(str, sorted(sizes)))} points, expected as many in each"
-        )
+        wrong.append(_uneven(path, rows))
     if not sizes and not wrong:
         wrong.append(f"{path}: found nobody in any of {len(frames)} frames")
     if wrong:
         raise RecordingError("\n".join(wrong))
     nothing = np.full((sizes.pop(), 4), np.nan)
     return np.array([nothing if row is None else row for row in rows]), names
+
+
+def _uneven(path: Path, rows: Sequence[np.ndarray | None]) -> str:
+    """The first frame of another number of points than most."""
+    sizes = {i: len(row) for i, row in enumerate(rows) if row is not None}
+    usual = Counter(sizes.values()).most_common(1)[0][0]
+    others = [i for i, size in sizes.items() if size != usual]
+    more = f" ({len(others) - 1} more frames are otherwise)" if len(others) > 1 else ""
+    return f"{path}: frame {others[0]}: found {sizes[others[0]]} points, expected {usual} as in most frames{more}"
 
 
 def _frame(frame: Any, names: list[str]) -> tuple[np.ndarray | None, list[str]]:

@@ -16,13 +16,14 @@ from typing import Any
 import numpy as np
 
 from emulator.recordings import RecordingError
-from emulator.recordings.axes import UNITS_M, placed
+from emulator.recordings.axes import UNITS_M, placed, said_unit
 from emulator.recordings.columns import read_names
+from emulator.recordings.keypoint_folder import keypoint_files
 from emulator.recordings.keypoint_frames import points_of_frames
 from emulator.recordings.keypoint_sets import KEYPOINTS, names_by_number
 from emulator.recordings.marker_csv import MIN_SCORE
 from emulator.recordings.take import Take
-from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ
+from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ, refuse_short
 
 MOST_BYTES = 512 * 2**20
 _FRAMES = ("frames", "positions", "keypoints", "keypoints_3d", "poses", "landmarks", "data")
@@ -66,11 +67,18 @@ def read_json(
     rate = _rate(path, said, rate_hz)
     if unit_m is None and isinstance(unit := said.get("unit", said.get("units")), str):
         unit_m = UNITS_M.get(unit.lower())
+        notes.append(said_unit(unit, unit_m))
     places, found = placed(positions, names, unit_m=unit_m, up=up, where=str(path))
     return Take(tuple(names), None, places, rate, notes=(*notes, *found))
 
 
 def _document(path: Path) -> Any:
+    """The JSON; of a folder of one file a frame the list of all frames."""
+    if path.is_dir():
+        files = keypoint_files(path)
+        if sum(file.stat().st_size for file in files) > MOST_BYTES:
+            raise RecordingError(f"{path}: found more than {MOST_BYTES >> 20} MB, expected less; write it as CSV")
+        return [_document(file) for file in files]
     if path.stat().st_size > MOST_BYTES:
         raise RecordingError(f"{path}: found more than {MOST_BYTES >> 20} MB, expected less; write it as CSV")
     try:
@@ -90,8 +98,7 @@ def _frames(path: Path, document: Any) -> Sequence[Any]:
         raise RecordingError(
             f"{path}: found no list of frames, expected one, or an object with {' or '.join(_FRAMES[:3])}"
         )
-    if len(frames) < 2:
-        raise RecordingError(f"{path}: found {len(frames)} frames, expected two or more")
+    refuse_short(path, len(frames))
     return frames
 
 

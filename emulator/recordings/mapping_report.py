@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+MOST_NAMED = 6
+
 
 @dataclass(frozen=True)
 class MappedJoint:
@@ -26,6 +28,14 @@ class MappingReport:
         return tuple(row for row in self.rows if row.became == became)
 
     def summary(self) -> str:
-        """The numbers of joints of each kind in a sentence."""
+        """The numbers of joints of each kind in a sentence, with the names of those that are lost."""
         kinds = ("kept", "made", "left out", "unknown")
-        return ", ".join(f"{len(rows)} {kind}" for kind in kinds if (rows := self.of(kind)))
+        return ", ".join(f"{len(rows)} {kind}{_lost(rows)}" for kind in kinds if (rows := self.of(kind)))
+
+
+def _lost(rows: tuple[MappedJoint, ...]) -> str:
+    """Names of joints that are left out, up to ``MOST_NAMED``."""
+    if rows[0].became not in ("left out", "unknown"):
+        return ""
+    more = f" and {len(rows) - MOST_NAMED} more" if len(rows) > MOST_NAMED else ""
+    return f" [{', '.join(row.name or row.joint for row in rows[:MOST_NAMED])}{more}]"

@@ -48,7 +48,7 @@ def read_csv(
     """
     table = read_table(path)
     if columns is None and not table.header:
-        raise _nameless(path, table.values.shape[1])
+        raise _nameless(path, table.values.shape[1], rate_hz)
     names = _qualisys_names(table) if columns is None else _named(columns)
     if names:
         found = in_threes(path, names, _width(table.values, 3 * len(names)))
@@ -90,11 +90,14 @@ def _named(columns: Path | str) -> Sequence[str]:
     return read_names(Path(columns))
 
 
-def _nameless(path: Path, width: int) -> RecordingError:
+def _nameless(path: Path, width: int, rate_hz: float | None) -> RecordingError:
     fitting = [name for name, names in KNOWN_COLUMNS.items() if len(names) == width / 3]
     hint = f" ({width // 3} points are perhaps {fitting[0]})" if fitting else ""
+    timed = width % 3 == 2  # a frame and a time in front
+    rate = "" if rate_hz is not None or timed else ", and give the frames a second with --rate"
     return RecordingError(
-        f"{path}: found {width} columns of numbers without names, expected a header; name them with --columns{hint}"
+        f"{path}: found {width} columns of numbers without names, expected a header; "
+        f"name them with --columns{hint}{rate}"
     )
 
 

@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from emulator.recordings import RecordingError
+from emulator.recordings.keypoint_folder import KEYPOINT_FILES, is_keypoint_folder
 from emulator.recordings.take import Take
+from emulator.recordings.timing import refuse_short
 
 
 @dataclass(frozen=True)
@@ -43,8 +45,13 @@ OPTIONS = {
 }
 
 
+_FOLDER = f"found a folder, expected a file, or a folder of {KEYPOINT_FILES} with points in space, a file a frame"
+
+
 def format_of(path: Path) -> str:
     """The name of the format, by the file's ending. Raises RecordingError for an ending that no reader knows."""
+    if is_keypoint_folder(path):
+        return FORMATS[".json"].name
     ending = path.suffix.lower()
     if ending == ".npz":
         return "npz"
@@ -77,19 +84,32 @@ def read_takes(path: str | Path, **options: Any) -> Sequence[Take]:
     """The takes of a file, as ``read_take``: one but for ``.npz``."""
     path = Path(path)
     given = {name: value for name, value in options.items() if value is not None}
+    folder = "\0" not in str(path) and path.is_dir()
+    if folder and not is_keypoint_folder(path):
+        raise RecordingError(f"{path}: {_FOLDER}")
     name = format_of(path)
+    if not folder and not path.is_file():
+        raise RecordingError(f"{path}: no such file")
     _refuse_useless(path, name, given)
-    if not path.is_file():
-        raise RecordingError(f"{path}: {'found a folder, expected a file' if path.is_dir() else 'no such file'}")
+    takes: Sequence[Take]
     if name == "npz":
         from emulator.recordings.takes_npz import read_recording
 
-        return read_recording(path).takes
-    return (_reader(FORMATS[path.suffix.lower()])(path, **given),)
+        takes = read_recording(path).takes
+    else:
+        takes = (_reader(_form(path))(path, **given),)
+    for take in takes:
+        refuse_short(path, take.n_frames)
+    return takes
+
+
+def _form(path: Path) -> Format:
+    """A folder of keypoints is a JSON in parts."""
+    return FORMATS[".json" if is_keypoint_folder(path) else path.suffix.lower()]
 
 
 def _refuse_useless(path: Path, name: str, given: dict[str, Any]) -> None:
-    usable = FORMATS[path.suffix.lower()].options if name != "npz" else ()
+    usable = _form(path).options if name != "npz" else ()
     useless = [option for option in given if option not in usable]
     unknown = [option for option in useless if option not in OPTIONS]
     if unknown:

@@ -87,10 +87,12 @@ def _write(path: Path, arrays: dict[str, np.ndarray]) -> None:
                 entry.compress_type = zipfile.ZIP_DEFLATED
                 file.writestr(entry, stream.getvalue())
         part.replace(path)
-    except OSError as error:
+    except BaseException as error:  # also Ctrl-C: nothing half written stays behind
         with suppress(OSError):
             part.unlink()
-        raise OSError(error.errno, error.strerror, str(path)) from None
+        if isinstance(error, OSError):
+            raise OSError(error.errno, error.strerror, str(path)) from None
+        raise
 
 
 def _mark(key: str) -> str:

@@ -18,6 +18,17 @@ MOST_FILLED = 4
 """Frames that are left out in a file may make it this many times as long."""
 
 
+def refuse_short(path: Path, n_frames: int) -> None:
+    """Raises RecordingError for a take that does not move."""
+    if n_frames < 2:
+        raise RecordingError(f"{path}: {short(n_frames)}")
+
+
+def short(n_frames: int) -> str:
+    """What is wrong with a take of so few frames."""
+    return f"found {n_frames} frame{'s' * (n_frames != 1)}, expected 2 or more"
+
+
 def rate_of(
     path: Path, given_hz: float | None, said_hz: float | None, values: np.ndarray, columns: Columns, line: np.ndarray
 ) -> tuple[float, tuple[str, ...]]:
@@ -25,8 +36,7 @@ def rate_of(
 
     Raises RecordingError where none is known, where it is no rate of people, or where time does not run evenly.
     """
-    if len(values) < 2:
-        raise RecordingError(f"{path}: found {len(values)} frames, expected two or more")
+    refuse_short(path, len(values))
     timed, notes = None, []
     if columns.time is not None:
         timed = _timed_hz(path, values[:, columns.time], line, even=given_hz is None and columns.frame is None)

@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from emulator.recordings import RecordingError
-from emulator.recordings.axes import UNITS_M, placed
+from emulator.recordings.axes import UNITS_M, placed, said_unit
 from emulator.recordings.columns import Columns
 from emulator.recordings.marker_csv import points_of
 from emulator.recordings.table import number_of, read_table
 from emulator.recordings.take import Take
-from emulator.recordings.text import quoted
+from emulator.recordings.text import decoded, quoted
 from emulator.recordings.timing import rate_of, without_missing_frames
 
 _FIRST = "PathFileType"
+_STARTS = {b"HIERARCHY": "BVH", b":version": "ASF", b"{": "JSON", b"[": "JSON", b"PK": "npz"}
 _NEEDED = ("DataRate", "NumFrames", "NumMarkers", "Units")
 _UNITS = {"meters": "m", "millimeters": "mm", "centimeters": "cm", "inches": "inch"}
 
@@ -41,9 +42,9 @@ def read_trc(path: Path, *, unit_m: float | None = None, up: str | None = None) 
     rate_hz, rate_notes = rate_of(path, None, number_of(said["DataRate"]), table.values, columns, table.line)
     positions, more = without_missing_frames(path, positions, table.values, columns)
     unit = said["Units"].lower()
-    unit_m = unit_m or UNITS_M.get(_UNITS.get(unit, unit))
-    places, found_notes = placed(positions, names, unit_m=unit_m, up=up, where=str(path))
-    notes = [*rate_notes, *more, f"unit said by the file: {said['Units']}", *found_notes, *notes]
+    said_m = UNITS_M.get(_UNITS.get(unit, unit))
+    places, found_notes = placed(positions, names, unit_m=unit_m or said_m, up=up, where=str(path))
+    notes = [*rate_notes, *more, said_unit(said["Units"], said_m), *found_notes, *notes]
     return Take(tuple(names), None, places, rate_hz, notes=tuple(notes))
 
 
@@ -52,7 +53,10 @@ def _not_trc(path: Path) -> RecordingError | None:
         first = file.read(len(_FIRST) + 8)
     if _FIRST.lower().encode() in first.lower().replace(b"\0", b""):
         return None
-    return RecordingError(f"{path}:1: found {first[:20]!r}, expected {_FIRST!r}, with which a TRC file begins")
+    found = decoded(first.split(b"\n")[0]).strip()
+    known = next((name for start, name in _STARTS.items() if first.lstrip().startswith(start)), "")
+    looks = f"; it looks like a {known}" if known else ""
+    return RecordingError(f"{path}:1: found {quoted(found)}, expected {_FIRST!r}, with which a TRC file begins{looks}")
 
 
 def _header(path: Path, header: tuple[tuple[str, ...], ...]) -> dict[str, str]:

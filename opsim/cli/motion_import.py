@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,7 @@ def command(files: tuple[str, ...], out: Path, as_json: bool, **options: Any) ->
     """Read each FILE of a capture system (BVH, ASF/AMC, C3D, TRC, CSV, JSON) and write all takes as one recording.
 
     Units and axes are found from the body, joints are renamed to the canonical ones, left and right are checked.
+    A folder of *_keypoints.json (OpenPose, a file a frame) is a FILE too.
     """
     from opsim.cli.motion_files import no_empty_folders, ready
     from opsim.cli.motion_import_asked import asked_of
@@ -70,12 +72,20 @@ def _read(files: Sequence[str], asked: Any) -> tuple[list[Any], Any]:
         for i, file in enumerate(files):
             try:
                 found += imported(file, **asked.options)
-            except (RecordingError, OSError) as error:
-                wrong.append(str(error))
+            except (ValueError, OSError) as error:
+                wrong.append(_said_of(file, error))
             report(i + 1, len(files), Path(file).name)
     if wrong:
         raise RecordingError("\n".join(wrong))
     return found, together(found, asked.source, asked.licence)
+
+
+def _said_of(file: str, error: Exception) -> str:
+    """What is wrong with a file; the file's name stands in it."""
+    text = (error.strerror if isinstance(error, OSError) else None) or str(error)
+    from emulator.recordings import RecordingError
+
+    return text if isinstance(error, RecordingError) else f"{file}: cannot be read: {text}"
 
 
 def _write(found: Sequence[Any], recording: Any, out: Path, picture: Path) -> None:
@@ -109,15 +119,10 @@ def _title(each: Any) -> str:
 
 def _said(each: Any) -> str:
     take = each.take
-    found = [note.split(" (")[0] for note in each.notes if note.startswith(("unit", "up axis"))]
-    return "; ".join(
-        [
-            f"{each.format}, {take.n_frames} frames at {take.rate_hz:g} Hz, {take.duration_s:.2f} s",
-            *found,
-            each.mapping.summary(),
-            f"sides {each.sides.verdict}",
-        ]
-    )
+    found = [note.split(" (")[0] for note in each.notes if note.startswith(("unit", "up axis", "the body"))]
+    tall = [f"{each.body_m:.2f} m from head to feet"] if math.isfinite(each.body_m) else []
+    frames = f"{each.format}, {take.n_frames} frames at {take.rate_hz:g} Hz, {take.duration_s:.2f} s"
+    return "\n".join(["; ".join([frames, *found, *tall]), f"{each.mapping.summary()}; sides {each.sides.verdict}"])
 
 
 def _tell(found: Sequence[Any], recording: Any, out: Path, picture: Path, as_json: bool) -> None:
@@ -127,11 +132,24 @@ def _tell(found: Sequence[Any], recording: Any, out: Path, picture: Path, as_jso
     if as_json:
         print_json({"recording": str(out), "picture": str(picture), "takes": rows, "notes": list(recording.notes)})
         return
-    columns = ("file", "take", "format", "sides", "frames", "seconds", "Hz", "joints", "made", "left out", "gaps")
+    columns = (
+        "file",
+        "take",
+        "format",
+        "sides",
+        "body",
+        "frames",
+        "seconds",
+        "Hz",
+        "joints",
+        "made",
+        "left out",
+        "gaps",
+    )
     table = [
         (
-            row["file"], row["take"], row["format"], row["sides"], f"{row['frames']}", f"{row['seconds']:.2f}",
-            f"{row['rate_hz']:g}", f"{len(row['joints'])}", f"{len(row['made'])}",
+            row["file"], row["take"], row["format"], row["sides"], _metres(row["body_m"]), f"{row['frames']}",
+            f"{row['seconds']:.2f}", f"{row['rate_hz']:g}", f"{len(row['joints'])}", f"{len(row['made'])}",
             f"{len(row['left_out']) + len(row['unknown'])}", f"{row['gap_share']:.2%}",
         )
         for row in rows
@@ -143,6 +161,10 @@ def _tell(found: Sequence[Any], recording: Any, out: Path, picture: Path, as_jso
             click.echo(f"{row['file']}: not known: {name}{near}; name it with --map")
     click.echo(f"recording: {out} ({out.stat().st_size / 1e6:.2f} MB, {len(rows)} take{'s' if len(rows) > 1 else ''})")
     click.echo(f"picture: {picture}")
+
+
+def _metres(value: float) -> str:
+    return f"{value:.2f} m" if math.isfinite(value) else "-"
 
 
 def _tell_notes(found: Sequence[Any]) -> None:
@@ -175,6 +197,7 @@ def _row(each: Any) -> dict[str, Any]:
         "left_out": {row.name: row.why for row in mapping.of("left out")},
         "unknown": {row.name: f" ({row.why})" if row.why else "" for row in mapping.of("unknown")},
         "sides": each.sides.verdict,
+        "body_m": each.body_m,
         "witnesses": {name: round(value, 3) for name, value in each.sides.witnesses.items()},
         "gap_share": float(each.gap_share.mean()),
     }

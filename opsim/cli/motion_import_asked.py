@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,7 @@ class ImportAsked:
 def asked_of(files: Sequence[str], out: Path, given: dict[str, Any]) -> ImportAsked:
     """The options as the readers take them. Raises ValueError with all that is wrong."""
     from emulator.recordings.axes import AXES
+    from emulator.recordings.file_names import wrong_pattern
     from emulator.recordings.importing import SIDES
 
     wrong = _wrong_files(files, out, given)
@@ -30,6 +32,8 @@ def asked_of(files: Sequence[str], out: Path, given: dict[str, Any]) -> ImportAs
     min_score, wrong_score = _number("--min-score", given["min_score"], 0.0, 1.0, "a number")
     wrong += [*wrong_unit, *wrong_rate, *wrong_score]
     wrong += _one_of("--up", given["up"], AXES) + _one_of("--sides", given["sides"], SIDES)
+    if given["names_as"] is not None and (wrong_name := wrong_pattern(given["names_as"])):
+        wrong.append(wrong_name)
     if given["trial"] is not None and len(files) > 1:
         wrong.append(f"--trial {given['trial']}: found {len(files)} files, expected one; see --names")
     for name in ("worker", "trial"):
@@ -52,11 +56,28 @@ def _wrong_files(files: Sequence[str], out: Path, given: dict[str, Any]) -> list
     if out.suffix.lower() != ".npz":
         return [f"{out}: found the ending {out.suffix!r}, but a recording ends in .npz"]
     wrong = overwritten(out, recording=files) or of_another_kind(out, "recording")
-    wrong += overwritten(given["picture"], recording=files)
+    wrong += overwritten(given["picture"], recording=files) + _twice(files)
+    wrong += [
+        f"{each}: found a folder, expected the name of a file to write"
+        for each in (out, given["picture"])
+        if each is not None and "\0" not in str(each) and each.is_dir()
+    ]
     for name, option in (("mapping_file", "--map"), ("asf", "--asf")):
         if given[name] is not None and ("\0" in given[name] or not Path(given[name]).is_file()):
             wrong.append(f"{option}: {given[name]!r}: no such file")
     return wrong
+
+
+def _twice(files: Sequence[str]) -> list[str]:
+    """Files that are given more than once, by whatever path."""
+    places: dict[str, list[int]] = {}
+    for place, file in enumerate(files, 1):
+        places.setdefault(file if "\0" in file else os.path.realpath(file), []).append(place)
+    return [
+        f"{files[at[0] - 1]}: found as file {' and '.join(map(str, at))}, expected each file once"
+        for at in places.values()
+        if len(at) > 1
+    ]
 
 
 def _unit(text: str | None) -> tuple[float | None, list[str]]:

@@ -55,6 +55,7 @@ def command(
     from opsim.cli.console import print_json
     from opsim.cli.motion_files import chosen
 
+    replaced: list[str] = []
     with mistakes():
         model = chosen(library, task)
         _refuse(out, library)
@@ -62,13 +63,14 @@ def command(
         if out is not None:
             said = f"opsim motion sample {Path(library).name} {model.task} -n {n} --seed {seed}"
             _write(out, model, drawn, fps, said if person is None else f"{said} --person {person}", person)
+            replaced = _without_other_draws(out, n)
     rows = [_row(model, drawn, k) for k in range(n)]
     if as_json:
         print_json({"task": model.task, "seed": seed, "out": None if out is None else str(out), "performances": rows})
         return
     _print_times(model, drawn)
     if out is not None:
-        click.echo(f"{n} performances: {_files(out, n)}")
+        click.echo("\n".join([f"{n} performances: {_files(out, n)}", *replaced]))
 
 
 def _refuse(out: Path | None, library: str) -> None:
@@ -80,6 +82,20 @@ def _refuse(out: Path | None, library: str) -> None:
     if wrong := overwritten(out, library=[found(library)]) or of_another_kind(out, "recording"):
         raise ValueError("\n".join(wrong))
     ready(out, ".csv", ".npz", ".bvh")
+
+
+def _without_other_draws(out: Path, n: int) -> list[str]:
+    """Remove the .bvh files that an earlier draw of this name left, as an .npz is replaced; what was done, in words."""
+    if out.suffix.lower() != ".bvh":
+        return []
+    from opsim.cli.motion_sample_bvh import of_another_draw
+
+    ours, others = of_another_draw(out, n)
+    for file in ours:
+        file.unlink()
+    said = [f"removed, of an earlier draw: {', '.join(file.name for file in ours)}"] if ours else []
+    left = f"left beside them, not of this draw: {', '.join(file.name for file in others)}"
+    return [*said, left] if others else said
 
 
 def _files(out: Path, n: int) -> str:

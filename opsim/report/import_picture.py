@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -38,7 +38,8 @@ def draw_import(shown: Sequence[Shown], ending: str) -> bytes:
     """The picture as PNG or SVG: the first take in full, of the others their moments from the side."""
     from matplotlib.figure import Figure
 
-    first, rows = shown[0], list(shown[:MOST_ROWS])
+    shown = [replace(take, title=drawable(take.title), said=drawable(take.said)) for take in shown]
+    first, rows = shown[0], shown[:MOST_ROWS]
     tall_in = [0.9, 4.6, *[2.05] * (1 + len(rows)), 0.16 * len(first.bone_m) + 1.0]
     figure = Figure(figsize=(WIDE_IN, sum(tall_in)), facecolor="white")
     edges = 1 - np.cumsum([0.0, *tall_in]) / sum(tall_in)
@@ -62,7 +63,9 @@ def _headline(figure: Any, shown: Sequence[Shown], top: float, tall_in: Sequence
     figure.text(
         0.02, top - 0.14 * inch, _short(f"{shown[0].title}{more}", 110), size=14, weight="bold", color=INK, **style
     )
-    figure.text(0.02, top - 0.46 * inch, _short(shown[0].said, 170), size=9.5, color=MUTED, **style)
+    for line, text in enumerate(shown[0].said.split("\n")[:2]):
+        at = top - (0.44 + 0.19 * line) * inch
+        figure.text(0.02, at, _short(text, 170 - 35 * line), size=9.5, color=MUTED, **style)
     figure.text(0.98, top - 0.74 * inch, "right limbs", ha="right", size=9, color=RIGHT, **style)
     figure.text(0.91, top - 0.74 * inch, "left limbs", ha="right", size=9, color=LEFT, **style)
 
@@ -184,6 +187,14 @@ def _clear_frames(take: Shown, n: int) -> list[int]:
 
 def _body(take: Shown) -> Any:
     return SimpleNamespace(names=take.names, parents=take.parents)
+
+
+def drawable(text: str) -> str:
+    """The text with ``?`` for characters that the picture's font has not; new lines stay."""
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    known = get_font(findfont(FontProperties())).get_charmap()
+    return "".join(c if c == "\n" or (c.isprintable() and ord(c) in known) else "?" for c in text)
 
 
 def _short(text: str, most: int) -> str:

@@ -275,3 +275,11 @@ def test_a_small_file_that_asks_for_gigabytes_is_refused(tmp_path):
     )
     with pytest.raises(RecordingError, match="30,000 frames of 1,501 joints in"):
         read_bvh(path)
+
+
+def test_a_mistyped_channel_is_the_only_mistake(tmp_path):
+    with pytest.raises(RecordingError) as error:
+        read_bvh_file(written(tmp_path, ARM.replace("Xrotation", "Xrotatoin", 1)))
+    assert str(error.value).endswith("a.bvh:5: found channel 'Xrotatoin'; did you mean Xrotation?")
+    with pytest.raises(RecordingError, match="found a position channel of 'Hips' twice"):
+        read_bvh_file(written(tmp_path, ARM.replace("Yposition", "Xposition", 1)))

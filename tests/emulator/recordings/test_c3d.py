@@ -112,7 +112,7 @@ def test_points_without_a_name_are_left_out(tmp_path):
         (b"\x02\x50" + b"\0" * 2000, "processor type 0"),
         (by_hand(MM, NAMES)[:-400], "declares 25 frames of 21 points from block 6 on, and holds 23"),
         (by_hand(MM, NAMES, frames=65535), "declares 65535 frames of 21 points"),
-        (by_hand(MM, NAMES, frames=0), "frames, expected two or more"),
+        (by_hand(MM, NAMES, frames=0), "found 0 frames, expected 2 or more"),
         (by_hand(MM, NAMES, rate_hz=0.0), "found 0 frames a second"),
         (by_hand(MM, [*NAMES[:-1], "head"]), "labels more than once: 'head'"),
         (by_hand(MM, NAMES, labels=["*1"] * len(NAMES)), "none of them with a label"),

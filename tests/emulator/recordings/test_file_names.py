@@ -50,6 +50,8 @@ def test_a_pattern_finds_its_parts(pattern, parts):
     ("pattern", "said"),
     [
         ("*", "expected {worker} or {trial}"),
+        ("{foo}_{worker", "found '{foo}', '{worker' in"),
+        ("{worker}_{trail}", "found '{trail}' in"),
         ("{worker}{worker}", "each once at most"),
         ("X{worker}", "a.bvh: the name does not fit"),
         ("(.+.+)+{worker}!", "a.bvh: the name does not fit"),

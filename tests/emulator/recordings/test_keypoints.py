@@ -95,7 +95,7 @@ def test_missing_points_and_low_scores_are_gaps(tmp_path):
         ("[]", "found no list of frames"),
         ("7", "found no list of frames"),
         ({"fps": 30, "frames": [1, 2]}, "frame 0|found nobody"),
-        ({"fps": 30, "frames": PLACES[:1]}, "found 1 frames, expected two"),
+        ({"fps": 30, "frames": PLACES[:1]}, "found 1 frame, expected 2 or more"),
         ({"frames": PLACES, "names": list(NAMES)}, "found no frame rate"),
         ({"fps": "fast", "frames": PLACES, "names": list(NAMES)}, "found 'fast' frames a second"),
         ({"fps": 30, "frames": PLACES, "names": list(NAMES[:-1])}, "found 21 points a frame, expected 20"),
@@ -109,7 +109,10 @@ def test_missing_points_and_low_scores_are_gaps(tmp_path):
         ({"fps": 30, "frames": [{"people": []}] * 2}, "found nobody"),
         ({"fps": 30, "frames": [[["a", 1, 2]]] * 2}, "frame 0: found .* expected numbers"),
         ({"fps": 30, "frames": [[[1e99, 1, 2]]] * 2}, "expected finite numbers"),
-        ({"fps": 30, "frames": [[[1, 1, 2]], [[1, 2, 3], [2, 3, 4]]]}, "found frames of 1 and 2 points"),
+        (
+            {"fps": 30, "frames": [[[1, 1, 2]], [[1, 2, 3], [2, 3, 4]], [[1, 1, 2]]]},
+            "frame 1: found 2 points, expected 1",
+        ),
     ],
 )
 def test_what_is_wrong_is_said(tmp_path, document, said):
@@ -123,3 +126,24 @@ def test_numbers_that_json_does_not_know_are_gaps_and_no_crash(tmp_path):
     assert np.isnan(read_json(path).positions_m[0, 0]).any()
     path = written(tmp_path, document.replace(str(PLACES[0, 0, 0]), "Infinity", 1))
     assert np.isnan(read_json(path).positions_m[0, 0]).any()
+
+
+def test_a_folder_of_frames_is_read_in_the_order_of_its_numbers(tmp_path):
+    from emulator.recordings.raw import format_of, read_take
+
+    places = np.random.default_rng(0).normal(size=(12, 25, 3)) + np.array([0, 0, 1])
+    for i, points in enumerate(places):
+        person = {"people": [{"pose_keypoints_3d": scored(points[None])[0].ravel().tolist()}]}
+        (tmp_path / f"take_{i}_keypoints.json").write_text(json.dumps(person))
+    take = read_take(tmp_path, rate_hz=30.0, unit_m=1.0, up="z")
+    assert format_of(tmp_path) == "keypoint JSON" and np.allclose(take.positions_m, places)
+    (tmp_path / "take_7_keypoints.json").write_text("{")
+    with pytest.raises(RecordingError, match=r"take_7_keypoints.json:1:\d+: not JSON"):
+        read_take(tmp_path, rate_hz=30.0)
+
+
+def test_a_unit_that_nobody_knows_is_said_to_be_unknown(tmp_path):
+    document = {"names": list(NAMES), "fps": 30, "unit": "furlong", "frames": PLACES}
+    notes = read_json(written(tmp_path, document)).notes
+    assert "the file's unit, 'furlong', is not known" in notes and not any("unit said" in note for note in notes)
+    assert "unit said by the file: m" in read_json(written(tmp_path, {**document, "unit": "m"})).notes

@@ -247,7 +247,7 @@ def lines_of(change):
         (lambda lines: [lines[0], celled(lines[1], 0, "inf"), *lines[2:]], "a.csv:2: column 1: found 'inf'"),
         (lambda lines: lines[:1], "found no row of numbers"),
         (lambda lines: [lines[0], "1.0,2.0,"], "a.csv:1: found names of 63 columns, expected 3 as in the rows below"),
-        (lambda lines: lines[:2], "found 1 frames, expected two or more"),
+        (lambda lines: lines[:2], "found 1 frame, expected 2 or more"),
         (lambda lines: [], "found no row of numbers"),
         (lambda lines: [lines[0].replace("head_y", "head_x"), *lines[1:]], "a.csv:1: found 'head x' in columns"),
         (lambda lines: [lines[0].replace("head_z", "head_w"), *lines[1:]], "a.csv:1: 'head': found x, y, expected x"),
@@ -305,3 +305,10 @@ def test_empty_cells_are_gaps(tmp_path):
     expected = PLACES.copy()
     expected[4:9, 3] = np.nan
     check(read_csv(written(tmp_path, table_text([flat_header()], holes)), rate_hz=50.0), expected)
+
+
+def test_what_a_table_without_header_lacks_is_asked_for_at_once(tmp_path):
+    with pytest.raises(RecordingError, match=r"name them with --columns, and give the frames a second with --rate"):
+        read_csv(written(tmp_path, table_text([], MM)))
+    with pytest.raises(RecordingError, match=r"name them with --columns$"):
+        read_csv(written(tmp_path, table_text([], MM)), rate_hz=50.0)

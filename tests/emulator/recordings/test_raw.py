@@ -61,3 +61,35 @@ def test_an_npz_gives_all_its_takes(tmp_path):
     assert [each.trial for each in takes] == ["1", "2"] and np.array_equal(takes[0].positions_m, take.positions_m)
     with pytest.raises(RecordingError, match="found 2 takes, expected one"):
         read_take(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("ending", ["bvh", "trc", "json", "csv"])
+def test_a_take_of_one_frame_is_refused_by_its_file(tmp_path, ending):
+    from dataclasses import replace
+
+    from emulator.recordings.bvh_write import write_bvh
+    from tests.emulator.recordings.body import json_text, table_text, trc_text
+
+    one = replace(body(), positions_m=body().positions_m[:1])
+    path = tmp_path / f"one.{ending}"
+    names = list(one.names)
+    header = "time," + ",".join(f"{name}_{axis}" for name in names for axis in "xyz")
+    if ending == "bvh":
+        write_bvh(one, path)
+    elif ending == "json":
+        path.write_text(json_text({"names": names, "fps": 50, "frames": one.positions_m}))
+    else:
+        table = table_text([header], one.positions_m, first=np.zeros(1))
+        path.write_text(table if ending == "csv" else trc_text(names, one.positions_m))
+    with pytest.raises(RecordingError, match=r"one\.\w+: found 1 frame, expected 2 or more"):
+        read_take(path)
+
+
+def test_a_file_that_is_not_there_is_said_before_its_options(tmp_path):
+    with pytest.raises(RecordingError, match="no such file"):
+        read_take(tmp_path / "nosuch.bvh", rate_hz=50.0)
+
+
+def test_a_folder_of_no_keypoints_is_told_what_would_be_read(tmp_path):
+    with pytest.raises(RecordingError, match=r"found a folder, expected a file, or a folder of \*_keypoints.json"):
+        read_take(tmp_path)

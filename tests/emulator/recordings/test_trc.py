@@ -49,9 +49,10 @@ def test_empty_cells_are_gaps_also_at_the_end_of_a_row(tmp_path):
         (trc_text(TAKE.names, Y_UP_MM).replace("NumMarkers", "Markers"), "a.trc:2: found no NumMarkers"),
         (trc_text(TAKE.names, Y_UP_MM).replace("Frame#", "Nr"), "found no line of names"),
         (trc_text(TAKE.names, Y_UP_MM, rate_hz=0.01), "frames a second, expected 1 to 10000"),
-        (trc_text(TAKE.names, Y_UP_MM[:1]), "found 1 frames, expected two or more"),
+        (trc_text(TAKE.names, Y_UP_MM[:1]), "found 1 frame, expected 2 or more"),
         (trc_text(TAKE.names, Y_UP_MM)[:6000], "a.trc:"),
-        ("", "found b'', expected 'PathFileType'"),
+        ("", "found '', expected 'PathFileType'"),
+        ("HIERARCHY\nROOT Hips\n", "a.trc:1: found 'HIERARCHY', expected 'PathFileType'.*it looks like a BVH"),
         ("1,2,3\n4,5,6\n", "expected 'PathFileType'"),
     ],
 )
@@ -66,3 +67,8 @@ def test_text_in_numbers_is_said_with_line_and_column(tmp_path):
     lines[8] = "\t".join([*cells[:5], "abc", *cells[6:]])
     with pytest.raises(RecordingError, match=r"a.trc:9: column 6: found 'abc'"):
         read_trc(written(tmp_path, "\n".join(lines)))
+
+
+def test_a_unit_that_nobody_knows_is_said_to_be_unknown(tmp_path):
+    notes = read_trc(written(tmp_path, trc_text(TAKE.names, Y_UP_MM, unit="furlong"))).notes
+    assert "the file's unit, 'furlong', is not known" in notes and not any("unit said" in note for note in notes)

@@ -1,11 +1,14 @@
 """``opsim motion import``: files in, a recording and its picture out; mistakes all at once, nothing half written."""
 
 import json
+import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from emulator import read_motions
+from emulator.recordings.bvh_write import write_bvh
 from emulator.recordings.takes_npz import read_recording
 from tests.emulator.recordings.body import body, table_text, trc_text
 from tests.opsim.cli.calls import opsim
@@ -173,3 +176,44 @@ def test_gaps_are_counted_and_drawn(tmp_path, csv):
     holes[5:15, TAKE.names.index("left_hand")] = np.nan
     code, said, _ = imported(csv("a.csv", places=holes), "-o", tmp_path / "o.npz", "--rate", 50, "--json")
     assert code == 0 and json.loads(said)["takes"][0]["gap_share"] == pytest.approx(10 / 40 / 21)
+
+
+def test_one_frame_is_said_together_with_the_mistakes_of_the_other_files(tmp_path):
+    write_bvh(replace(TAKE, positions_m=TAKE.positions_m[:1]), tmp_path / "one.bvh")
+    code, _, err = imported(tmp_path / "one.bvh", tmp_path / "no.bvh", "-o", tmp_path / "o.npz")
+    assert code == 2 and f"{tmp_path / 'one.bvh'}: found 1 frame, expected 2 or more" in err
+    assert "no.bvh: no such file" in err
+
+
+def test_joints_that_are_left_out_are_named(tmp_path):
+    extra = ["left_eye", "right_eye", "left_ear", "right_ear", "nose", "odd1", "odd2"]
+    header = ",".join([HEADER, *(f"{name}_{axis}" for name in extra for axis in "xyz")])
+    head = TAKE.positions_m[:, [TAKE.names.index("head")] * len(extra)]
+    (tmp_path / "a.csv").write_text(table_text([header], np.concatenate([TAKE.positions_m, head], axis=1)))
+    code, said, err = imported(tmp_path / "a.csv", "-o", tmp_path / "o.npz", "--rate", 50)
+    assert code == 0, err
+    assert "5 left out [left_eye, right_eye, left_ear, right_ear, nose]" in said and "2 unknown [odd1, odd2]" in said
+
+
+def test_a_file_is_given_once(tmp_path, csv):
+    file = csv("s01_e01.csv")
+    code, _, err = imported(file, tmp_path / "." / "sub" / ".." / file.name, "-o", tmp_path / "o.npz", "--rate", 50)
+    assert code == 2 and f"{file}: found as file 1 and 2, expected each file once" in err
+
+
+def test_letters_without_a_glyph_and_folders_for_files_are_no_noise(tmp_path, csv):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        code, _, err = imported(csv("日本.csv"), "-o", tmp_path / "o.npz", "--rate", 50)
+    assert code == 0 and "Warning" not in err
+    (tmp_path / "d.npz").mkdir()
+    code, _, err = imported(tmp_path / "nosuch.csv", "-o", tmp_path / "d.npz", "--names", "{foo}_{worker", "--up", "w")
+    assert code == 2 and "d.npz: found a folder, expected the name of a file" in err and "nosuch" not in err
+    assert "--names: found '{foo}', '{worker'" in err and "--up: found 'w'" in err
+
+
+def test_the_body_is_measured_for_every_file(tmp_path, csv):
+    code, said, _ = imported(csv("a.csv"), "-o", tmp_path / "o.npz", "--rate", 50, "--unit", "mm")
+    assert code == 0 and "1.52 m" in said and "body: from head to feet it is 1.52 m" in said
+    code, _, err = imported(csv("a.csv"), "-o", tmp_path / "o.npz", "--rate", 50, "--unit", "m")
+    assert code == 2 and "give --unit mm" in err

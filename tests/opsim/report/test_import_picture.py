@@ -1,12 +1,13 @@
 """The picture of what was imported."""
 
+import warnings
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from opsim.report.import_picture import Shown, _apart, _clear_frames, draw_import
+from opsim.report.import_picture import Shown, _apart, _clear_frames, draw_import, drawable
 from tests.emulator.recordings.body import body
 
 
@@ -53,3 +54,10 @@ def test_names_of_files_are_no_formulas():
 def test_more_takes_than_rows_are_drawn_as_far_as_there_is_room():
     many = [replace(shown(), title=f"{k}") for k in range(14)]
     assert len(draw_import(many, "svg")) > len(draw_import(many[:1], "svg"))
+
+
+def test_characters_without_a_glyph_become_question_marks():
+    assert drawable("日本_é.bvh\nµ") == "??_é.bvh\nµ"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert draw_import([shown(title="日本.bvh\t\x1b")], "svg") == draw_import([shown(title="??.bvh??")], "svg")
