@@ -20,9 +20,12 @@ KINDS = {
     "noise": "low-pass",
     "hold": "stands still",
     "heading": "turns",
+    "still": "does not move",
 }
 """Kinds of repairs, in the order of the work, in words."""
 _NO_FAULT = ("hold", "heading")
+BREATHES_PERCENT = 5.0
+"""A take is told of if the length of a bone has this standard deviation; less is common in optical recordings."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ class Repair:
     words                   : what was found and what was done about it
     mended                  : whether anything was changed; else it is only told
     bad                     : whether the take is bad for it: a fault that was left
+    shortens                : whether frames are gone that were seen or lie within the movement
     """
 
     take: str
@@ -49,6 +53,7 @@ class Repair:
     words: str
     mended: bool = True
     bad: bool = False
+    shortens: bool = False
 
     @property
     def found(self) -> str:
@@ -100,7 +105,9 @@ class Cleaned:
             yield name, before, after
 
     def verdict(self, take: str) -> str:
-        """ "left out", "bad" (a fault that was left), "repaired", "told" (something odd, not mended) or "good"."""
+        """What became of it, the worst first: "left out", "bad" (a fault was left), "shortened", "repaired", "told"
+        (something odd, not mended) or "good"; also "shortened, told" and "repaired, told".
+        """
         return "left out" if take in dict(self.left_out) else verdict_of(self.of(take))
 
 
@@ -115,9 +122,19 @@ def take_names(recording: Recording) -> tuple[str, ...]:
 
 
 def verdict_of(repairs: Sequence[Repair]) -> str:
-    """What is to be said of a take in which this was found. Pauses, turns and bones that breathe are no faults."""
+    """What is to be said of a take in which this was found. Pauses and turns are no faults."""
     if any(repair.bad for repair in repairs):
         return "bad"
-    if any(repair.mended and repair.kind not in _NO_FAULT for repair in repairs):
-        return "repaired"
-    return "told" if any(repair.kind not in (*_NO_FAULT, "bone") for repair in repairs) else "good"
+    said = ["told"] if any(is_odd(repair) for repair in repairs) else []
+    if any(repair.shortens for repair in repairs):
+        said = ["shortened", *said]
+    elif any(repair.mended and repair.kind not in _NO_FAULT for repair in repairs):
+        said = ["repaired", *said]
+    return ", ".join(said) or "good"
+
+
+def is_odd(repair: Repair) -> bool:
+    """Whether it was left and is something a body does not do: no pause, turn, or bone that breathes a little."""
+    if repair.mended or repair.kind in _NO_FAULT:
+        return False
+    return repair.kind != "bone" or repair.size >= BREATHES_PERCENT

@@ -17,7 +17,7 @@ from emulator.cleaning.found import Repair
 from emulator.cleaning.frames import companions, into, local_frame, out_of
 from emulator.cleaning.settings import CleaningSettings
 from emulator.recordings.take import Take
-from emulator.runs import runs_of
+from emulator.runs import stretches
 
 FEWEST_FRAMES = 3
 WANDER = 2.0
@@ -75,10 +75,10 @@ def _filled(
 def _inner_gaps(take: Take, missing: np.ndarray) -> list[tuple[int, int, int]]:
     """(joint, first, last) of gaps that have seen frames on both sides, from the root outwards."""
     return [
-        (joint, first, last)
+        (joint, start, stop - 1)
         for joint in outwards(take)
-        for first, last in runs_of(missing[:, joint])
-        if first > 0 and last < len(missing) - 1
+        for start, stop in stretches(missing[:, joint])
+        if start > 0 and stop < len(missing)
     ]
 
 
@@ -86,13 +86,14 @@ def _cut(take: Take, missing: np.ndarray, settings: CleaningSettings) -> tuple[T
     """The longest stretch in which every joint is seen, where it is long enough and holds every mark."""
     if not missing.any():
         return take, ()
-    stretches = runs_of(np.all(~missing, axis=1))
-    first, last = max(stretches, key=lambda run: (run[1] - run[0], -run[0]), default=(0, -1))
+    seen = stretches(np.all(~missing, axis=1))
+    first, stop = max(seen, key=lambda run: (run[1] - run[0], -run[0]), default=(0, 0))
+    last = stop - 1
     away = [(start, end) for start, end in ((0, first - 1), (last + 1, take.n_frames - 1)) if end >= start]
     kept = last - first + 1
     marks_kept = all(first <= frame <= last for frame in take.mark_frame.values())
     if kept < max(FEWEST_FRAMES, settings.kept_share * take.n_frames) or not marks_kept:
-        return None, tuple(_cut_repair(take, missing, *part) for part in away or [(0, take.n_frames - 1)])
+        return None, tuple(_cut_repair(take, missing, *part, 0.0) for part in away or [(0, take.n_frames - 1)])
     inside = slice(first, last + 1)
     whole = replace(
         take,
@@ -100,13 +101,27 @@ def _cut(take: Take, missing: np.ndarray, settings: CleaningSettings) -> tuple[T
         contact=None if take.contact is None else take.contact[inside],
         mark_frame={name: frame - first for name, frame in take.mark_frame.items()},
     )
-    return whole, tuple(_cut_repair(take, missing, *part) for part in away)
+    lost_s = [_lost_s(take, missing, *part) for part in away]
+    return whole, tuple(
+        _cut_repair(take, missing, *part, lost if lost > settings.least_lost_s else 0.0)
+        for part, lost in zip(away, lost_s)
+    )
 
 
-def _cut_repair(take: Take, missing: np.ndarray, first: int, last: int) -> Repair:
+def _lost_s(take: Take, missing: np.ndarray, first: int, last: int) -> float:
+    """How long of what is cut off, from first to last, was seen or lies between such: not what nobody ever saw."""
+    seen = first + np.flatnonzero(~missing[first : last + 1].all(axis=1))
+    if not len(seen):
+        return 0.0
+    return float(last + 1 - seen[0] if first == 0 else seen[-1] + 1 - first) / take.rate_hz
+
+
+def _cut_repair(take: Take, missing: np.ndarray, first: int, last: int, lost_s: float) -> Repair:
     joints = tuple(take.names[j] for j in np.flatnonzero(missing[first : last + 1].any(axis=0)))
     seconds = (last - first + 1) / take.rate_hz
-    return Repair(take.name, "cut", joints, first, last, seconds, "s", f"not seen; {seconds:.2f} s cut off")
+    words = f"not seen; {seconds:.2f} s cut off"
+    words += f", of which {lost_s:.2f} s were seen or lie within the movement" if lost_s else ""
+    return Repair(take.name, "cut", joints, first, last, seconds, "s", words, shortens=lost_s > 0)
 
 
 def _repair(take: Take, joint: int, first: int, last: int, short: bool) -> Repair:

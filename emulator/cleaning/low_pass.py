@@ -43,7 +43,8 @@ def smoothed(take: Take, settings: CleaningSettings) -> tuple[Take, tuple[Repair
                 residual_analysis(take.positions_m[:, joint], take.rate_hz)[0],
                 "found by residual analysis",
             )
-        cut_off_hz = min(cut_off_hz, highest_hz(take.rate_hz))
+        if cut_off_hz > highest_hz(take.rate_hz):
+            cut_off_hz, how = highest_hz(take.rate_hz), f"{how}, but no higher at {take.rate_hz:g} frames a second"
         positions[:, joint] = filtered(take.positions_m[:, joint], take.rate_hz, cut_off_hz)
         taken_mm = 1000 * float(np.sqrt(np.mean((positions[:, joint] - take.positions_m[:, joint]) ** 2)))
         words = f"shakes by {1000 * noise_m[joint]:.1f} mm a coordinate; low-pass at {cut_off_hz:.1f} Hz ({how})"

@@ -21,6 +21,8 @@ POLICIES: dict[str, tuple[str, ...]] = {
     "plausible": ("refuse", "off"),
 }
 """Each step, and what may be asked of it; the first is what is done unless asked otherwise."""
+MOST = {"s": 3600.0, "m": 100.0, "share": 100.0, "deg": 180.0, "hz": 1e5, "usual": 1e6}
+"""No number may be larger, by the last part of its name (``jump_m_per_s`` is as free as a time)."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,7 @@ class CleaningSettings:
     bridged_gap_s     : a gap up to this is bridged by a cubic spline
     filled_gap_s      : a gap up to this is filled from three points that move with the joint, where they are seen
     rigid_m           : standard deviation of the distance up to which a point moves with the joint
+    least_lost_s      : frames cut off that were seen, or lie between such, shorten a take if they last for longer
     kept_share        : a take of which less is without a longer gap is left out
     least_slip_share  : a bone that is longer or shorter by this share after a step shows which side of it is wrong
     bad_bone_share    : a take with a bone that leaves its median length by more (in more than 1 % of frames) is bad
@@ -64,6 +67,7 @@ class CleaningSettings:
     bridged_gap_s: float = 0.2
     filled_gap_s: float = 0.5
     rigid_m: float = 0.015
+    least_lost_s: float = 0.1
     kept_share: float = 0.5
     least_slip_share: float = 0.04
     bad_bone_share: float = 0.5
@@ -76,10 +80,7 @@ class CleaningSettings:
 
     def __post_init__(self) -> None:
         wrong = [said for field in fields(self) if (said := _wrong(field.name, getattr(self, field.name)))]
-        if not wrong and self.filled_gap_s < self.bridged_gap_s:
-            wrong.append(f"filled_gap_s: found {self.filled_gap_s:g}, expected bridged_gap_s or more")
-        if not wrong and self.tallest_m <= self.shortest_m:
-            wrong.append(f"tallest_m: found {self.tallest_m:g}, expected more than shortest_m")
+        wrong += _contradictions({field.name: getattr(self, field.name) for field in fields(self)})
         if wrong:
             raise ValueError("\n".join(wrong))
 
@@ -98,9 +99,30 @@ def settings_of(given: dict[str, Any]) -> CleaningSettings:
             f"no setting {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}")
         )
     wrong += [said for name in given if name in known and (said := _wrong(name, given[name]))]
+    wrong += _contradictions({field.name: field.default for field in fields(CleaningSettings)} | given)
     if wrong:
         raise ValueError("\n".join(wrong))
     return CleaningSettings(**given)
+
+
+def beyond_rate(cut_off_hz: Any, rate_hz: float) -> list[str]:
+    """What speaks against a cut-off for a recording of this many frames a second: nothing is left to filter there."""
+    if cut_off_hz is None or _wrong("cut_off_hz", cut_off_hz) or cut_off_hz < rate_hz / 2:
+        return []
+    half = f"half of the recording's {rate_hz:g} frames a second"
+    return [f"cut_off_hz: found {cut_off_hz:g}, expected less than {rate_hz / 2:g}, {half}"]
+
+
+def _contradictions(values: dict[str, Any]) -> list[str]:
+    """What does not go together, of numbers that are none the wiser alone."""
+    wrong = []
+    for low, high, expected, fits in (
+        ("bridged_gap_s", "filled_gap_s", "bridged_gap_s or more", lambda a, b: b >= a),
+        ("shortest_m", "tallest_m", "more than shortest_m", lambda a, b: b > a),
+    ):
+        if not _wrong(low, values[low]) and not _wrong(high, values[high]) and not fits(values[low], values[high]):
+            wrong.append(f"{high}: found {values[high]:g}, expected {expected} ({values[low]:g})")
+    return wrong
 
 
 def _wrong(name: str, value: Any) -> str:
@@ -112,4 +134,5 @@ def _wrong(name: str, value: Any) -> str:
         return f"{name}: found {value!r}, expected a positive number"
     if name == "kept_share" and value > 1:
         return f"{name}: found {value!r}, expected a share up to 1"
-    return ""
+    most = MOST.get(name.rpartition("_")[2], MOST["usual"])
+    return f"{name}: found {value!r}, expected {most:g} at most" if value > most else ""

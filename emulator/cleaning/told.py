@@ -10,17 +10,19 @@ from emulator.cleaning.settings import CleaningSettings
 from emulator.motion import Motion, motion_from_positions
 from emulator.recordings.take import Take
 from emulator.skeleton import Skeleton
-from emulator.stillness import find
+from emulator.stillness import find, moves
 
 LEAST_TURN_DEG = 45.0
+STILL_M, AWAY_M_PER_RAD = 0.05, 1.0
+"""A body whose pelvis stays within this has not moved; a radian of heading counts as a metre."""
 
 
 def told(take: Take, settings: CleaningSettings) -> tuple[Repair, ...]:
-    """Its turn in degrees (heading unwrapped, so that a full turn is 360) and its pauses in seconds."""
+    """Its turn in degrees (heading unwrapped: a full turn is 360), its pauses in seconds, that it is still."""
     motion = _motion(take)
     if motion is None:
         return ()
-    return (*_turn(take, motion, settings), *_holds(take, motion, settings))
+    return (*_turn(take, motion, settings), *_still(take, motion, settings), *_holds(take, motion, settings))
 
 
 def impossible(take: Take) -> tuple[Repair, ...]:
@@ -53,6 +55,15 @@ def _turn(take: Take, motion: Motion, settings: CleaningSettings) -> tuple[Repai
         return ()
     words = f"turns by {turn:+.0f} deg from the first frame to the last; left as it is"
     return (Repair(take.name, "heading", (), 0, take.n_frames - 1, abs(turn), "deg", words, False),)
+
+
+def _still(take: Take, motion: Motion, settings: CleaningSettings) -> tuple[Repair, ...]:
+    """That nothing moves: no bone, and the body stays in its place and heading."""
+    away = max(float(np.ptp(motion.root_m, axis=0).max()), float(np.ptp(motion.yaw_rad)) * AWAY_M_PER_RAD)
+    if settings.holds == "off" or moves(motion) or away > STILL_M:
+        return ()
+    words = f"does not move for all of its {take.duration_s:.2f} s; left as it is"
+    return (Repair(take.name, "still", (), 0, take.n_frames - 1, take.duration_s, "s", words, False),)
 
 
 def _holds(take: Take, motion: Motion, settings: CleaningSettings) -> tuple[Repair, ...]:

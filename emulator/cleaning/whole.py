@@ -15,7 +15,7 @@ from emulator.cleaning.jumps import without_jumps
 from emulator.cleaning.low_pass import smoothed
 from emulator.cleaning.offsets import without_offsets
 from emulator.cleaning.plausible import mistakes
-from emulator.cleaning.settings import CleaningSettings
+from emulator.cleaning.settings import CleaningSettings, beyond_rate
 from emulator.cleaning.slips import without_slips
 from emulator.cleaning.swaps import without_swaps
 from emulator.cleaning.told import impossible, told
@@ -31,11 +31,12 @@ def cleaned(recording: Recording, settings: CleaningSettings | None = None, prog
 
     settings : ``CleaningSettings()`` where None
     progress : called with (done, total, label) after each take of each round
-    Raises ValueError with everything that makes it no recording of bodies in metres, z up, and where no take is left.
+    Raises ValueError with everything that makes it no recording of bodies in metres, z up, for a cut-off that its frame
+    rate has no room for, and where no take is left.
     """
     settings = CleaningSettings() if settings is None else settings
     read, recording = recording, replace(recording, takes=tuple(_finite(take) for take in recording.takes))
-    wrong = mistakes(recording, settings)
+    wrong = [*mistakes(recording, settings), *beyond_rate(settings.cut_off_hz, recording.rate_hz)]
     if wrong:
         raise ValueError("\n".join(wrong))
     report = progress or (lambda *_: None)

@@ -47,6 +47,7 @@ def parse_cut_times(text: str, takes: Sequence[Take], file: str) -> dict[str, tu
     known = {take.name: take for take in takes}
     here = takes[0] if len(takes) == 1 else None
     found: dict[str, list[tuple[int, Cut]]] = {}
+    names: dict[str, dict[str, int]] = {take.name: {} for take in takes}
     wrong: list[str] = []
     unknown = False
     for number, raw in enumerate(text.split("\n"), start=1):
@@ -62,12 +63,13 @@ def parse_cut_times(text: str, takes: Sequence[Take], file: str) -> dict[str, tu
                 found.setdefault(here.name, [])
         elif line and here is not None:
             cut, mistakes = _cut(line, here)
-            wrong += [f"{place}: {mistake}" for mistake in mistakes]
+            wrong += [f"{place}: {mistake}" for mistake in [*mistakes, *_again(line, names[here.name], number)]]
             found.setdefault(here.name, []).extend([(number, cut)] if cut else [])
         elif line and not unknown:
             wrong.append(f"{place}: found a time before any [worker/trial], expected the take that it belongs to")
     for name in found:
         wrong += [f"{file}:{number}: {mistake}" for number, mistake in _together(found[name], known[name].rate_hz)]
+    wrong.sort(key=lambda mistake: int(mistake.removeprefix(f"{file}:").partition(":")[0]))
     if not wrong and not any(found.values()):
         wrong.append(f"{file}: found no cut times, expected lines such as '1.20 3.45 1'")
     if wrong:
@@ -112,6 +114,14 @@ def _cut(line: str, take: Take) -> tuple[Cut | None, list[str]]:
     return (None if wrong else Cut(start, stop, words[2])), wrong
 
 
+def _again(line: str, names: dict[str, int], number: int) -> list[str]:
+    """That a name stood in a line of the take before, its times readable or not; it is noted in ``names``."""
+    words = line.split()
+    if len(words) != 3 or names.setdefault(words[2], number) == number:
+        return []
+    return [f"found the name {words[2]!r} again, first in line {names[words[2]]}"]
+
+
 def _number(word: str) -> float:
     try:
         return float(word)
@@ -120,13 +130,8 @@ def _number(word: str) -> float:
 
 
 def _together(cuts: Sequence[tuple[int, Cut]], rate_hz: float) -> list[tuple[int, str]]:
-    """What is wrong between the cuts of one take, with the line: names twice, pieces that overlap."""
+    """Pieces of one take that overlap, with the line."""
     wrong: list[tuple[int, str]] = []
-    names: dict[str, int] = {}
-    for number, cut in cuts:
-        if cut.name in names:
-            wrong.append((number, f"found the name {cut.name!r} again, first in line {names[cut.name]}"))
-        names.setdefault(cut.name, number)
     for (_, before), (number, after) in itertools.pairwise(cuts):
         if after.start < before.stop:
             found, expected = f"{after.start / rate_hz:.3f} s", f"{before.stop / rate_hz:.3f} s"

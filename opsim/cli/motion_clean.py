@@ -16,7 +16,7 @@ from opsim.cli.verbs import Mistake, mistakes
 @click.argument("file", metavar="FILE.npz")
 @click.option("-o", "--out", type=click.Path(path_type=Path), required=True, help="The recording to write, .npz.")
 @click.option("--strict", is_flag=True, help="Refuse, with a list, what would have to be mended; nothing is written.")
-@click.option("--drop-bad", is_flag=True, help="Leave out takes with a fault that cannot be mended.")
+@click.option("--drop-bad", is_flag=True, help="Leave out takes that are bad (a fault was left) or shortened.")
 @click.option(
     "--set",
     "given",
@@ -61,14 +61,15 @@ def command(
         ready(out, ".npz")
         if repairs is not None:
             ready(repairs, ".csv")
-        _write(done, out, repairs, drop_bad)
-        _draw(done, file, pictures)
-    tell(done, file, out, repairs, pictures, as_json)
+        recording, dropped = _kept(done, drop_bad)
+        _write(done, recording, file, out, repairs, pictures)
+    tell(done, file, out, repairs, pictures, as_json, dropped)
 
 
 def _asked(file: str, out: Path, repairs: Path | None, given: tuple[str, ...]) -> tuple[Any, Any]:
     """Settings and recording. Raises ValueError with everything that speaks against the call."""
     from emulator.cleaning import settings_of
+    from emulator.cleaning.settings import beyond_rate
     from emulator.recordings.takes_npz import read_recording
     from opsim.cli.motion_files import of_another_kind, overwritten
 
@@ -77,9 +78,9 @@ def _asked(file: str, out: Path, repairs: Path | None, given: tuple[str, ...]) -
     if repairs is not None and repairs.suffix.lower() != ".csv":
         wrong.append(f"{repairs}: found the ending {repairs.suffix!r}, expected .csv")
     settings = recording = None
+    values, unread = _values(given)
+    wrong += unread
     try:
-        values, unread = _values(given)
-        wrong += unread
         settings = settings_of(values)
     except ValueError as error:
         wrong += [f"--set: {line}" for line in str(error).splitlines()]
@@ -87,6 +88,8 @@ def _asked(file: str, out: Path, repairs: Path | None, given: tuple[str, ...]) -
         recording = read_recording(file)
     except (ValueError, OSError) as error:
         wrong.append(str(error))
+    if recording is not None:
+        wrong += [f"--set: {line}" for line in beyond_rate(values.get("cut_off_hz"), recording.rate_hz)]
     if wrong:
         raise ValueError("\n".join(wrong))
     return settings, recording
@@ -129,26 +132,51 @@ def _refuse(file: str, done: Any) -> None:
         raise Mistake("\n".join([head, *lines]))
 
 
-def _write(done: Any, out: Path, repairs: Path | None, drop_bad: bool) -> None:
+def _kept(done: Any, drop_bad: bool) -> tuple[Any, list[str]]:
+    """The recording to write, and what is said of takes not in it. Raises ValueError where none is left."""
     from dataclasses import replace
 
+    from opsim.report.cleaned import headline
+
+    if not drop_bad:
+        return done.recording, []
+    verdict = {name: headline(done.verdict(name)) for name, _, _ in done.pairs()}
+    takes = [after for name, _, after in done.pairs() if verdict[name] not in ("bad", "shortened")]
+    if not takes:
+        raise ValueError(f"--drop-bad: found a fault in all of {len(done.names)} takes, expected one without")
+    notes = []
+    for word, why in (("bad", "faults that stay"), ("shortened", "frames of the movement that are gone")):
+        dropped = [name for name in verdict if verdict[name] == word]
+        notes += [f"left out for {why}: {', '.join(dropped)}"] if dropped else []
+    return replace(done.recording, takes=tuple(takes), notes=(*done.recording.notes, *notes)), notes
+
+
+def _write(done: Any, recording: Any, file: str, out: Path, repairs: Path | None, pictures: list[Path]) -> None:
+    """The recording, then the repairs, then the pictures; a stop says which of them are there."""
     from emulator.recordings.takes_npz import write_recording
+    from opsim.cli.stopping import stopped, stops_once, written_so_far
+
+    wanted = [out, *([] if repairs is None else [repairs]), *pictures]
+    written: list[Path] = []
+    with stops_once():
+        try:
+            write_recording(recording, out)
+            written.append(out)
+            if repairs is not None:
+                _write_repairs(done, repairs)
+                written.append(repairs)
+            _draw(done, file, pictures)
+        except KeyboardInterrupt as error:
+            raise stopped(error, written_so_far(written, wanted)) from None
+
+
+def _write_repairs(done: Any, repairs: Path) -> None:
     from opsim.whole import whole_file
 
-    recording = done.recording
-    if drop_bad:
-        takes = [after for name, _, after in done.pairs() if done.verdict(name) != "bad"]
-        if not takes:
-            raise ValueError(f"--drop-bad: found a fault in all of {len(done.names)} takes, expected one without")
-        dropped = [name for name, _, _ in done.pairs() if done.verdict(name) == "bad"]
-        notes = [f"left out for faults that stay: {', '.join(dropped)}"] if dropped else []
-        recording = replace(recording, takes=tuple(takes), notes=(*recording.notes, *notes))
-    write_recording(recording, out)
-    if repairs is not None:
-        with whole_file(repairs) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
-            table = csv.writer(stream)
-            table.writerow(["take", "verdict", *COLUMNS])
-            table.writerows([r.take, done.verdict(r.take), *cells(r)] for r in done.repairs)
+    with whole_file(repairs) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
+        table = csv.writer(stream)
+        table.writerow(["take", "verdict", *COLUMNS])
+        table.writerows([r.take, done.verdict(r.take), *cells(r)] for r in done.repairs)
 
 
 def _draw(done: Any, file: str, pictures: list[Path]) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
 MOST_ROWS = 40
-COLUMNS = ("kind", "joints", "first_frame", "last_frame", "size", "unit", "mended", "bad", "words")
+COLUMNS = ("kind", "joints", "first_frame", "last_frame", "size", "unit", "mended", "bad", "shortens", "words")
 
 
 def cells(repair: Any) -> list[Any]:
@@ -18,10 +19,22 @@ def cells(repair: Any) -> list[Any]:
 
 
 def verdicts_of(done: Any) -> str:
-    counts = Counter(done.verdict(name) for name in done.names)
+    """How many takes of each verdict, what was told of repaired ones and what is gone of shortened ones added."""
+    from opsim.report.cleaned import headline
+
+    counts = Counter(headline(done.verdict(name)) for name in done.names)
     takes = f"{len(done.names)} take{'s' * (len(done.names) > 1)}"
-    order = ("good", "told", "repaired", "bad", "left out")
-    return f"{takes}: {', '.join(f'{counts[word]} {word}' for word in order if counts[word])}"
+    order = ("good", "told", "repaired", "shortened", "bad", "left out")
+    return f"{takes}: {', '.join(f'{counts[word]} {word}{_more(done, word)}' for word in order if counts[word])}"
+
+
+def _more(done: Any, word: str) -> str:
+    odd = sum(done.verdict(name) == f"{word}, told" for name in done.names)
+    added = [f"{odd} of them told"] if odd else []
+    if word == "shortened":
+        longest = max(sum(r.size for r in done.of(name) if r.shortens) for name in done.names)
+        added.insert(0, f"by up to {longest:.2f} s")
+    return f" ({'; '.join(added)})" if added else ""
 
 
 def notes_of(done: Any) -> list[str]:
@@ -49,18 +62,26 @@ def _change(done: Any) -> str:
 
     moved = change_mm(done)
     most = f"{max(moved):.2g} mm in the one changed most"
-    return f"joints moved by {np.median(moved):.2g} mm in the median take, {most} (mean over joints and frames)"
+    said = f"joints moved by {np.median(moved):.2g} mm in the median take, {most} (mean over joints and frames)"
+    cut = [repair for repair in done.repairs if repair.kind == "cut" and repair.take not in dict(done.left_out)]
+    takes = len({repair.take for repair in cut})
+    gone = f"; {sum(r.size for r in cut):.2f} s cut off {takes} take{'s' * (takes > 1)}"
+    return said + gone if cut else said
 
 
-def tell(done: Any, file: str, out: Path, repairs: Path | None, pictures: list[Path], as_json: bool) -> None:
+def tell(
+    done: Any, file: str, out: Path, repairs: Path | None, pictures: list[Path], as_json: bool, dropped: Sequence[str]
+) -> None:
     from opsim.cli.console import print_json
 
     if as_json:
-        print_json(_as_json(done, out, repairs, pictures))
+        print_json(_as_json(done, out, repairs, pictures) | {"dropped": list(dropped)})
         return
     _table(done, f"{Path(file).name}: {verdicts_of(done)}")
     for name, why in done.left_out:
         click.echo(f"left out {name}: {why}")
+    for line in dropped:
+        click.echo(line)
     click.echo(_change(done))
     for what, path in (("recording", out), ("repairs", repairs), *(("picture", picture) for picture in pictures)):
         if path is not None:
@@ -68,25 +89,22 @@ def tell(done: Any, file: str, out: Path, repairs: Path | None, pictures: list[P
 
 
 def _table(done: Any, title: str) -> None:
-    from emulator.cleaning import KINDS
     from opsim.cli.console import print_table
-    from opsim.cli.motion_clean_view import size_words
+    from opsim.cli.motion_clean_view import view_of
+    from opsim.report.cleaned import cell
 
-    kinds = [kind for kind in KINDS if any(repair.kind == kind for repair in done.repairs)]
-    rows = []
-    names = [name for name in done.names if len(done.names) <= MOST_ROWS or done.verdict(name) != "good"]
-    for name in names[: 5 * MOST_ROWS]:
-        cells = []
-        for kind in kinds:
-            found = [repair for repair in done.of(name) if repair.kind == kind]
-            most = max(found, key=lambda repair: repair.size, default=None)
-            many = f"{len(found)} x " if len(found) > 1 else ""
-            cells.append("" if most is None else many + size_words(most.size, most.unit))
-        rows.append((name, done.verdict(name), *cells))
+    view = view_of(done, title, [], panels=False)
+    cards = [card for card in view.cards if len(view.cards) <= MOST_ROWS or card.verdict != "good"]
+    rows = [
+        (card.name, card.verdict, *(cell([f for f in card.findings if f.of == name]) for name in view.columns))
+        for card in cards[: 5 * MOST_ROWS]
+    ]
     if len(rows) < len(done.names):
-        rows.append((f"and {len(done.names) - len(rows)} more", "", *[""] * len(kinds)))
+        rows.append((f"and {len(done.names) - len(rows)} more", "", *[""] * len(view.columns)))
     click.echo(title)
-    print_table("", ("take", "verdict", *kinds), rows, words=2)
+    print_table("", ("take", "verdict", *view.columns), rows, words=2)
+    if any(" x " in words for row in rows for words in row[2:]):
+        click.echo("4 x 1.2 cm: four of them, the largest 1.2 cm; left: found, and left as it is")
 
 
 def _as_json(done: Any, out: Path, repairs: Path | None, pictures: list[Path]) -> dict[str, Any]:

@@ -11,21 +11,26 @@ from opsim.report.cleaned import CleanedView, Finding, Mended, TakeCard
 MOST_BESIDE = 3
 FULL = {"m": 0.2, "s": 0.5, "%": 10.0, "deg": 60.0, "m/s": 12.0, "mm": 10.0}
 """The size, by its unit, that has the darkest colour."""
-SHOWN = ("swap", "glitch", "jump", "slip", "gap", "offset", "angle", "noise", "bone")
-"""Kinds that are worth a look before and after, the most telling first."""
+SHOWN = ("swap", "glitch", "jump", "slip", "gap", "cut", "offset", "angle", "noise")
+"""Kinds that are worth a look before and after."""
+NEVER_A_FAULT = ("hold", "heading", "still")
 
 
-def view_of(cleaned: Any, title: str, notes: list[str]) -> CleanedView:
-    """The picture of a ``emulator.cleaning.Cleaned``."""
+def view_of(cleaned: Any, title: str, notes: list[str], *, panels: bool = True) -> CleanedView:
+    """The picture of a ``emulator.cleaning.Cleaned``, with before and after of the worst or without."""
     from emulator.cleaning import KINDS
 
     present = {repair.kind for repair in cleaned.repairs}
-    cards = [
+    kinds = [(kind, words) for kind, words in KINDS.items() if kind in present]
+    return CleanedView(title, cards_of(cleaned), kinds, _worst(cleaned) if panels else [], notes)
+
+
+def cards_of(cleaned: Any) -> list[TakeCard]:
+    """Each take with what is said of it and what was found in it."""
+    return [
         TakeCard(name, take.duration_s, cleaned.verdict(name), tuple(_finding(r, take) for r in cleaned.of(name)))
         for name, take in zip(cleaned.names, cleaned.before.takes)
     ]
-    kinds = [(kind, words) for kind, words in KINDS.items() if kind in present]
-    return CleanedView(title, cards, kinds, _worst(cleaned), notes)
 
 
 def size_words(size: float, unit: str) -> str:
@@ -43,11 +48,22 @@ def _finding(repair: Any, take: Any) -> Finding:
     at = (repair.first_frame / take.rate_hz, repair.last_frame / take.rate_hz)
     who = f"{' and '.join(repair.joints)}: " if repair.joints else ""
     size = size_words(repair.size, repair.unit)
-    return Finding(repair.kind, *at, size, share_of(repair), repair.mended, who + repair.words)
+    mended = repair.mended and not repair.shortens
+    return Finding(repair.kind, *at, size, share_of(repair), mended, who + repair.words, column_of(repair))
+
+
+def column_of(repair: Any) -> str:
+    """Where it stands in a table: what was mended apart from what was left, and either with one unit."""
+    if repair.shortens:
+        return "shortened"
+    if repair.mended or repair.kind in NEVER_A_FAULT:
+        return str(repair.kind)
+    other = repair.kind == "glitch" and repair.unit == "m"  # the size of a jump, beside changes of speed
+    return f"{repair.kind} left" + (" by" if other else "")
 
 
 def _worst(cleaned: Any) -> list[Mended]:
-    """The repairs to be seen before and after: the largest of different takes, faults before what is only told."""
+    """The repairs to be seen before and after: the largest of different takes, what was mended before what was left."""
     from emulator.skeleton import Skeleton
 
     taken: dict[str, Mended] = {}
@@ -55,8 +71,8 @@ def _worst(cleaned: Any) -> list[Mended]:
         return []
     skeleton = Skeleton(cleaned.before.names, cleaned.before.parents)
     ranked = sorted(
-        (repair for repair in cleaned.repairs if repair.kind in SHOWN[:-1] and repair.joints),
-        key=lambda r: (not (r.bad or r.mended), -share_of(r) - 0.5 * r.mended, r.take, r.first_frame),
+        (repair for repair in cleaned.repairs if repair.kind in SHOWN and repair.joints),
+        key=lambda r: (not r.mended, not r.bad, -share_of(r), r.take, r.first_frame),
     )
     pairs = {name: (before, after) for name, before, after in cleaned.pairs()}
     for repair in ranked:
@@ -84,6 +100,7 @@ def _beside(cleaned: Any, repair: Any, before: Any, after: Any, skeleton: Any) -
         repair.last_frame / before.rate_hz,
         _worst_frame(before.positions_m[:, joint], after_m[:, joint], repair) / before.rate_hz,
         skeleton,
+        repair.mended,
     )
 
 

@@ -28,6 +28,14 @@ def command(file: str, out: Path, kind: str | None, cuts: Path | None, k: int | 
 
     Where neither --repetitions nor --cycles is said, takes with rests between are cut into repetitions, others into
     cycles. Beside OUT.npz: OUT.cuts.txt, cut times to correct by hand and give back with --cuts; OUT.segment.svg.
+
+    \b
+    The table says of each take:
+      pieces         how many repetitions or cycles it was cut into
+      units, frames  of a take of cycles, how many frames it gets ready (preparing), sets off (initial), repeats
+                     itself (cyclic), runs out (final) and stands again (wind-up)
+      dimension      how many numbers tell one posture of the movement from another: 1 where it runs along one
+                     line or ring and comes back the same way, more where it varies or swings in several ways
     """
     from opsim.cli.motion_files import no_empty_folders, ready
 
@@ -37,13 +45,14 @@ def command(file: str, out: Path, kind: str | None, cuts: Path | None, k: int | 
         ready(out, ".npz")
         found, missed = _found(recording, asked, kind or "auto", k)
         written = _write(recording, found, file, out, cuts)
+    said = [] if len(found) <= PICTURED else [f"the picture shows the first {PICTURED} of {len(found)} takes"]
     rows = [_row(segments) for segments in found]
     if as_json:
         from opsim.cli.console import print_json
 
         print_json({"files": written, "takes": rows, "not_cut": missed, "notes": _notes(found)})
     else:
-        _print(rows, missed, _notes(found), written)
+        _print(rows, missed, [*_notes(found), *said], written)
 
 
 def _read(file: str, out: Path, cuts: Path | None, kind: str | None) -> tuple[Any, Any]:
@@ -91,6 +100,8 @@ def _edited(beside: Path) -> list[str]:
 
 
 def _text(file: Path) -> str:
+    if file.is_dir():
+        raise ValueError(f"{file}: found a folder, expected a file of cut times")
     try:
         return file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -129,18 +140,26 @@ def _write(recording: Any, found: list[Any], file: str, out: Path, cuts: Path | 
     from emulator.segmenting.cut_times import cut_times_text
     from emulator.segmenting.pieces import cut_recording
     from opsim.cli.motion_segment_view import picture
+    from opsim.cli.stopping import stopped, stops_once, written_so_far
+    from opsim.whole import whole_file
 
+    times, shown = out.with_suffix(".cuts.txt"), out.with_suffix(".segment.svg")
+    wanted = {"recording": out} | ({} if cuts else {"cut_times": times}) | {"picture": shown}
     said = f"cut from {Path(file).name}" + (f" at the times of {cuts.name}" if cuts else "")
-    written = {"recording": str(out)}
-    write_recording(cut_recording(recording, found, said), out)
-    if cuts is None:
-        times = out.with_suffix(".cuts.txt")
-        text = cut_times_text(recording.takes, {segments.take.name: segments.cuts for segments in found})
-        times.write_text(text, encoding="utf-8")
-        written["cut_times"] = str(times)
-    shown = out.with_suffix(".segment.svg")
-    picture(found[:PICTURED], len(found), shown)
-    return written | {"picture": str(shown)}
+    written: list[Path] = []
+    with stops_once():
+        try:
+            write_recording(cut_recording(recording, found, said), out)
+            written.append(out)
+            if cuts is None:
+                text = cut_times_text(recording.takes, {segments.take.name: segments.cuts for segments in found})
+                with whole_file(times) as temporary:
+                    temporary.write_text(text, encoding="utf-8")
+                written.append(times)
+            picture(found[:PICTURED], len(found), shown)
+        except KeyboardInterrupt as error:
+            raise stopped(error, written_so_far(written, [*wanted.values()])) from None
+    return {what: str(path) for what, path in wanted.items()}
 
 
 def _row(segments: Any) -> dict[str, Any]:
@@ -157,7 +176,21 @@ def _row(segments: Any) -> dict[str, Any]:
 
 
 def _notes(found: list[Any]) -> list[str]:
-    return [f"take {segments.take.name}: left out {note}" for segments in found for note in segments.notes]
+    """What was left out of each take, and where what was cut may be no repetitions."""
+    said = [f"take {segments.take.name}: left out {note}" for segments in found for note in segments.notes]
+    return said + [doubt for segments in found if (doubt := _doubt(segments))]
+
+
+def _doubt(segments: Any) -> str:
+    from emulator.segmenting.segment import rests_between
+
+    if segments.repetitions is None or len(segments.cuts) < 2 or rests_between(segments.repetitions):
+        return ""
+    between = segments.repetitions.rests[1:-1]
+    return (
+        f"take {segments.take.name}: no rest found at {int((~between).sum())} of the {len(between)} places between "
+        "its repetitions; --cycles is meant for movement that goes on without one, such as walking"
+    )
 
 
 def _print(rows: list[dict[str, Any]], missed: list[str], notes: list[str], written: dict[str, str]) -> None:
@@ -179,7 +212,9 @@ def _print(rows: list[dict[str, Any]], missed: list[str], notes: list[str], writ
     total = sum(row["pieces"] for row in rows)
     print_table(f"{total} pieces of {len(rows)} take{'s' if len(rows) > 1 else ''}", columns, cells, words=2)
     if any(row["units"] for row in rows):
-        click.echo("units: preparing|initial|cyclic|final|wind-up")
+        click.echo("units, frames: preparing|initial|cyclic|final|wind-up, how many frames of the take are each")
+    if any(row["dimension"] is not None for row in rows):
+        click.echo("dimension: how many numbers tell one posture of the movement from another; 1 is one line or ring")
     for line in [*missed, *notes]:
         click.echo(printable(line), err=True)
     for what, where in written.items():

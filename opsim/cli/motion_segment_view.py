@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 MOST_PIECES = 6
+AWAY = "distance from the posture of rest\n(root of summed squares of the\nchange of bone directions, no unit)"
 
 
 def picture(found: Sequence[Any], of: int, path: Path) -> None:
@@ -16,11 +17,7 @@ def picture(found: Sequence[Any], of: int, path: Path) -> None:
     from opsim.report.segment_picture import draw_cuts
 
     views = [view(segments) for segments in found]
-    if of > len(views):
-        from dataclasses import replace
-
-        views[0] = replace(views[0], title=f"{views[0].title}   (the first {len(views)} of {of} takes)")
-    draw_cuts(views, path)
+    draw_cuts(views, path, heading=f"the first {len(views)} of {of} takes" if of > len(views) else "")
 
 
 def view(segments: Any) -> Any:
@@ -51,7 +48,7 @@ def view(segments: Any) -> Any:
 
 def _curve(segments: Any) -> tuple[np.ndarray, str]:
     if segments.cycles is not None:
-        return segments.cycles.smooth, "coordinate on the manifold"
+        return segments.cycles.smooth, "coordinate on the manifold\n(no unit)"
     found = segments.repetitions
     if found is None:
         from emulator.segmenting.postures import postures
@@ -61,7 +58,7 @@ def _curve(segments: Any) -> tuple[np.ndarray, str]:
             found = repetitions(postures(segments.take), segments.take.rate_hz)
         except ValueError:
             return np.zeros(segments.take.n_frames), "nothing to show: gaps"
-    return found.away, "distance from the posture of rest"
+    return found.away, AWAY
 
 
 def _postures(segments: Any) -> np.ndarray:

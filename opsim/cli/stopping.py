@@ -60,3 +60,11 @@ def held(out: Path, done: Collection[str], wanted: Sequence[str]) -> str:
     if not done:
         return "nothing was finished"
     return f"{out} holds {', '.join(done)}, not {', '.join(task for task in wanted if task not in done)}"
+
+
+def written_so_far(written: Sequence[Path], wanted: Sequence[Path]) -> str:
+    """In words, which of the files wanted were written and which were not."""
+    if not written:
+        return "nothing was written"
+    missing = ", ".join(str(path) for path in wanted if path not in written)
+    return f"written: {', '.join(map(str, written))}" + (f"; not written: {missing}" if missing else "")

@@ -11,16 +11,25 @@ import numpy as np
 VERDICTS = {
     "left out": ("#7a1f1f", "cannot be used"),
     "bad": ("#D55E00", "a fault that was left"),
+    "shortened": ("#CC4678", "part of the movement is gone"),
     "repaired": ("#0072B2", "mended"),
     "told": ("#8a5a00", "odd, but left as it is"),
     "good": ("#009E73", "nothing to mend"),
 }
-"""Colour and meaning of what is said of a take, the worst first."""
+"""Colour and meaning of what is said of a take, the worst first. "repaired, told" is both, in the first's colour."""
+
+
+def headline(verdict: str) -> str:
+    """The verdict that comes first in, say, "repaired, told"."""
+    return verdict.partition(", ")[0]
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing found in a take: which kind, where in seconds, how much, in words; ``share`` from 0 to 1 colours it."""
+    """One thing found in a take: which kind, where in seconds, how much, in words; ``share`` from 0 to 1 colours it.
+
+    column : where it stands in the table, such as "glitch left"; its kind unless said
+    """
 
     kind: str
     first_s: float
@@ -29,6 +38,11 @@ class Finding:
     share: float
     mended: bool
     words: str
+    column: str = ""
+
+    @property
+    def of(self) -> str:
+        return self.column or self.kind
 
 
 @dataclass(frozen=True)
@@ -48,6 +62,7 @@ class Mended:
     time_s                 : (T,) of the take that was read
     before_m, after_m      : (T, J, 3), nan where not seen or cut off
     first_s, last_s, at_s  : the frames that it is about, and the worst of them
+    mended                 : whether anything was changed; else the fault was left
     """
 
     take: str
@@ -61,6 +76,7 @@ class Mended:
     last_s: float
     at_s: float
     skeleton: Any
+    mended: bool = True
 
 
 @dataclass(frozen=True)
@@ -72,3 +88,19 @@ class CleanedView:
     kinds: Sequence[tuple[str, str]]
     worst: Sequence[Mended]
     notes: Sequence[str]
+
+    @property
+    def columns(self) -> list[str]:
+        """Of the table: by kind, and of each kind what was mended before what was left."""
+        order = [kind for kind, _ in self.kinds]
+        found = [finding for card in self.cards for finding in card.findings if finding.kind in order]
+        found.sort(key=lambda finding: (order.index(finding.kind), not finding.mended, finding.of))
+        return list(dict.fromkeys(finding.of for finding in found))
+
+
+def cell(findings: Sequence[Finding]) -> str:
+    """How many findings of a column, and the size of the largest."""
+    if not findings:
+        return ""
+    largest = max(findings, key=lambda finding: finding.share).size
+    return largest if len(findings) == 1 else f"{len(findings)} x {largest}"

@@ -20,11 +20,20 @@ NEEDED = ("left_hip", "right_hip", "head")
 def draw_beside(figure: Any, mended: Mended) -> None:
     """Fill a subfigure: the coordinate that changes most, above bodies at five frames before and after."""
     figure.suptitle(
-        f"{mended.take}, {mended.joint}: {_wrapped(mended.words)}", x=0.012, ha="left", fontsize=9, color=INK
-    )
+        f"{mended.take}, {mended.joint}{_left(mended)}: {_wrapped(mended.words)}",
+        x=0.012, ha="left", fontsize=9, color=INK,
+    )  # fmt: skip
     curve, bodies = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.0, 1.25), "wspace": 0.12})
     _draw_way(curve, mended)
     _draw_bodies(bodies, mended)
+
+
+def _left(mended: Mended) -> str:
+    """For the title: that nothing was mended here, or that something else was left in this take."""
+    if not mended.mended:
+        return " (left as it is: before and after are the same)"
+    left = {"bad": " (the take is bad: another fault was left)", "told": " (something else was left, told)"}
+    return left.get(mended.verdict.rpartition(", ")[2], "")
 
 
 def _draw_way(axes: Any, mended: Mended) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from opsim.report.cleaned import VERDICTS, CleanedView, TakeCard
+from opsim.report.cleaned import VERDICTS, CleanedView, TakeCard, cell, headline
 from opsim.report.palette import GRID, INK, MUTED
 
 MOST_ROWS = 40
@@ -20,31 +20,33 @@ def rows_of(cards: Sequence[TakeCard]) -> tuple[list[TakeCard], int]:
     if len(cards) <= MOST_ROWS:
         return list(cards), 0
     order = list(VERDICTS)
-    worst = sorted(range(len(cards)), key=lambda i: (order.index(cards[i].verdict), -_most(cards[i]), i))[:MOST_ROWS]
+    worst = sorted(range(len(cards)), key=lambda i: (order.index(headline(cards[i].verdict)), -_most(cards[i]), i))[
+        :MOST_ROWS
+    ]
     return [cards[i] for i in sorted(worst)], len(cards) - len(worst)
 
 
 def overview_height_in(view: CleanedView) -> float:
-    return 0.75 + ROW_IN * len(rows_of(view.cards)[0])
+    return 0.9 + ROW_IN * len(rows_of(view.cards)[0])
 
 
 def draw_overview(figure: Any, view: CleanedView) -> None:
     """Fill a subfigure: names and verdicts, bars along time, and a table of sizes, coloured by size."""
     cards, hidden = rows_of(view.cards)
-    kinds = [kind for kind, _ in view.kinds]
-    widths = (5.2, max(1.0, 0.95 * len(kinds)))
+    columns = view.columns
+    widths = (5.2, max(1.0, 0.95 * len(columns)))
     along, table = figure.subplots(1, 2, sharey=True, gridspec_kw={"width_ratios": widths, "wspace": 0.03})
     for row, card in enumerate(cards):
         along.barh(row, card.duration_s, height=0.62, color="#eceff2", zorder=1)
         for finding in card.findings:
-            if finding.kind in kinds:
+            if finding.of in columns:
                 _mark(along, row, card, finding)
     longest = max(card.duration_s for card in cards)
     along.set(xlim=(0, 1.01 * longest), ylim=(len(cards) - 0.4, -0.6))
     along.set_xlabel("time in the take, s", fontsize=9, color=MUTED)
     along.set_yticks(range(len(cards)), [f"{_short(card.name)}  {card.verdict}" for card in cards], fontsize=8)
     for label, card in zip(along.get_yticklabels(), cards):
-        label.set_color(VERDICTS[card.verdict][0] if card.verdict != "good" else MUTED)
+        label.set_color(VERDICTS[headline(card.verdict)][0] if card.verdict != "good" else MUTED)
     along.tick_params(axis="x", labelsize=8, colors=MUTED)
     along.grid(axis="x", color=GRID, linewidth=0.6)
     along.set_axisbelow(True)
@@ -53,7 +55,7 @@ def draw_overview(figure: Any, view: CleanedView) -> None:
         along.set_title(
             f"{hidden} more takes without anything worse are not drawn", fontsize=8, color=MUTED, loc="left"
         )
-    _table(table, cards, kinds)
+    _table(table, cards, columns)
 
 
 def _mark(axes: Any, row: int, card: TakeCard, finding: Any) -> None:
@@ -70,24 +72,23 @@ def _mark(axes: Any, row: int, card: TakeCard, finding: Any) -> None:
     axes.barh(row, width, left=start, height=0.62, color="#c9ced6" if flat else colour, zorder=2 if flat else 3)
 
 
-def _table(axes: Any, cards: Sequence[TakeCard], kinds: Sequence[str]) -> None:
+def _table(axes: Any, cards: Sequence[TakeCard], columns: Sequence[str]) -> None:
     from matplotlib.patches import Rectangle
 
     for row, card in enumerate(cards):
-        for column, kind in enumerate(kinds):
-            found = [finding for finding in card.findings if finding.kind == kind]
+        for column, name in enumerate(columns):
+            found = [finding for finding in card.findings if finding.of == name]
             if not found:
                 continue
             most = max(found, key=lambda finding: finding.share)
             left = [finding for finding in found if not finding.mended]
             colour = shade(most.share, not left)
-            if kind in NEVER_A_FAULT:
+            if name in NEVER_A_FAULT:
                 colour = "#eceff2"
             axes.add_patch(Rectangle((column - 0.47, row - 0.42), 0.94, 0.84, facecolor=colour, zorder=1))
-            words = most.size if len(found) == 1 else f"{len(found)} x {most.size}"
-            axes.text(column, row, words, ha="center", va="center", size=7, color=ink_on(colour), zorder=2)
-    axes.set(xlim=(-0.5, max(len(kinds), 1) - 0.5))
-    axes.set_xticks(range(len(kinds)), kinds, fontsize=8, color=INK)
+            axes.text(column, row, cell(found), ha="center", va="center", size=7, color=ink_on(colour), zorder=2)
+    axes.set(xlim=(-0.5, max(len(columns), 1) - 0.5))
+    axes.set_xticks(range(len(columns)), [name.replace(" ", "\n") for name in columns], fontsize=8, color=INK)
     axes.xaxis.tick_top()
     axes.tick_params(length=0, labelleft=False)
     axes.spines[:].set_visible(False)

@@ -82,7 +82,7 @@ def _title(figure: Any, view: CleanedView) -> None:
         figure.text(0.012, 0.66 - 0.2 * line, note, va="top", size=9, color=MUTED)
     at = 0.012
     for verdict, (colour, meaning) in VERDICTS.items():
-        if any(card.verdict == verdict for card in view.cards):
+        if any(verdict in card.verdict.split(", ") for card in view.cards):
             words = f"{verdict}: {meaning}"
             figure.text(at, 0.22, words, va="top", size=9, color=colour)
             at += 0.0068 * len(words) + 0.02

@@ -15,6 +15,10 @@ from opsim.report.view import view_axes
 from opsim.whole import whole_file
 
 WIDE_IN = 13.0
+HEADING_IN = 0.4
+MOST_TIMES = 10
+WORD_SHARE = (0.24, 0.09)
+"""Of the panel of the manifold, what the word of a time takes."""
 EDGE_M = 0.5
 """From the middle of the first and of the last figure to the edge."""
 SHADES = ("#cfe3f1", "#f6dcc9")
@@ -50,16 +54,20 @@ class CutTake:
     manifold_s: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
-def draw_cuts(takes: Sequence[CutTake], path: str | Path) -> Path:
-    """One row of panels a take, as PNG or SVG by the ending of ``path``."""
+def draw_cuts(takes: Sequence[CutTake], path: str | Path, *, heading: str = "") -> Path:
+    """One row of panels a take below a heading, if any, as PNG or SVG by the ending of ``path``."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
     path = Path(path)
     style: Any = {"svg.fonttype": "none", "svg.hashsalt": "opsim", "text.parse_math": False}
     with rc_context(style), whole_file(path) as temporary:
-        figure = Figure(figsize=(WIDE_IN, 4.6 * len(takes)), facecolor="white")
-        for row, (take, part) in enumerate(zip(takes, figure.subfigures(len(takes), 1, squeeze=False)[:, 0])):
+        heights = [*([HEADING_IN] if heading else []), *[4.6] * len(takes)]
+        figure = Figure(figsize=(WIDE_IN, sum(heights)), facecolor="white")
+        parts = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
+        if heading:
+            parts[0].text(0.06, 0.3, heading, size=11, color=INK, va="center")
+        for row, (take, part) in enumerate(zip(takes, parts[len(heights) - len(takes) :])):
             _draw(part, take, legend=row == 0)
         kind = path.suffix.removeprefix(".").lower()
         figure.savefig(temporary, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else None)
@@ -77,6 +85,7 @@ def _draw(figure: Any, take: CutTake, *, legend: bool) -> None:
     curve.set_xlim(float(take.time_s[0]), float(take.time_s[-1]))
     _draw_people(people, curve, take)
     _draw_curve(curve, take)
+    _draw_units_legend(figure, take)
     if take.manifold is not None:
         _draw_manifold(figure.add_axes((0.785, 0.12, 0.2, 0.70)), take)
 
@@ -150,6 +159,21 @@ def _draw_curve(axes: Any, take: CutTake) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
+def _draw_units_legend(figure: Any, take: CutTake) -> None:
+    """What the colours of the bar below the curve are, in the order of the units."""
+    from matplotlib.patches import Patch
+
+    of_colour: dict[str, list[str]] = {}
+    for name, start_s, end_s in take.units:
+        if end_s > start_s:
+            of_colour.setdefault(UNITS.get(name, GRID), []).append(name)
+    if of_colour:
+        patches = [Patch(facecolor=colour, edgecolor=MUTED, lw=0.4, label=" and ".join(names))
+                   for colour, names in of_colour.items()]  # fmt: skip
+        look: Any = {"ncols": len(patches), "fontsize": 8, "frameon": False, "labelcolor": MUTED}
+        figure.legend(handles=patches, loc="lower left", bbox_to_anchor=(0.055, -0.005), **look)
+
+
 def _draw_manifold(axes: Any, take: CutTake) -> None:
     """Two coordinates of the manifold, coloured by time, with the time at some points."""
     assert take.manifold is not None
@@ -157,14 +181,21 @@ def _draw_manifold(axes: Any, take: CutTake) -> None:
     gone = np.concatenate([[False], np.diff(take.manifold_s) > 1.5 * np.median(np.diff(take.manifold_s))])
     axes.plot(np.where(gone, np.nan, x), np.where(gone, np.nan, y), color=GRID, lw=0.8, zorder=1)
     axes.scatter(x, y, c=take.manifold_s, cmap="viridis", s=9, lw=0, zorder=2)
-    said: list[np.ndarray] = []
-    for frame in np.linspace(0, len(x) - 1, 24).astype(int):
-        place = np.array([x[frame] / max(float(np.ptp(x)), 1e-12), y[frame] / max(float(np.ptp(y)), 1e-12)])
-        if all(np.abs((place - other) / (0.2, 0.06)).max() > 1 for other in said):
-            said.append(place)
-            word = f"{take.manifold_s[frame]:.1f} s"
-            axes.annotate(word, (x[frame], y[frame]), (4, 3), textcoords="offset points", size=7, color=INK, zorder=3)
+    for frame in apart(take.manifold):
+        word = f"{take.manifold_s[frame]:.1f} s"
+        axes.annotate(word, (x[frame], y[frame]), (4, 3), textcoords="offset points", size=7, color=INK, zorder=3)
     axes.set_title("manifold, two coordinates\n(colour: time)", size=9, color=MUTED, loc="left")
     axes.set(xticks=[], yticks=[])
     axes.spines[:].set_color(GRID)
     axes.margins(0.12)
+
+
+def apart(places: np.ndarray) -> list[int]:
+    """Of points (n, 2), those whose words, right above each, do not stand in one another."""
+    spread_of = np.maximum(np.ptp(places, axis=0), 1e-12)
+    said: list[int] = []
+    for point in np.linspace(0, len(places) - 1, MOST_TIMES).astype(int).tolist():
+        away = np.abs(places[point] - places[said]) / spread_of / WORD_SHARE
+        if not said or bool(np.all(away.max(axis=1) > 1)):
+            said.append(point)
+    return said

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
     from opsim.task import TaskModel
 
 PALE = "#6b737d"
+WIDE_IN = 11.0
+_LETTER_IN, _LINE_IN = 0.062, 0.135
+MOST_LINES = 8
+"""Of words of marks below a row; what has no room on them is counted in a note."""
 
 
 def draw_strips(
@@ -100,18 +105,20 @@ def _figure(strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], t
     longest_m = stage.m_per_s * max(strip.duration_s for strip in strips)
     left_m, right_m = 0.75 * stage.m_per_s * stage.step_s, 0.6 * stage.m_per_s * stage.step_s
     wide_m = longest_m + left_m + right_m
-    inches = 11.0 / wide_m
-    lines_m = _lines_m(_LINE_IN / inches)
-    below_m = max(0.55, lines_m[-1] + _LINE_IN / inches)
+    inches = WIDE_IN / wide_m
+    line_m = _LINE_IN / inches
+    words = [_words(strip, mark_names, stage.m_per_s, -left_m, longest_m + right_m) for strip in strips]
+    n_lines = max((1 + (MOST_LINES if word.line is None else word.line) for row in words for word in row), default=0)
+    below_m = max(0.55, _first_line_m(line_m) + (n_lines + 1) * line_m)
     tall_m = height_m + 0.07 + below_m
     title_in = 0.42 if title else 0.08
-    figure = Figure(figsize=(11.0, inches * tall_m * len(strips) + title_in), facecolor="white")
+    figure = Figure(figsize=(WIDE_IN, inches * tall_m * len(strips) + title_in), facecolor="white")
     share = 1.0 - title_in / figure.get_figheight()
     for row, strip in enumerate(strips):
         axes = figure.add_axes((0.0, share * (1 - (row + 1) / len(strips)), 1.0, share / len(strips)))
         axes.set(xlim=(-left_m, longest_m + right_m), ylim=(-below_m, height_m + 0.07), aspect="equal")
         axes.axis("off")
-        _draw_row(axes, strip, stage, mark_names, lines_m, is_mean=row == 0)
+        _draw_row(axes, strip, stage, words[row], line_m, is_mean=row == 0)
     if title:
         figure.text(0.012, 1 - 0.1 / figure.get_figheight(), title, va="top", size=12, weight="bold", parse_math=False)
         _legend(figure)
@@ -124,9 +131,7 @@ def _legend(figure: Any) -> None:
     figure.text(0.918, top, "left limbs", va="top", ha="right", size=9, color=LEFT)
 
 
-def _draw_row(
-    axes: Any, strip: Strip, stage: Stage, mark_names: Sequence[str], lines_m: Sequence[float], *, is_mean: bool
-) -> None:
+def _draw_row(axes: Any, strip: Strip, stage: Stage, placed: Sequence[_Word], line_m: float, *, is_mean: bool) -> None:
     floor = float(np.quantile(strip.positions_m[..., 2].min(axis=1), 0.1))
     end_m, step_m = strip.duration_s * stage.m_per_s, stage.step_s * stage.m_per_s
     axes.plot([-step_m / 2, end_m], [floor - 0.02] * 2, color="#aab0b8", lw=1.2, zorder=1)
@@ -141,31 +146,60 @@ def _draw_row(
     words = {"ha": "left", "va": "top", "size": 10, "weight": "bold" if is_mean else "normal", "color": TRUNK}
     top = axes.get_ylim()[1] - 0.02
     axes.text(-step_m / 2, top, f"{strip.label}: {strip.duration_s:.2f} s", parse_math=False, **words)
-    taken_m = dict.fromkeys(lines_m, -np.inf)
-    for name, mark_s in zip([*mark_names, *[""] * strip.mark_s.size], strip.mark_s):
-        _draw_mark(axes, f"{name} {mark_s:.2f} s".strip(), float(mark_s) * stage.m_per_s, floor, taken_m)
+    _draw_marks(axes, placed, floor, line_m)
 
 
-_LETTER_IN, _LINE_IN = 0.062, 0.125
+def _first_line_m(line_m: float) -> float:
+    """How far below the floor the words of marks begin, where a line is so high: below the times."""
+    return max(0.32, 0.15 + 1.1 * line_m)
 
 
-def _lines_m(line_m: float) -> tuple[float, float]:
-    """How far below the floor the two lines stand that the words of marks have, where a line is so high."""
-    first = max(0.32, 0.15 + 1.1 * line_m)
-    return first, first + line_m
+@dataclass(frozen=True)
+class _Word:
+    """The words of a mark on a line below the floor; ``line`` is None where there is no room even on the last."""
+
+    words: str
+    mark_m: float
+    at_m: float
+    line: int | None
 
 
-def _draw_mark(axes: Any, words: str, at_m: float, floor: float, taken_m: dict[float, float]) -> None:
-    """A triangle and its words on the first line free there, if any is; ``taken_m``: where each line's words end."""
-    axes.plot([at_m], [floor - 0.075], marker="^", ms=5, color="#111111", zorder=40)
-    left_m, right_m = axes.get_xlim()
-    half_m = 0.5 * _LETTER_IN * len(words) * (right_m - left_m) / 11.0
-    at_m = float(np.clip(at_m, left_m + half_m, right_m - half_m))
-    free = [line_m for line_m, end_m in taken_m.items() if at_m - half_m > end_m]
-    if free:
-        look = {"ha": "center", "va": "top", "size": 8, "color": "#111111", "parse_math": False}
-        axes.text(at_m, floor - free[0], words, **look)
-        taken_m[free[0]] = at_m + half_m + 0.5 * _LETTER_IN
+def _words(strip: Strip, mark_names: Sequence[str], m_per_s: float, left_m: float, right_m: float) -> list[_Word]:
+    """Where the words of each mark of a row stand: on the first line that is free there, for as many lines as needed.
+
+    left_m, right_m : the row's ends
+    """
+    letter_m = _LETTER_IN * (right_m - left_m) / WIDE_IN
+    ends_m: list[float] = []
+    placed = []
+    named = zip([*mark_names, *[""] * strip.mark_s.size], strip.mark_s)
+    for name, mark_s in sorted(named, key=lambda each: float(each[1])):
+        words, mark_m = f"{name} {mark_s:.2f} s".strip(), float(mark_s) * m_per_s
+        half_m = 0.5 * letter_m * len(words)
+        at_m = float(np.clip(mark_m, left_m + half_m, max(right_m - half_m, left_m + half_m)))
+        line = next((i for i, end_m in enumerate(ends_m) if at_m - half_m > end_m), len(ends_m))
+        if line < MOST_LINES:
+            ends_m[line:] = [at_m + half_m + letter_m, *ends_m[line + 1 :]]
+        placed.append(_Word(words, mark_m, at_m, line if line < MOST_LINES else None))
+    return placed
+
+
+def _draw_marks(axes: Any, placed: Sequence[_Word], floor: float, line_m: float) -> None:
+    """A triangle for each mark, tied to its words; how many have none is said on the last line."""
+    look: Any = {"va": "top", "size": 8, "color": TRUNK, "parse_math": False, "zorder": 41}
+    paper: Any = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
+    for word in placed:
+        axes.plot([word.mark_m], [floor - 0.075], marker="^", ms=5, color="#111111", zorder=40)
+        if word.line is not None:
+            down_m = floor - _first_line_m(line_m) - word.line * line_m
+            if word.line:
+                axes.plot([word.mark_m] * 2, [floor - 0.1, down_m], color="#c9ced6", lw=0.6, zorder=0.5)
+            axes.text(word.at_m, down_m, word.words, ha="center", bbox=paper, **look)
+    without = sum(word.line is None for word in placed)
+    if without:
+        down_m = floor - _first_line_m(line_m) - MOST_LINES * line_m
+        words = f"and {without} more mark{'s' * (without > 1)}, for whose words there is no room"
+        axes.text(axes.get_xlim()[0] + 0.1, down_m, words, ha="left", **look)
 
 
 def _seconds(at_s: float) -> str:

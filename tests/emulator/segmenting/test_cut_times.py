@@ -96,12 +96,12 @@ def test_every_mistake_is_said_at_once_with_file_and_line():
         "cuts.txt:6: found 'two', expected seconds",
         "cuts.txt:7: found the end 2.0 s",
         "cuts.txt:8: found 99 s, expected 0 to 19.980 s",
+        "cuts.txt:10: found the start 4.500 s, expected 5.000 s or later, where 4 ends",
+        "cuts.txt:11: found the name '4' again, first in line 9",
         "cuts.txt:12: found 'nan', expected seconds",
         "cuts.txt:12: found 'inf', expected seconds",
         "cuts.txt:13: found the name 'a/b'",
         "cuts.txt:14: found a second [ana/long]",
-        "cuts.txt:11: found the name '4' again, first in line 9",
-        "cuts.txt:10: found the start 4.500 s, expected 5.000 s or later, where 4 ends",
     ]
     assert len(said) == len(expected)
     for line, start in zip(said, expected, strict=True):

@@ -72,7 +72,7 @@ def test_colours_grow_darker_with_size_and_stay_readable():
     light = [sum(int(shade(share, True)[i : i + 2], 16) for i in (1, 3, 5)) for share in (0, 0.5, 1, 7)]
     assert light[0] > light[1] > light[2] == light[3]
     assert ink_on(shade(0, True)) == "#111111" and ink_on(shade(1, True)) == "#ffffff"
-    assert set(VERDICTS) == {"left out", "bad", "repaired", "told", "good"}
+    assert set(VERDICTS) == {"left out", "bad", "shortened", "repaired", "told", "good"}
 
 
 def test_the_coordinate_that_changed_most_is_drawn():

@@ -70,6 +70,7 @@ def test_the_summary_names_what_stands_behind_the_walks(results):
 def test_the_assumption_sheet_says_how_people_walk(results):
     said = {name: json.dumps(result.summary["assumptions"]) for name, result in results.items()}
     assert "people walk as in made/walk (12 made repetitions of 3 made-up people" in said["on"]
+    assert "people walk at 0.3 to 2.5 m/s" in said["on"] and "counts only as far as that" in said["on"]
     assert "a drawn walk is straight" in said["on"] and "height of ana: bones are scaled to it" in said["on"]
     assert "made/walk" not in said["off"] and "a drawn walk" not in said["off"]
     assert "waiting is not measured" in said["on"] and "walking and waiting are not measured" in said["off"]
