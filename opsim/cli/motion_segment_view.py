@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 MOST_PIECES = 6
-AWAY = "distance from the posture of rest\n(root of summed squares of the\nchange of bone directions, no unit)"
+AWAY = "distance from rest, no unit\n(change of bone directions)"
 
 
 def picture(found: Sequence[Any], of: int, path: Path) -> None:
@@ -48,7 +48,7 @@ def view(segments: Any) -> Any:
 
 def _curve(segments: Any) -> tuple[np.ndarray, str]:
     if segments.cycles is not None:
-        return segments.cycles.smooth, "coordinate on the manifold\n(no unit)"
+        return segments.cycles.smooth, "coordinate on the manifold,\nno unit"
     found = segments.repetitions
     if found is None:
         from emulator.segmenting.postures import postures

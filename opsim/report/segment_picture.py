@@ -16,6 +16,8 @@ from opsim.whole import whole_file
 
 WIDE_IN = 13.0
 HEADING_IN = 0.4
+LEFT_SHARE = 0.075
+"""Of the width, left of the panels."""
 MOST_TIMES = 10
 WORD_SHARE = (0.24, 0.09)
 """Of the panel of the manifold, what the word of a time takes."""
@@ -25,7 +27,7 @@ SHADES = ("#cfe3f1", "#f6dcc9")
 UNITS = {
     "preparing": "#e3e6ea",
     "initial": "#F0E442",
-    "cyclic": "#cfe3f1",
+    "cyclic": "#8db8d8",
     "final": "#F0E442",
     "wind-up": "#e3e6ea",
 }
@@ -66,7 +68,7 @@ def draw_cuts(takes: Sequence[CutTake], path: str | Path, *, heading: str = "") 
         figure = Figure(figsize=(WIDE_IN, sum(heights)), facecolor="white")
         parts = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
         if heading:
-            parts[0].text(0.06, 0.3, heading, size=11, color=INK, va="center")
+            parts[0].text(LEFT_SHARE, 0.3, heading, size=11, color=INK, va="center")
         for row, (take, part) in enumerate(zip(takes, parts[len(heights) - len(takes) :])):
             _draw(part, take, legend=row == 0)
         kind = path.suffix.removeprefix(".").lower()
@@ -75,13 +77,13 @@ def draw_cuts(takes: Sequence[CutTake], path: str | Path, *, heading: str = "") 
 
 
 def _draw(figure: Any, take: CutTake, *, legend: bool) -> None:
-    figure.text(0.06, 0.965, take.title, size=12, weight="bold", color=INK, va="top")
+    figure.text(LEFT_SHARE, 0.965, take.title, size=12, weight="bold", color=INK, va="top")
     if legend:
         figure.text(0.985, 0.965, "right limbs", size=9, color=RIGHT, va="top", ha="right")
         figure.text(0.925, 0.965, "left limbs", size=9, color=LEFT, va="top", ha="right")
-    wide = 0.685 if take.manifold is not None else 0.925
-    people = figure.add_axes((0.06, 0.49, wide, 0.42))
-    curve = figure.add_axes((0.06, 0.12, wide, 0.36))
+    wide = (0.745 if take.manifold is not None else 0.985) - LEFT_SHARE
+    people = figure.add_axes((LEFT_SHARE, 0.49, wide, 0.42))
+    curve = figure.add_axes((LEFT_SHARE, 0.12, wide, 0.36))
     curve.set_xlim(float(take.time_s[0]), float(take.time_s[-1]))
     _draw_people(people, curve, take)
     _draw_curve(curve, take)
@@ -153,7 +155,7 @@ def _draw_curve(axes: Any, take: CutTake) -> None:
     low, high = float(take.curve.min()), float(take.curve.max())
     room = max(high - low, 1e-9)
     axes.set_ylim(low - 0.14 * room, high + 0.16 * room)
-    axes.set_ylabel(take.says, size=9, color=MUTED)
+    axes.set_ylabel(take.says, size=8, color=MUTED)
     axes.set_xlabel("time, s", size=9, color=MUTED)
     axes.tick_params(labelsize=8, colors=MUTED)
     axes.spines[["top", "right"]].set_visible(False)
@@ -171,7 +173,7 @@ def _draw_units_legend(figure: Any, take: CutTake) -> None:
         patches = [Patch(facecolor=colour, edgecolor=MUTED, lw=0.4, label=" and ".join(names))
                    for colour, names in of_colour.items()]  # fmt: skip
         look: Any = {"ncols": len(patches), "fontsize": 8, "frameon": False, "labelcolor": MUTED}
-        figure.legend(handles=patches, loc="lower left", bbox_to_anchor=(0.055, -0.005), **look)
+        figure.legend(handles=patches, loc="lower left", bbox_to_anchor=(LEFT_SHARE - 0.005, -0.005), **look)
 
 
 def _draw_manifold(axes: Any, take: CutTake) -> None:

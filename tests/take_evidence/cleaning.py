@@ -45,7 +45,7 @@ def _squats(done: Cleaned) -> Iterator[tuple[str, str, bool]]:
         glitched >= GLITCHED and len(others) <= MOST_OTHERS,
     )
     bad = {name for name in done.names if done.verdict(name) in ("bad", "left out")}
-    others = {word: [n for n in done.names if done.verdict(n) == word] for word in ("repaired", "told")}
+    others = {word: [n for n in done.names if word in done.verdict(n).split(", ")] for word in ("repaired", "told")}
     yield (
         "squats: bad are these, since their feet turn over and stay so, and at most two others",
         f"{verdicts_of(done)}; bad: {', '.join(sorted(bad))}; repaired: {', '.join(others['repaired'])}; "

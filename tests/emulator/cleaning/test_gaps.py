@@ -80,3 +80,23 @@ def test_without_three_companions_a_long_gap_is_cut():
 def test_a_take_without_gaps_is_itself():
     take = clean().takes[0]
     assert without_gaps(take, CleaningSettings()) == (take, ())
+
+
+def test_frames_lost_within_the_movement_shorten_the_take_and_those_never_seen_do_not():
+    def change(positions, index):
+        positions[10:30] = np.nan
+
+    take = replace(spoilt(clean(), change).takes[1], mark_frame={})
+    _, (cut,) = without_gaps(take, CleaningSettings())
+    assert (cut.kind, cut.first_frame, cut.last_frame, cut.shortens) == ("cut", 0, 29, True)
+    assert "0.60 s cut off, of which 0.60 s were seen or lie within the movement" in cut.words
+    unseen_start = take.positions_m.copy()
+    unseen_start[:30] = np.nan
+    _, (trimmed,) = without_gaps(replace(take, positions_m=unseen_start), CleaningSettings())
+    assert trimmed.last_frame == 29 and not trimmed.shortens and trimmed.words == "not seen; 0.60 s cut off"
+
+
+def test_a_moment_lost_at_an_end_shortens_nothing():
+    assert [cut.shortens for cut in without_gaps(unseen("head", 0, 3), CleaningSettings())[1]] == [False]
+    longer = replace(unseen("head", 0, 5), mark_frame={})
+    assert [cut.shortens for cut in without_gaps(longer, CleaningSettings())[1]] == [True]

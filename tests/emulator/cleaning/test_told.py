@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.clean import turn
-from emulator.cleaning import CleaningSettings
+from emulator.cleaning import CleaningSettings, Repair, verdict_of
 from emulator.cleaning.told import impossible, told
 from tests.made_takes import clean
 
@@ -39,3 +39,26 @@ def test_what_is_still_faster_than_any_body_is_bad():
     flying = take.positions_m + np.arange(take.n_frames)[:, None, None] * [0.5, 0.0, 0.0]
     found = impossible(replace(take, positions_m=flying))
     assert found[0].bad and "at most 13" in found[0].words
+
+
+def test_a_body_that_does_not_move_is_told_of_and_not_called_good():
+    take = clean("reach", 1, 1).takes[0]
+    shaking_m = np.random.default_rng(0).normal(0, 5e-4, (90, *take.positions_m.shape[1:]))
+    frozen = np.repeat(take.positions_m[:1], 90, axis=0) + shaking_m
+    found = told(replace(take, positions_m=frozen, contact=None), CleaningSettings())
+    assert [repair.kind for repair in found] == ["still"] and verdict_of(found) == "told"
+    sliding = frozen + np.linspace(0, 1, 90)[:, None, None] * [1.0, 0.0, 0.0]
+    assert told(replace(take, positions_m=sliding, contact=None), CleaningSettings()) == ()
+
+
+def test_what_was_mended_does_not_hide_what_was_left():
+    jump = Repair("w/1", "jump", ("head",), 3, 4, 0.1, "m", "jumps; bridged")
+    over = Repair("w/1", "angle", ("left_ankle",), 3, 9, 46.0, "deg", "46 deg over; left as it is", False)
+    cut = Repair("w/1", "cut", ("head",), 0, 29, 0.6, "s", "not seen; 0.60 s cut off", shortens=True)
+    assert verdict_of([jump]) == "repaired" and verdict_of([jump, over]) == "repaired, told"
+    assert verdict_of([jump, cut]) == "shortened" and verdict_of([jump, cut, over]) == "shortened, told"
+
+
+def test_a_bone_that_breathes_much_is_told_of_and_one_that_breathes_a_little_is_not():
+    bone = Repair("w/1", "bone", ("left_knee",), 0, 99, 6.7, "%", "breathes; left as it is", False)
+    assert verdict_of([bone]) == "told" and verdict_of([replace(bone, size=1.3)]) == "good"

@@ -111,3 +111,11 @@ def test_every_mistake_is_said_at_once_with_file_and_line():
 def test_a_file_without_times_is_refused():
     with pytest.raises(ValueError, match=r"cuts.txt: found no cut times, expected lines such as"):
         parse_cut_times("# nothing\n[ana/long]\n", TAKES, "cuts.txt")
+
+
+def test_a_name_is_told_as_a_second_one_even_where_its_times_are_wrong():
+    with pytest.raises(ValueError) as caught:
+        parse_cut_times("[ana/long]\n1 two a\n3 4 a\n", TAKES, "cuts.txt")
+    said = str(caught.value).split("\n")
+    assert [line[:11] for line in said] == ["cuts.txt:2:", "cuts.txt:3:"]
+    assert "found the name 'a' again, first in line 2" in said[1]

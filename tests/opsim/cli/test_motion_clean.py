@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from emulator.cleaning import Repair
 from emulator.recordings.takes_npz import read_recording, write_recording
+from opsim.cli.motion_clean_view import column_of
 from tests.made_takes import clean, error_m, same, spoilt
 from tests.opsim.cli.calls import opsim
 
@@ -130,3 +132,63 @@ def test_a_recording_in_centimetres_is_refused_with_its_unit(tmp_path):
 def test_a_file_that_is_no_recording_is_refused(tmp_path):
     code, _, said = opsim("motion", "clean", tmp_path / "none.npz", "-o", tmp_path / "clean.npz")
     assert code == 2 and "no such file" in said
+
+
+@pytest.fixture
+def gone(tmp_path, monkeypatch):
+    """Eight takes; of one frames 10 to 29 are not seen."""
+
+    def change(positions, index):
+        positions[10:30] = np.nan
+
+    monkeypatch.chdir(tmp_path)
+    takes = tuple(replace(take, mark_frame={}) for take in spoilt(clean(), change).takes)
+    write_recording(replace(clean(), takes=takes), tmp_path / "reach.npz")
+    return tmp_path
+
+
+def test_a_take_that_lost_a_part_of_its_movement_is_shortened_not_repaired(gone):
+    code, said, _ = opsim("motion", "clean", "reach.npz", "-o", "clean.npz", "--repairs", "found.csv")
+    assert code == 0 and "8 takes: 7 good, 1 shortened (by up to 0.60 s)" in said
+    assert "0.60 s cut off 1 take" in said and "repaired" not in said
+    assert "1 shortened (by up to 0.60 s)" in (gone / "clean.clean.html").read_text(encoding="utf-8")
+    rows = list(csv.DictReader((gone / "found.csv").read_text(encoding="utf-8").splitlines()))
+    assert [(row["verdict"], row["shortens"]) for row in rows] == [("shortened", "True")]
+
+
+def test_shortened_takes_are_dropped_with_the_bad_ones_and_said(gone):
+    code, said, _ = opsim("motion", "clean", "reach.npz", "-o", "clean.npz", "--drop-bad", "--no-pictures")
+    assert code == 0 and len(read_recording("clean.npz").takes) == 7
+    assert "left out for frames of the movement that are gone: w1/r2" in said
+
+
+def test_what_was_mended_and_what_was_left_stand_apart_with_one_unit_each():
+    jump = Repair("w/1", "glitch", ("head",), 3, 4, 0.1, "m", "jumps; bridged")
+    step = replace(jump, size=17.0, unit="m/s", mended=False, bad=True)
+    columns = [column_of(each) for each in (jump, step, replace(jump, mended=False), replace(jump, kind="hold"))]
+    assert columns == ["glitch", "glitch left", "glitch left by", "hold"]
+
+
+def test_a_cut_off_beyond_half_the_frame_rate_is_refused_beside_other_mistakes(spoiled):
+    words = ("--set", "cut_off_hz=500", "--set", "bones=rigid")
+    code, _, said = opsim("motion", "clean", "reach.npz", "-o", "clean.npz", *words)
+    assert code == 2 and "--set: bones: found 'rigid'" in said and not list(spoiled.glob("clean*"))
+    assert "--set: cut_off_hz: found 500, expected less than 25, half of the recording's 50 frames a second" in said
+
+
+def stops(*_, **__):
+    raise KeyboardInterrupt
+
+
+def test_control_c_while_writing_leaves_nothing_half_written(spoiled, monkeypatch):
+    monkeypatch.setattr("emulator.recordings.takes_npz.np.lib.format.write_array", stops)
+    code, _, said = opsim("motion", "clean", "reach.npz", "-o", "clean.npz")
+    assert code == 130 and "stopped; nothing was written" in said
+    assert [path.name for path in spoiled.iterdir()] == ["reach.npz"]
+
+
+def test_control_c_while_drawing_says_what_was_written(spoiled, monkeypatch):
+    monkeypatch.setattr("opsim.report.cleaned_picture.write_cleaned", stops)
+    code, _, said = opsim("motion", "clean", "reach.npz", "-o", "clean.npz")
+    assert code == 130 and read_recording("clean.npz").takes
+    assert "stopped; written: clean.npz; not written: clean.clean.svg, clean.clean.html" in said

@@ -126,3 +126,35 @@ def test_mistakes_in_cut_times_are_said_with_their_lines(folder, tmp_path):
 def test_more_neighbours_than_frames_are_refused(folder, tmp_path):
     code, _, said = opsim("motion", "segment", folder / "walks.npz", "--k", 5000, "-o", tmp_path / "w.npz")
     assert code == 2 and "found k = 5000 neighbours" in said
+
+
+def test_repetitions_without_a_rest_between_them_are_doubted(folder, tmp_path):
+    words = ("motion", "segment", folder / "walks.npz", "--repetitions", "-o", tmp_path / "w.npz")
+    code, _, said = opsim(*words)
+    assert code == 0 and "take ana/1: no rest found at 5 of the 5 places" in said and "--cycles is meant for" in said
+    code, shown, said = opsim("motion", "segment", folder / "reaches.npz", "-o", tmp_path / "r.npz", "--repetitions")
+    assert code == 0 and "no rest" not in said and "dimension: how many numbers" in shown
+
+
+def test_a_folder_is_no_file_of_cut_times(folder, tmp_path):
+    code, _, said = opsim("motion", "segment", folder / "walks.npz", "--cuts", tmp_path, "-o", tmp_path / "w.npz")
+    assert code == 2 and f"{tmp_path}: found a folder, expected a file of cut times" in said
+
+
+def test_the_picture_and_the_terminal_say_how_many_takes_are_shown(tmp_path):
+    takes = tuple(walking(4.0, worker=f"w{number}") for number in range(5))
+    write_recording(Recording(takes), tmp_path / "five.npz")
+    code, _, said = opsim("motion", "segment", tmp_path / "five.npz", "-o", tmp_path / "w.npz")
+    assert code == 0 and "the picture shows the first 4 of 5 takes" in said
+    assert "the first 4 of 5 takes" in (tmp_path / "w.segment.svg").read_text(encoding="utf-8")
+
+
+def test_control_c_while_drawing_says_what_was_written(folder, tmp_path, monkeypatch):
+    def stops(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("opsim.report.segment_picture.draw_cuts", stops)
+    out = tmp_path / "w.npz"
+    code, _, said = opsim("motion", "segment", folder / "walks.npz", "-o", out)
+    there = f"{out}, {out.with_suffix('.cuts.txt')}"
+    assert code == 130 and f"stopped; written: {there}; not written: {out.with_suffix('.segment.svg')}" in said

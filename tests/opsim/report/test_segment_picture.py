@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.skeleton import Skeleton
-from opsim.report.segment_picture import CutTake, draw_cuts, spread
+from opsim.report.segment_picture import CutTake, apart, draw_cuts, spread
 from tests.emulator.segmenting.made_movements import walking
 
 
@@ -44,3 +44,15 @@ def test_figures_stand_near_their_time_but_never_in_each_other():
     assert np.all(np.diff(places) > 0.8 - 1e-12) and places.min() >= 0 and places.max() <= 10
     assert places[3] == 5.0
     assert np.array_equal(spread(np.array([2.0, 4.0]), 10.0, 1.0), [2.0, 4.0])
+
+
+def test_the_colours_of_units_are_explained_and_a_heading_stands_above(cut_take, tmp_path):
+    drawn = draw_cuts([cut_take], tmp_path / "a.svg", heading="the first 1 of 9 takes").read_text(encoding="utf-8")
+    assert "initial and final" in drawn and "the first 1 of 9 takes" in drawn
+
+
+def test_times_on_the_manifold_do_not_stand_in_one_another():
+    ring = np.stack([np.cos(np.linspace(0, 40, 600)), np.sin(np.linspace(0, 40, 600))], axis=1)
+    chosen = ring[apart(ring)] / 2
+    away = np.abs(chosen[:, None] - chosen[None]) / (0.24, 0.09)
+    assert 3 < len(chosen) <= 10 and np.all(away.max(axis=-1)[~np.eye(len(chosen), dtype=bool)] > 0.99)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from opsim.report.person import chains
-from opsim.report.strips import draw_strips, strips_of
+from opsim.report.strips import MOST_LINES, _figure, _words, draw_strips, strips_of
 from opsim.report.view import Strip, stage_of, view_axes
 
 NAMES = (
@@ -146,3 +146,22 @@ def test_a_model_without_postures_is_refused():
 
     with pytest.raises(ValueError, match="no posture"):
         draw_strips(Times())
+
+
+def test_the_words_of_marks_near_each_other_take_lines_of_their_own_and_none_is_lost():
+    strip = Strip("one", moving("left_wrist", [1, 0, 0]), 9.0, np.array([1.0, 1.01, 1.02, 1.03, 8.0]))
+    placed = _words(strip, ("a", "b", "c", "d", "e"), 1.0, -1.0, 10.0)
+    assert [word.line for word in placed] == [0, 1, 2, 3, 0]
+    assert [word.words for word in placed] == ["a 1.00 s", "b 1.01 s", "c 1.02 s", "d 1.03 s", "e 8.00 s"]
+
+
+def test_marks_for_whose_words_there_is_no_room_are_counted_in_the_picture():
+    strip = Strip("one", moving("left_wrist", [1, 0, 0]), 9.0, np.linspace(4.0, 4.1, MOST_LINES + 3))
+    said = [text.get_text() for text in _figure([strip], Skeleton(), (), "", 11).axes[0].texts]
+    assert "and 3 more marks, for whose words there is no room" in said
+
+
+def test_the_words_of_marks_stay_out_of_the_row_below():
+    strip = Strip("one", moving("left_wrist", [1, 0, 0]), 9.0, np.linspace(4.0, 4.1, MOST_LINES))
+    axes = _figure([strip, strip], Skeleton(), (), "", 11).axes[0]
+    assert min(text.get_position()[1] for text in axes.texts) - 0.05 > axes.get_ylim()[0]
