@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -28,6 +28,13 @@ SEARCH = 8
 """Factorisations of all points of a state; 12 or 40 gain less than 0.5 of a log likelihood of 3,000."""
 TRIES = 4
 """Draws of a step before the mean is taken."""
+
+
+class Normals(Protocol):
+    """A source of standard normal numbers, such as a ``numpy.random.Generator``."""
+
+    def standard_normal(self, size: Any, /) -> Any:
+        """Numbers of this shape."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +113,7 @@ class SwitchingDynamics:
         self,
         z0: np.ndarray,
         n_steps: int,
-        rng: np.random.Generator,
+        rng: Normals,
         noise: bool = True,
         *,
         controls: np.ndarray | None = None,

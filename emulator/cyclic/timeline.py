@@ -129,7 +129,7 @@ def _cycle(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, s
     drawn, state = model.dynamics.sample(
         seen[None],
         int(1.6 * model.guide.frames(control)) + 4,
-        source,  # type: ignore[arg-type]
+        source,
         controls=np.array([[control]]) if model.dynamics.n_controls else None,
     )
     moved, low = drawn[0, :, : model.n_moved], int(0.6 * model.guide.frames(control))

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 from emulator.recordings import RecordingError
 from emulator.recordings.acclaim import MOVES, ROOT, TURNS, Acclaim, Bone
@@ -125,9 +126,9 @@ class _Reader:
             self._wrong(f"found more than {MOST_JOINTS:,} bones, expected a body")
             raise RecordingError("\n".join(self.mistakes))
 
-    def _set(self, **values: object) -> None:
+    def _set(self, **values: Any) -> None:
         if self.current is not None:
-            self.current = replace(self.current, **values)  # type: ignore[arg-type]
+            self.current = replace(self.current, **values)
 
     def _name(self, words: list[str]) -> None:
         self._set(name=" ".join(words[1:]))

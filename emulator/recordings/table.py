@@ -95,12 +95,13 @@ class _Rows:
             self.wrong.append(f"{self.path}:{number}: found {len(cells)} values, expected {self.width}")
             return
         values = [number_of(cell, self.sign) for cell in cells[: self.width]]
-        if None in values:
+        numbers = [value for value in values if value is not None]
+        if len(numbers) < len(values):
             column = values.index(None)
             found = quoted(cells[column])
             self.wrong.append(f"{self.path}:{number}: column {column + 1}: found {found}, expected a number or nothing")
             return
-        self.values.extend(values)  # type: ignore[arg-type]
+        self.values.extend(numbers)
         self.line.append(number)
 
 

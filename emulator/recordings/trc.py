@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -71,7 +72,7 @@ def _header(path: Path, header: tuple[tuple[str, ...], ...]) -> dict[str, str]:
     return said
 
 
-def _names(path: Path, header, lines, said: dict[str, str]) -> list[str]:  # type: ignore[no-untyped-def]
+def _names(path: Path, header: Sequence[Sequence[str]], lines: Sequence[int], said: dict[str, str]) -> list[str]:
     row = next(((line, row) for line, row in zip(lines[3:], header[3:]) if row[0].lower().startswith("frame")), None)
     if row is None:
         raise RecordingError(f"{path}:4: found no line of names, expected 'Frame#', 'Time' and the markers")

@@ -55,7 +55,8 @@ def walk_again(plan: Plan, replication: int, rank: int, k: int, distance_m: floa
         row = np.array([k % BLOCK])
         block = _block(plan, rank, replication, k // BLOCK, effect, row, np.array([distance_m]))
     if block is None:
-        raise ValueError(f"{plan.walking.name}: no walk of {distance_m:g} m can be drawn")  # type: ignore[union-attr]
+        assert plan.walking is not None
+        raise ValueError(f"{plan.walking.name}: no walk of {distance_m:g} m can be drawn")
     return Drawn(block, k % BLOCK)
 
 

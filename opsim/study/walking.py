@@ -34,12 +34,11 @@ def walking(_loaded: Any, plan: Plan) -> Iterator[tuple[str, str]]:
         "a drawn walk is straight, from standing to standing and with empty hands: how people turn, pass doors or "
         "carry is not measured",
     )
-    yield from _bodies(plan)
+    yield from _bodies(plan, plan.walking.model)
 
 
-def _bodies(plan: Plan) -> Iterator[tuple[str, str]]:
+def _bodies(plan: Plan, model: Any) -> Iterator[tuple[str, str]]:
     """What walking makes of bodies and of who people are."""
-    model = plan.walking.model  # type: ignore[union-attr]
     tall = [worker.name for worker in plan.workers if worker.body.height_m is not None]
     if tall and "height_m" in keys_read(model):
         yield "walking", f"height of {listed(tall)}: bones are scaled to it, and with the legs the steps"
