@@ -176,7 +176,7 @@ class Track:
 
         skeleton = self.model.skeleton
         root = np.column_stack([path[:, 1:], flat[:, -1] / TRAVEL_WEIGHT * self.leg_m])
-        joints = np.empty((len(flat), skeleton.n_joints, 3))
+        joints = np.full((len(flat), skeleton.n_joints, 3), np.nan)  # what is not hung is nowhere
         chain = self.model.leg_chain if legs_only else skeleton.chain
         hung(flat, path[:, 0], root, self.bone_length_m, chain, joints)
         return joints
