@@ -12,15 +12,23 @@ KINDS = (
     *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
     *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost"),
 )
-WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, _SETUP, _DOWN = range(12)
-_REPAIR, TRANSPORT, CREATE, _JOIN, _SPLIT, FINISH, _SCRAP, LOST = range(12, 20)
-WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, _REPAIR)
+WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
+REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST = range(12, 20)
+WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, SETUP, REPAIR)
 """Kinds that are states of a worker, where the row names one."""
-JOB_KINDS = (QUEUE, WORK, _SETUP, TRANSPORT, BLOCKED, HELD)
+JOB_KINDS = (QUEUE, WORK, SETUP, TRANSPORT, BLOCKED, HELD)
 """Kinds that are states of a job, where the row names one."""
+STATION_KINDS = (DOWN, REPAIR)
+"""Kinds that are states of a station, in rows that name neither worker nor job."""
+LEAVING_KINDS = (FINISH, SCRAP, JOIN, SPLIT, LOST)
+"""Kinds by which a job leaves the floor, each an instant."""
 
-CAUSES = ("", "idle", "blocked", "gate", "worker", "full")
-NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL = range(6)
+CAUSES = (
+    *("", "idle", "blocked", "gate", "worker", "full", "down", "parts", "tool", "team", "card", "batch", "after"),
+    *("stock", "pickup", "setup", "preempted", "place", "breakdown", "maintenance", "bad"),
+)
+NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL, IS_DOWN, NO_PARTS, NO_TOOL, TEAM, NO_CARD, BATCH, AFTER = range(13)
+STOCK, PICKUP, SETTING_UP, PREEMPTED, NO_PLACE, BREAKDOWN, MAINTENANCE, BAD = range(13, 21)
 
 COLUMNS: dict[str, type] = {
     "kind": np.int8,
@@ -157,7 +165,7 @@ def names_of(plan) -> dict[str, tuple[str, ...]]:
         "station": tuple(station.name for station in plan.stations),
         "place_from": places,
         "place_to": places,
-        "source": (plan.release.name,),
+        "source": tuple(source.name for source in plan.sources),
         "product": tuple(product.name for product in plan.products),
         "operation": plan.operations,
         "task": tuple(task.name for task in plan.tasks),

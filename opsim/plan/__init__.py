@@ -7,7 +7,8 @@ from opsim.plan.compile import compile_plan
 from opsim.plan.loads import StationLoad, station_loads
 from opsim.plan.material import Operation, ProductPlan, Ways
 from opsim.plan.plan import Plan
-from opsim.plan.release import ReleasePlan
+from opsim.plan.ranks import Ranks
+from opsim.plan.release import SourcePlan
 from opsim.plan.station import StationPlan
 from opsim.plan.tasks import TaskPlan
 from opsim.plan.walking import WalkingPlan
@@ -17,7 +18,8 @@ __all__ = [
     "Operation",
     "Plan",
     "ProductPlan",
-    "ReleasePlan",
+    "Ranks",
+    "SourcePlan",
     "StationLoad",
     "StationPlan",
     "TaskPlan",

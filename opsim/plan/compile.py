@@ -1,10 +1,10 @@
 """Scenario -> Plan."""
 
 from opsim.layout import distances_m
-from opsim.names import natural_key
 from opsim.plan.material import plan_products
 from opsim.plan.plan import Plan
-from opsim.plan.release import plan_release
+from opsim.plan.ranks import ranks_of
+from opsim.plan.release import plan_sources
 from opsim.plan.station import plan_stations
 from opsim.plan.tasks import plan_tasks
 from opsim.plan.walking import plan_walking
@@ -19,19 +19,19 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         return task_model(task, loaded)
 
     scenario = loaded.scenario
-    places, stations = _ranks(scenario.layout.places), _ranks(scenario.stations)
+    ranks = ranks_of(scenario)
     return Plan(
         name=scenario.name,
         seed=scenario.run.seed if seed is None else seed,
         horizon_s=scenario.run.horizon_s,
         warm_up_s=scenario.run.warm_up_s,
-        places=tuple(places),
+        places=tuple(ranks.places),
         distance_m=distances_m(scenario.layout),
         tasks=plan_tasks(scenario, model_of),
-        stations=plan_stations(scenario, places, _ranks(scenario.tasks)),
-        products=plan_products(scenario, stations),
-        release=plan_release(scenario, model_of),
-        workers=plan_workers(scenario, places, stations),
+        stations=plan_stations(scenario, ranks),
+        products=plan_products(scenario, ranks.stations),
+        sources=plan_sources(scenario, ranks, model_of),
+        workers=plan_workers(scenario, ranks.places, ranks.stations),
         rule=scenario.allocation.rule,
         when_blocked=scenario.allocation.when_blocked,
         idle=scenario.allocation.idle,
@@ -39,7 +39,3 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         across_tasks=scenario.run.across_tasks,
         walking=plan_walking(loaded),
     )
-
-
-def _ranks(names) -> dict[str, int]:
-    return {name: rank for rank, name in enumerate(sorted(names, key=natural_key))}

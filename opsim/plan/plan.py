@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from opsim.names import natural_key
 from opsim.plan.material import ProductPlan
-from opsim.plan.release import ReleasePlan
+from opsim.plan.release import SourcePlan
 from opsim.plan.station import StationPlan
 from opsim.plan.tasks import TaskPlan
 from opsim.plan.walking import WalkingPlan
@@ -34,7 +34,7 @@ class Plan:
     tasks: tuple[TaskPlan, ...]
     stations: tuple[StationPlan, ...]
     products: tuple[ProductPlan, ...]
-    release: ReleasePlan
+    sources: tuple[SourcePlan, ...]
     workers: tuple[WorkerPlan, ...]
     rule: str
     when_blocked: str
@@ -42,6 +42,11 @@ class Plan:
     staffing: str
     across_tasks: str
     walking: WalkingPlan | None = None
+
+    @property
+    def release(self) -> SourcePlan:
+        """The first source; the only one, where a scenario says ``release``."""
+        return self.sources[0]
 
     @property
     def window_s(self) -> tuple[float, float]:
