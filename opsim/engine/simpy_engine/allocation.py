@@ -42,7 +42,7 @@ def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
 
 def _key(floor: Floor, worker: Worker, station: Station) -> tuple[float, ...]:
     rank, calls = station.rank, station.calling
-    n_waiting, since_s = len(calls) + len(station.queue), calls[0][0]
+    n_waiting, since_s = len(calls) + len(station.queue), calls[0][1]
     return floor.rule(
         n_waiting, since_s, worker.walk_s[worker.place][rank], worker.plan.rating[rank], rank, worker.rank
     )
@@ -52,10 +52,14 @@ def _send(floor: Floor, worker: Worker, station: Station) -> None:
     if floor.now > worker.since_s:
         log_worker(floor, worker)
     del floor.free[worker.rank]
-    _since_s, _number, job = station.calling.pop(0)
-    if not station.calling:
-        del floor.calling[station.rank]
-        floor.calls ^= 1 << station.rank
+    job = station.calling[0][3]
+    if job.wanted > 1:
+        job.wanted -= 1
+    else:
+        del station.calling[0]
+        if not station.calling:
+            del floor.calling[station.rank]
+            floor.calls ^= 1 << station.rank
     worker.job, worker.station = job, station
     walk_s = worker.walk_s[worker.place][station.rank]
     if walk_s > 0:

@@ -1,13 +1,20 @@
 """What follows when a stretch of time is over: arrivals of walks, ends of performances, automatic ends, new jobs."""
 
 from opsim.engine.simpy_engine.floor import Floor, Handler
-from opsim.engine.simpy_engine.material import create, operation_done
-from opsim.engine.simpy_engine.release import ARRIVED
+from opsim.engine.simpy_engine.material import operation_done
 from opsim.engine.simpy_engine.state import Job, Worker
-from opsim.engine.simpy_engine.station import AUTOMATIC_DONE, next_task, perform, task_done
+from opsim.engine.simpy_engine.station import (
+    AUTOMATIC_DONE,
+    OPERATION_DONE,
+    ended,
+    next_task,
+    perform,
+    proceed,
+    task_done,
+)
 from opsim.engine.simpy_engine.transport import put_down
 from opsim.engine.simpy_engine.worker import STRETCH_DONE, hold, log_worker, set_free
-from opsim.log import TRANSPORT, WALK
+from opsim.log import BLOCKED, SETUP, TRANSPORT, WALK
 
 
 def _stretch_done(floor: Floor, worker: Worker) -> None:
@@ -19,32 +26,45 @@ def _stretch_done(floor: Floor, worker: Worker) -> None:
     elif worker.kind == WALK:
         log_worker(floor, worker)
         perform(floor, job, worker)
+    elif job.station.acted is None or not job.station.acted(floor, job, worker):  # type: ignore[union-attr]
+        performed(floor, job, worker)
+
+
+def performed(floor: Floor, job: Job, worker: Worker) -> None:
+    """A worker has come to the end of a performance."""
+    if job.rest_s or job.station.meter is not None:  # type: ignore[union-attr]
+        ended(floor, job)
+    if job.kind == SETUP:
+        _set_up(floor, job, worker)
     elif task_done(job):
-        _station_done(floor, worker, job)
-    elif job.station.automatic[job.task_position]:  # type: ignore[union-attr]
-        set_free(floor, worker)
-        next_task(floor, job, None)
+        operation_done(floor, job)
+        if (job.plan.carried or floor.plan.when_blocked == "held") and job.kind == BLOCKED and job.number in floor.jobs:
+            hold(floor, worker, job)
+        else:
+            set_free(floor, worker)
     else:
         next_task(floor, job, worker)
 
 
-def _station_done(floor: Floor, worker: Worker, job: Job) -> None:
-    operation_done(floor, job)
-    if (job.plan.carried or floor.plan.when_blocked == "held") and job.number in floor.jobs:
-        hold(floor, worker, job)
-    else:
-        set_free(floor, worker)
+def _set_up(floor: Floor, job: Job, worker: Worker | None) -> None:
+    job.setup_task = -1
+    proceed(floor, job, worker)
 
 
 def _automatic_done(floor: Floor, job: Job) -> None:
-    if task_done(job):
+    job.over = None
+    if job.rest_s or job.station.meter is not None:  # type: ignore[union-attr]
+        ended(floor, job)
+    if job.kind == SETUP:
+        _set_up(floor, job, None)
+    elif task_done(job):
         operation_done(floor, job)
     else:
         next_task(floor, job, None)
 
 
-def _arrived(floor: Floor, _number: int) -> None:
-    create(floor)
-
-
-HANDLERS: dict[str, Handler] = {STRETCH_DONE: _stretch_done, AUTOMATIC_DONE: _automatic_done, ARRIVED: _arrived}
+HANDLERS: dict[str, Handler] = {
+    STRETCH_DONE: _stretch_done,
+    AUTOMATIC_DONE: _automatic_done,
+    OPERATION_DONE: operation_done,
+}

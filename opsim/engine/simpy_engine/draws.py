@@ -1,6 +1,6 @@
 """All luck of a replication, by name: durations, gaps between arrivals, product mix."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import accumulate
 
@@ -9,6 +9,7 @@ import numpy as np
 from opsim.effects import worker_effect
 from opsim.plan import Plan
 from opsim.streams import BLOCK, Items, Scattered
+from opsim.task import TaskModel
 
 
 class Draws:
@@ -17,13 +18,8 @@ class Draws:
     def __init__(self, plan: Plan, replication: int):
         self._plan, self._replication = plan, replication
         self._workforce = plan.workforce_of(replication)
-        release = plan.release
-        gap = _exponential(release.every_s) if release.gap is None else _performed(release.gap, None)
-        self._gaps = self._items(("interarrival", release.name), gap)
-        cumulative = list(accumulate(product.share for product in plan.products))[:-1]
-        self._mix = self._items(("mix", release.name), _ranks(cumulative)) if cumulative else None
         self._durations: dict[tuple[int, int], Items] = {}
-        self._ways: dict[tuple[str, int], Scattered] = {}
+        self._chances: dict[tuple[str | int, ...], Scattered] = {}
 
     def duration_s(self, task: int, worker: int, k: int) -> float:
         """The k-th performance of a task by a worker, at skill rating 1."""
@@ -38,29 +34,39 @@ class Draws:
 
     def automatic_runs(self, task: int, station: int) -> Iterator[float]:
         """All automatic runs of a task at a station, one after the other."""
-        model = self._plan.tasks[task].model
         name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
-        return iter(self._items(name, _performed(model, None)))
+        return self.times(name, self._plan.tasks[task].model)
 
-    def gaps(self) -> Iterator[float]:
-        """All gaps between arrivals, one after the other."""
-        return iter(self._gaps)
+    def gaps(self, source: int) -> Iterator[float]:
+        """All gaps between the arrivals of a source, one after the other."""
+        plan = self._plan.sources[source]
+        gap = _exponential(plan.every_s) if plan.gap is None else _performed(plan.gap, None)
+        return iter(self._items(("interarrival", plan.name), gap))
 
-    def gap_s(self, n: int) -> float:
-        """Time between arrival n - 1 and arrival n."""
-        return self._gaps[n]
+    def products(self, source: int) -> Callable[[int], int]:
+        """The rank of the product that the n-th job of a source is, by n."""
+        plan = self._plan.sources[source]
+        ranks = [rank for rank, _ in plan.mix]
+        cumulative = list(accumulate(share for _, share in plan.mix))[:-1]
+        if not cumulative:
+            return lambda _n: ranks[0]
+        drawn = self._items(("mix", plan.name), _ranks(cumulative))
+        return lambda n: ranks[drawn[n]]
 
-    def product(self, n: int) -> int:
-        """Rank of the product that the n-th job is."""
-        return 0 if self._mix is None else self._mix[n]
-
-    def way(self, operation: str, visit: int, job: int) -> float:
+    def way(self, operation: str, visit: int, source: int, n: int) -> float:
         """A number in [0, 1) that decides where a job goes after an operation it leaves for the ``visit``-th time."""
-        ways = self._ways.get((operation, visit))
-        if ways is None:
-            name = ("routing", operation, self._plan.release.name, visit)
-            ways = self._ways[operation, visit] = Scattered(self._items(name, _uniform))
-        return ways[job]
+        return self.chance(("routing", operation, self._plan.sources[source].name, visit), n)
+
+    def chance(self, name: tuple[str | int, ...], item: int) -> float:
+        """The number in [0, 1) of an item of a named stream."""
+        chances = self._chances.get(name)
+        if chances is None:
+            chances = self._chances[name] = Scattered(self._items(name, _uniform))
+        return chances[item]
+
+    def times(self, name: tuple[str, ...], model: TaskModel) -> Iterator[float]:
+        """Durations of a model under the name of a stream, one after the other, without end."""
+        return iter(self._items(name, _performed(model, None)))
 
     def _of_worker(self, task: int, worker: int) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name

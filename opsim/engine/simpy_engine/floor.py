@@ -8,9 +8,10 @@ from typing import Any
 
 import simpy
 
+from opsim.clock import on_grid
 from opsim.engine.simpy_engine.draws import Draws
-from opsim.engine.simpy_engine.state import Gate, Job, Station, Worker
-from opsim.log import WORK, LogWriter, pack_row
+from opsim.engine.simpy_engine.state import Gate, Job, Source, Station, Worker
+from opsim.log import SETUP, WORK, LogWriter, pack_row
 from opsim.plan import Operation, Plan
 from opsim.plugins import dispatch_rule
 
@@ -27,6 +28,11 @@ class Floor:
 
     handlers : what to do with each named report, given its subject
     dispatch : run at the end of every settle step, when all reports are applied
+
+    What blocks hang in, each empty where none does:
+    dispatchers  : asked in every round of a settle step, before workers are sent; True where something changed
+    left_station : told of each job that gives its place at a station back; left_floor : of each that leaves
+    legs         : by (station, station): who is told of a job that has its place there, and fetches it
     """
 
     def __init__(
@@ -50,9 +56,14 @@ class Floor:
         self.stirred: set[Gate] = set()
         self.steps = _steps(plan, self.gates)
         self.rule = dispatch_rule(plan.rule)
+        self.sources = [Source(source, rank, draws.products(rank)) for rank, source in enumerate(plan.sources)]
+        self.saturated = [source for source in self.sources if source.plan.kind == "saturated"]
+        self.losing = {source.rank for source in self.sources if source.plan.when_full == "lose"}
         self.jobs: dict[int, Job] = {}
-        self.n_released = 0
-        self.next_gate: Gate | None = None
+        self.dispatchers: list[Callable[[Floor], bool]] = []
+        self.left_station: list[Callable[[Floor, Job, Station], None]] = []
+        self.left_floor: list[Callable[[Floor, Job], None]] = []
+        self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.now = 0.0
         self.n_performances = 0
         self._reports: list[tuple] = []
@@ -77,6 +88,22 @@ class Floor:
             self._settle_pending = True
             settle = self.at_end_of(0.0, simpy.Event(self.env), AFTER_EVERYTHING)
             settle.callbacks.append(self._settle)
+
+    def tell(self, what: str, subject: Any) -> None:
+        """Have a named report applied at once, inside settle."""
+        self._handlers[what](self, subject)
+
+    def alarm(self, delay_s: float, kind: int, rank: int, number: int, what: str, subject: Any) -> simpy.Event:
+        """A report after a delay, which is rounded to the grid. ``cancel`` makes it nothing."""
+        event = self.at_end_of(on_grid(delay_s), simpy.Event(self.env))
+        event.callbacks.append(lambda _: self.report(kind, rank, number, what, subject))  # type: ignore[union-attr]
+        return event
+
+    def stir(self, station: Station) -> None:
+        """There may be room at a station: whoever wants in is looked at again."""
+        for gate in station.wanted_by:
+            if gate.claims:
+                self.stirred.add(gate)
 
     def at_end_of(self, delay_s: float, event: simpy.Event, priority: int = simpy.events.NORMAL) -> simpy.Event:
         """``event`` happens after a delay.
@@ -107,15 +134,15 @@ class Floor:
             return
         station = -1 if job.station is None else job.station.rank
         number, product, operation = job.number, job.product, job.operation_rank
-        if job.kind == WORK:
-            progress = 1.0 if now - start_s == job.duration_s else (now - start_s) / job.duration_s
+        kind = job.kind
+        if kind == WORK or kind == SETUP:  # noqa: SIM109  NOTE: twice as fast as a tuple
             self.write(pack_row(
-                WORK, start_s, now, job.worker, station, -1, -1, 0, number, product, operation,
-                job.task, job.performance_id, job.k, 0.0, progress, 0.0, 0,
+                kind, start_s, now, job.worker, station, -1, -1, job.source, number, product, operation,
+                job.task, job.performance_id, job.k, job.progress_from, progress(job, now), 0.0, 0,
             ))  # fmt: skip
         else:
             self.write(pack_row(
-                job.kind, start_s, now, -1, station, -1, -1, 0, number, product, operation,
+                kind, start_s, now, -1, station, -1, -1, job.source, number, product, operation,
                 -1, -1, -1, nan, nan, nan, job.cause,
             ))  # fmt: skip
 
@@ -129,9 +156,24 @@ class Floor:
         """Write something that happened to a job at once."""
         now = self.now
         self.write(pack_row(
-            kind, now, now, -1, -1, -1, -1, 0, job.number, job.product, job.operation_rank,
+            kind, now, now, -1, -1, -1, -1, job.source, job.number, job.product, job.operation_rank,
             -1, -1, -1, nan, nan, nan, cause,
         ))  # fmt: skip
+
+
+def cancel(event: simpy.Event) -> None:
+    """An event that is to come will mean nothing."""
+    if event.callbacks:
+        event.callbacks.clear()
+
+
+def progress(job: Job, now: float) -> float:
+    """How much of the performance under way is done, as a share of the whole of it."""
+    spent_s = now - job.since_s
+    if spent_s == job.duration_s:
+        return 1.0
+    before = job.progress_from
+    return before + (1.0 - before) * (spent_s / job.duration_s)
 
 
 def _station(plan: Plan, rank: int) -> Station:

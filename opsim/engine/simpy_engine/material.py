@@ -4,88 +4,140 @@ from bisect import insort
 
 from opsim.engine.rules import shortest_queue
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Claim, Gate, Job, Station
-from opsim.engine.simpy_engine.station import seat
+from opsim.engine.simpy_engine.state import Ahead, Claim, Gate, Job, Source, Station, claim_of
+from opsim.engine.simpy_engine.station import fill_servers, proceed
 from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
 from opsim.plan import ProductPlan, Ways
 
 
-def create(floor: Floor) -> Job:
-    """The next job of the source, standing at the gate of its first station."""
-    number = floor.n_released
-    rank = floor.draws.product(number)
+def create(floor: Floor, source: Source) -> Job:
+    """The next job of a source, standing at the gate of its first station."""
+    job = new_job(floor, source, source.product(source.n_released))
+    source.next_gate = None
+    want_in(floor, job)
+    return job
+
+
+def new_job(floor: Floor, source: Source, rank: int) -> Job:
+    """The next job of a source, of the product of a rank: on the floor, and nowhere yet."""
+    n = source.n_released
     product = floor.plan.products[rank]
-    step = _first_step(floor, number, product)
-    job = Job(number, rank, product, step, *floor.steps[rank][step], HELD, GATE, floor.now)
-    floor.n_released += 1
-    floor.next_gate = None
+    step = _first_step(floor, source.rank, n, product)
+    number = n * len(floor.sources) + source.rank
+    job = Job(number, rank, product, step, *floor.steps[rank][step], HELD, GATE, floor.now, source.rank, n)
+    source.n_released = n + 1
     floor.jobs[number] = job
     floor.log_instant(CREATE, job)
-    _want_in(floor, job)
     return job
 
 
 def operation_done(floor: Floor, job: Job) -> None:
     """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
-    onward = job.plan.onward[job.step]
-    step = onward[0][1] if len(onward) == 1 else _drawn_step(floor, job, onward)
+    station: Station = job.station  # type: ignore[assignment]
+    if station.meter is not None:
+        station.meter.cycle(floor)
+    for hook in station.after:
+        if not hook(floor, job):
+            return
+    move_on(floor, job)
+
+
+def move_on(floor: Floor, job: Job) -> None:
+    """The job wants to go where its way leads, or is finished."""
+    go_to(floor, job, next_step(floor, job) if job.ahead is None else job.ahead.step)
+
+
+def go_to(floor: Floor, job: Job, step: int) -> None:
+    """The job wants to go to a step of its route; -1: out."""
     if step < 0:
-        _leave_station(floor, job)
-        _leave_floor(floor, job, FINISH)
+        leave_station(floor, job)
+        leave_floor(floor, job, FINISH)
         return
     floor.job_now(job, BLOCKED)
+    aim(floor, job, step)
+    want_in(floor, job)
+
+
+def aim(floor: Floor, job: Job, step: int) -> None:
+    """The job's next operation is that of a step of its route."""
     job.step = step
     job.operation, job.operation_rank, job.gate = floor.steps[job.product][step]
-    _want_in(floor, job)
+
+
+def next_step(floor: Floor, job: Job) -> int:
+    """The step of the route that follows, -1 for the way out; drawn by job number and visit where there is a choice."""
+    onward = job.plan.onward[job.step]
+    if len(onward) == 1:
+        return onward[0][1]
+    visits = job.visits = {} if job.visits is None else job.visits
+    visit = visits[job.step] = visits.get(job.step, -1) + 1
+    return _taken(onward, floor.draws.way(job.operation.name, visit, job.source, job.n))
+
+
+def want_place(floor: Floor, job: Job, step: int) -> None:
+    """The job, still at its station, claims a place at a step to come; ``proceed`` is called when it has one."""
+    ahead = job.ahead = Ahead(step, floor.steps[job.product][step][2])
+    insort(ahead.gate.claims, claim_of(job, floor.now))
+    floor.stirred.add(ahead.gate)
 
 
 def admit(floor: Floor) -> None:
     """Let jobs in as long as a claim meets room; the oldest claim first."""
     while floor.stirred and (found := _first_claim(floor)) is not None:
         claim, gate = found
-        claims = gate.claims
+        claims, job = gate.claims, claim[3]
         claims.remove(claim)
         if not claims:
             floor.stirred.discard(gate)
-        _enter(floor, claim[2], gate)
+        if job.ahead is None:
+            _enter(floor, job, gate)
+        elif job.ahead.station is None:
+            _keep_place(floor, job, gate)
+        else:
+            kept, job.ahead = job.ahead.station, None
+            depart_for(floor, job, kept)
 
 
 def release_saturated(floor: Floor) -> None:
     """A saturated source makes jobs as long as the first station of the next one has room."""
-    while _next_has_room(floor):
-        create(floor)
-        admit(floor)
+    for source in floor.saturated:
+        while _next_has_room(floor, source):
+            create(floor, source)
+            admit(floor)
 
 
 def turn_away(floor: Floor) -> None:
-    """Jobs still outside are lost where the source does not wait."""
+    """Jobs still outside are lost where their source does not wait."""
     for gate in floor.gates.values():
-        lost = [claim for claim in gate.claims if claim[2].station is None]
+        lost = [claim for claim in gate.claims if claim[3].station is None and claim[3].source in floor.losing]
         for claim in lost:
             gate.claims.remove(claim)
-            _leave_floor(floor, claim[2], LOST, FULL)
+            leave_floor(floor, claim[3], LOST, FULL)
 
 
-def _want_in(floor: Floor, job: Job) -> None:
+def want_in(floor: Floor, job: Job) -> None:
     """The job claims a place at its next operation."""
     gate = job.gate
-    insort(gate.claims, (job.since_s, job.number, job))
+    insort(gate.claims, claim_of(job, job.since_s))
     floor.stirred.add(gate)
 
 
-def _drawn_step(floor: Floor, job: Job, onward: Ways) -> int:
-    """The step of the route that follows, -1 for the way out; drawn by job number and visit where there is a choice."""
-    visits = job.visits = {} if job.visits is None else job.visits
-    visit = visits[job.step] = visits.get(job.step, -1) + 1
-    return _taken(onward, floor.draws.way(job.operation.name, visit, job.number))
+def withdraw(floor: Floor, job: Job) -> None:
+    """The job no longer claims a place at its next operation, and gives back the one it may have."""
+    gate = job.gate if job.ahead is None else job.ahead.gate
+    gate.claims = [claim for claim in gate.claims if claim[3] is not job]
+    if job.ahead is not None and job.ahead.station is not None:
+        job.ahead.station.n_inside -= 1
+        floor.stir(job.ahead.station)
+    job.ahead = None
 
 
-def _first_step(floor: Floor, number: int, product: ProductPlan) -> int:
-    """Where the job of this number begins, drawn where there is a choice."""
+def _first_step(floor: Floor, source: int, n: int, product: ProductPlan) -> int:
+    """Where the n-th job of a source begins, drawn where there is a choice."""
     start = product.start
-    return start[0][1] if len(start) == 1 else _taken(start, floor.draws.way("start", 0, number))
+    return start[0][1] if len(start) == 1 else _taken(start, floor.draws.way("start", 0, source, n))
 
 
 def _taken(ways: Ways, point: float) -> int:
@@ -113,52 +165,96 @@ def _first_claim(floor: Floor) -> tuple[Claim, Gate] | None:
     return best
 
 
-def _next_has_room(floor: Floor) -> bool:
-    gate = floor.next_gate
+def _next_has_room(floor: Floor, source: Source) -> bool:
+    gate = source.next_gate
     if gate is None:
-        rank = floor.draws.product(floor.n_released)
-        step = _first_step(floor, floor.n_released, floor.plan.products[rank])
-        gate = floor.next_gate = floor.steps[rank][step][2]
+        rank = source.product(source.n_released)
+        step = _first_step(floor, source.rank, source.n_released, floor.plan.products[rank])
+        gate = source.next_gate = floor.steps[rank][step][2]
     return not gate.claims and gate.has_room
 
 
 def _enter(floor: Floor, job: Job, gate: Gate) -> None:
-    now, stations = floor.now, gate.stations
-    if now > job.since_s:
+    """There is room for the job: the place is its own from now on."""
+    station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
+    station.n_inside += 1
+    if gate.entered is not None:
+        gate.entered(floor, job)
+    depart_for(floor, job, station)
+
+
+def _keep_place(floor: Floor, job: Job, gate: Gate) -> None:
+    """The place is kept for the job, which stays where it is and goes on there."""
+    station = job.ahead.station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)  # type: ignore[union-attr]
+    station.n_inside += 1
+    if gate.entered is not None:
+        gate.entered(floor, job)
+    proceed(floor, job)
+
+
+def depart_for(floor: Floor, job: Job, station: Station) -> None:
+    """The job, whose place at a station is sure, leaves where it is; or waits for who is to fetch it."""
+    before = job.station
+    if floor.legs and before is not None and (leg := floor.legs.get((before.rank, station.rank))) is not None:
+        leg(floor, job, station)
+        return
+    if floor.now > job.since_s:
         floor.log_job(job)
-    job.kind, job.cause, job.since_s = QUEUE, 0, now
-    station = stations[0] if len(stations) == 1 else _chosen(gate, job)
+    job.kind, job.cause, job.since_s = QUEUE, 0, floor.now
     carrier = None
-    if job.station is not None:
+    if before is not None:
         if job.plan.carried:
             carrier, job.held_by = job.held_by, None
-        _leave_station(floor, job)
+        leave_station(floor, job)
     job.station = station
-    station.n_inside += 1
     bring(floor, job, station, carrier)
 
 
 def _chosen(gate: Gate, job: Job) -> Station:
     with_room = [s for s in gate.stations if s.n_inside < s.capacity or s is job.station]
+    if gate.choose is not None:
+        return gate.choose(with_room, job)
     return min(with_room, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
 
 
-def _leave_station(floor: Floor, job: Job) -> None:
-    """The job gives its server back; whoever waits behind moves up, and whoever wants in may."""
+def leave_station(floor: Floor, job: Job) -> None:
+    """The job gives its place back; whoever waits behind moves up, and whoever wants in may."""
     station: Station = job.station  # type: ignore[assignment]
     station.n_inside -= 1
-    station.free_servers += 1
     if job.held_by is not None:
         worker, job.held_by = job.held_by, None
         set_free(floor, worker)
-    if station.queue:
-        seat(floor, station, station.queue.popleft())
+    if floor.left_station:
+        for told in floor.left_station:
+            told(floor, job, station)
+    if station.vacate is not None:
+        station.vacate(floor, station, job)
+    else:
+        leave_server(floor, station, job)
     for gate in station.wanted_by:
         if gate.claims:
             floor.stirred.add(gate)
 
 
-def _leave_floor(floor: Floor, job: Job, kind: int, cause: int = 0) -> None:
+def leave_server(floor: Floor, station: Station, job: Job) -> None:
+    """The job gives its server back, where it is the last one on it; whoever is next in the queue moves up."""
+    if station.seated is not None:
+        station.seated.remove(job)
+    if job.seat is not None:
+        seat, job.seat = job.seat, None
+        seat.n_jobs -= 1
+        if seat.n_jobs:
+            return
+    station.free_servers += 1
+    if station.queue:
+        fill_servers(floor, station)
+
+
+def leave_floor(floor: Floor, job: Job, kind: int, cause: int = 0) -> None:
+    """The job is on the floor no more, in the way that ``kind`` says."""
     floor.log_job(job)
     floor.log_instant(kind, job, cause)
     del floor.jobs[job.number]
+    if floor.left_floor:
+        for told in floor.left_floor:
+            told(floor, job)

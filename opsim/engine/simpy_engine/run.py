@@ -2,10 +2,9 @@
 
 import simpy
 
-from opsim.engine.simpy_engine.completion import HANDLERS
+from opsim.engine.simpy_engine.blocks import HANDLERS, INSTALL
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.release import release_by_time
 from opsim.engine.simpy_engine.settle import dispatch
 from opsim.engine.simpy_engine.worker import log_worker, set_free, working_life
 from opsim.log import EventLog, names_of
@@ -30,9 +29,9 @@ def _open(plan: Plan, replication: int) -> Floor:
     floor = Floor(env, plan, Draws(plan, replication), HANDLERS, dispatch)
     for worker in floor.workers:
         set_free(floor, worker)
-        env.process(working_life(floor, worker))
-    if plan.release.kind != "saturated":
-        env.process(release_by_time(floor))
+        worker.process = env.process(working_life(floor, worker))
+    for install in INSTALL:
+        install(floor)
     floor.wake()
     return floor
 

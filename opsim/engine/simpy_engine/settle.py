@@ -12,19 +12,20 @@ class EndlessInstant(RuntimeError):
 
 
 def dispatch(floor: Floor) -> None:
-    """Move jobs, then send workers, until nothing changes."""
-    release = floor.plan.release
-    saturated = release.kind == "saturated"
+    """Move jobs, give out what jobs wait for, then send workers, until nothing changes."""
     for _ in range(MOST_ROUNDS):
         if floor.stirred:
             admit(floor)
-        if saturated:
+        if floor.saturated:
             release_saturated(floor)
-        elif release.when_full == "lose":
+        if floor.losing:
             turn_away(floor)
+        changed = False
+        for given_out in floor.dispatchers:
+            changed |= given_out(floor)
         if floor.free:
             send_workers(floor)
-        if not floor.stirred:
+        if not floor.stirred and not changed:
             return
     names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)
     raise EndlessInstant(f"t = {floor.now} s: over {MOST_ROUNDS} rounds in one instant; still moving at: {names}")

@@ -1,25 +1,75 @@
 """What stands where on the floor right now: jobs, stations, workers. Data of a run, changed only inside settle."""
 
+from __future__ import annotations
+
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
 
 import simpy
 
 from opsim.log import WAIT
-from opsim.plan import Operation, ProductPlan, StationPlan, WorkerPlan
+from opsim.plan import Operation, ProductPlan, SourcePlan, StationPlan, WorkerPlan
+
+if TYPE_CHECKING:
+    from opsim.engine.simpy_engine.floor import Floor
+
+GOES_ON = -1
+"""The ``stage`` of a job that lost its server in the middle of a task, and goes on there when it is seated again."""
+
+
+@dataclass(slots=True, eq=False)
+class Source:
+    """Where jobs come from. n_released : jobs so far; product : the rank of the product that the n-th job is
+
+    next_gate : of a saturated source, the gate that its next job wants in by
+    """
+
+    plan: SourcePlan
+    rank: int
+    product: Callable[[int], int]
+    n_released: int = 0
+    next_gate: Gate | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Seat:
+    """A server that several jobs share, such as those of a batch: free when the last of them has left it."""
+
+    n_jobs: int
+
+
+@dataclass(slots=True, eq=False)
+class Ahead:
+    """A place that a job wants, or has, at its next operation before it is done with this one.
+
+    station : where the place is kept; None while the job waits for it
+    """
+
+    step: int
+    gate: Gate
+    station: Station | None = None
 
 
 @dataclass(slots=True, eq=False)
 class Job:
-    """One unit of a product.
+    """One unit of a product, or a lot.
 
+    number          : n * sources + source, so that no two jobs have the same; n : its number in its source
     kind, since_s   : the state it is in, and since when
     step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
                       ``gate`` is in front of the operation
     task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
-    worker .. duration_s : the performance under way, where ``kind`` is WORK; worker -1 where it is automatic
+    worker .. duration_s : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
+    progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
+    over            : the end of an automatic run under way
+    stage           : how many of the station's preparations are done
+    setup_task      : the set-up under way or called for; -1: none
+    wanted          : workers it still calls for; team : those who have come or are on their way
     visits          : how often each step was passed, where the way on is drawn
+    due_s           : when it should be done; bad : whether a defect is in it
     """
 
     number: int
@@ -28,11 +78,13 @@ class Job:
     step: int
     operation: Operation
     operation_rank: int
-    gate: "Gate"
+    gate: Gate
     kind: int
     cause: int
     since_s: float
-    station: "Station | None" = None
+    source: int = 0
+    n: int = 0
+    station: Station | None = None
     task_position: int = 0
     repeats_done: int = 0
     worker: int = -1
@@ -40,12 +92,47 @@ class Job:
     performance_id: int = -1
     k: int = -1
     duration_s: float = 0.0
-    held_by: "Worker | None" = None
+    held_by: Worker | None = None
     visits: dict[int, int] | None = None
+    progress_from: float = 0.0
+    rest_s: float = 0.0
+    over: simpy.Event | None = None
+    stage: int = 0
+    setup_task: int = -1
+    wanted: int = 1
+    team: list[Worker] | None = None
+    seat: Seat | None = None
+    members: tuple[Job, ...] = ()
+    ahead: Ahead | None = None
+    cards: list[Any] | None = None
+    priority: float = 0.0
+    due_s: float = inf
+    lot: int = 1
+    bad: bool = False
 
 
-Claim = tuple[float, int, Job]
-"""(since_s, job number, job): claims are served in this order."""
+Claim = tuple[float, float, int, Job]
+"""(-priority, since_s, job number, job): claims are served in this order."""
+
+
+def claim_of(job: Job, since_s: float) -> Claim:
+    """What a job puts down where it waits for something since some time."""
+    return -job.priority, since_s, job.number, job
+
+
+Stage = Callable[["Floor", Job], bool]
+"""A preparation of a job that has its server: True where it is done; False where the job waits for something. Who ends
+the wait calls ``proceed``, which asks again."""
+Hook = Callable[["Floor", Job], bool]
+"""Asked when a job's operation is done; False where the job is gone, or sent elsewhere."""
+
+
+class Meter(Protocol):
+    """Counts what a station does: the begin and the end of each performance, and each operation done."""
+
+    def begin(self, floor: Floor) -> None: ...
+    def end(self, floor: Floor) -> None: ...
+    def cycle(self, floor: Floor) -> None: ...
 
 
 @dataclass(slots=True, eq=False)
@@ -54,6 +141,19 @@ class Station:
 
     calling : jobs on servers for which nobody was sent yet; wanted_by : gates of jobs that want in
     luck    : by task, durations of automatic runs to come; next_k : how many there were
+    down    : for how many reasons it stands still; standing : jobs on servers that wait until it goes on
+    seated  : jobs on servers, where a block has to find them; else None
+
+    What blocks hang in, each empty or None where none does:
+    stages  : preparations of a seated job, in their order
+    ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``
+    act, acted : another way to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
+    after   : asked when an operation is done, in their order
+    order   : key by which the next job of the queue is chosen; None: first come, first served
+    serve   : fills free servers from the queue, in place of one job at a time; asked after each arrival too
+    receive, vacate : in place of arriving at a server or the queue, and of giving the server back
+    meter   : counts performances and operations
+    setup_attended : whether a worker sets it up
     """
 
     plan: StationPlan
@@ -66,18 +166,51 @@ class Station:
     free_servers: int
     queue: deque[Job] = field(default_factory=deque)
     calling: list[Claim] = field(default_factory=list)
-    wanted_by: tuple["Gate", ...] = ()
+    wanted_by: tuple[Gate, ...] = ()
     n_inside: int = 0
     luck: dict[int, Iterator[float]] = field(default_factory=dict)
     next_k: dict[int, int] = field(default_factory=dict)
+    down: int = 0
+    standing: list[Job] = field(default_factory=list)
+    seated: list[Job] | None = None
+    stages: tuple[Stage, ...] = ()
+    ready: Callable[[Floor, Job], bool] | None = None
+    act: Callable[[Floor, Job, Worker], bool] | None = None
+    acted: Callable[[Floor, Job, Worker], bool] | None = None
+    after: tuple[Hook, ...] = ()
+    order: Callable[[Job], Any] | None = None
+    serve: Callable[[Floor, Station], None] | None = None
+    receive: Callable[[Floor, Station, Job], None] | None = None
+    vacate: Callable[[Floor, Station, Job], None] | None = None
+    meter: Meter | None = None
+    setup_attended: bool = True
+    ordered_stages: list[tuple[int, Stage]] = field(default_factory=list)
+    ordered_hooks: list[tuple[int, Hook]] = field(default_factory=list)
+
+    def add_stage(self, order: int, stage: Stage) -> None:
+        """One more preparation; they come in the order of their numbers."""
+        self.ordered_stages.append((order, stage))
+        self.stages = tuple(found for _, found in sorted(self.ordered_stages, key=lambda pair: pair[0]))
+
+    def add_after(self, order: int, hook: Hook) -> None:
+        """One more question when an operation is done; they come in the order of their numbers."""
+        self.ordered_hooks.append((order, hook))
+        self.after = tuple(found for _, found in sorted(self.ordered_hooks, key=lambda pair: pair[0]))
 
 
 @dataclass(slots=True, eq=False)
 class Gate:
-    """Jobs that want into a station, or into one of several: blocked on servers upstream, or just arrived."""
+    """Jobs that want into a station, or into one of several: blocked on servers upstream, or just arrived.
+
+    choose  : which of several stations a job takes; None: the fewest jobs a server
+    allows  : whether a job may come in where there is room; entered : told of each that does; None: all may
+    """
 
     stations: tuple[Station, ...]
     claims: list[Claim] = field(default_factory=list)
+    choose: Callable[[list[Station], Job], Station] | None = None
+    allows: Callable[[Job], bool] | None = None
+    entered: Callable[[Floor, Job], None] | None = None
 
     @property
     def has_room(self) -> bool:
@@ -88,14 +221,23 @@ class Gate:
         return False
 
     def next_claim(self) -> Claim | None:
-        """The oldest claim that can be met. A job that comes back to its own station needs no other place there."""
+        """The first claim that can be met. A job that comes back to its own station needs no other place there."""
         claims = self.claims
         if not claims:
             return None
+        if self.allows is not None:
+            return next((claim for claim in claims if self.may_enter(claim[3])), None)
         for station in self.stations:
             if station.n_inside < station.capacity:
                 return claims[0]
-        return next((claim for claim in claims if claim[2].station in self.stations), None)
+        return next((claim for claim in claims if self.may_enter(claim[3])), None)
+
+    def may_enter(self, job: Job) -> bool:
+        """Whether there is room for a job, and nothing else keeps it out."""
+        if job.ahead is not None and job.ahead.station is not None:
+            return True
+        room = self.has_room or (job.station in self.stations and job.ahead is None)
+        return room and (self.allows is None or self.allows(job))
 
 
 @dataclass(slots=True, eq=False)
@@ -125,3 +267,4 @@ class Worker:
     job: Job | None = None
     walk_from: int = -1
     round: int = -1
+    process: simpy.Process | None = None

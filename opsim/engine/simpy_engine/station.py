@@ -1,4 +1,4 @@
-"""On a server: task after task, by a worker or automatically."""
+"""On a server: preparations, then task after task, by a worker or automatically."""
 
 from bisect import insort
 
@@ -7,39 +7,132 @@ import simpy
 from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Job, Station, Worker
-from opsim.log import HELD, NO_WORKER, WORK
+from opsim.engine.simpy_engine.state import GOES_ON, Job, Station, Worker, claim_of
+from opsim.engine.simpy_engine.worker import set_free
+from opsim.log import HELD, IS_DOWN, NO_WORKER, SETUP, WORK
 
 AUTOMATIC_DONE = "automatic task done"
+OPERATION_DONE = "operation done"
 
 
 def arrive(floor: Floor, station: Station, job: Job) -> None:
     """The job is at the station: on a server where one is free, else in the queue."""
-    if station.free_servers:
+    if station.receive is not None:
+        station.receive(floor, station, job)
+    elif station.serve is not None:
+        station.queue.append(job)
+        station.serve(floor, station)
+    elif station.free_servers:
         seat(floor, station, job)
     else:
         station.queue.append(job)
 
 
+def fill_servers(floor: Floor, station: Station) -> None:
+    """A server has come free: whoever is next in the queue moves up."""
+    if station.serve is not None:
+        station.serve(floor, station)
+    elif station.queue:
+        seat(floor, station, next_in_line(station))
+
+
+def next_in_line(station: Station) -> Job:
+    """The job of the queue that comes next, taken out of it."""
+    queue = station.queue
+    if station.order is None or len(queue) == 1:
+        return queue.popleft()
+    job = min(queue, key=station.order)
+    queue.remove(job)
+    return job
+
+
 def seat(floor: Floor, station: Station, job: Job) -> None:
     """The job takes a free server."""
     station.free_servers -= 1
-    job.task_position = job.repeats_done = 0
-    next_task(floor, job, None)
+    if station.seated is not None:
+        station.seated.append(job)
+    if job.stage != GOES_ON:
+        job.task_position = job.repeats_done = 0
+    job.stage = 0
+    proceed(floor, job)
+
+
+def proceed(floor: Floor, job: Job, worker: Worker | None = None) -> None:
+    """The preparations that are left, then the tasks; a worker at hand is free where the job has to wait."""
+    stages = job.station.stages  # type: ignore[union-attr]
+    while job.stage < len(stages):
+        if not stages[job.stage](floor, job):
+            if worker is not None:
+                set_free(floor, worker)
+            return
+        job.stage += 1
+    next_task(floor, job, worker)
 
 
 def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
     """Begin the task the job has come to: automatically, by the worker at hand, or by calling for one."""
     station: Station = job.station  # type: ignore[assignment]
-    if station.automatic[job.task_position]:
-        _run_automatic(floor, station, job)
+    if station.down or not station.tasks or (station.ready is not None and not station.ready(floor, job)):
+        _not_yet(floor, station, job, worker)
+    elif station.automatic[job.task_position]:
+        if worker is not None:
+            set_free(floor, worker)
+        run_automatic(floor, station, job)
     elif worker is None:
-        floor.job_now(job, HELD, NO_WORKER)
-        insort(station.calling, (floor.now, job.number, job))
-        floor.calling[station.rank] = station
-        floor.calls |= 1 << station.rank
+        call(floor, station, job)
     else:
         perform(floor, job, worker)
+
+
+def _not_yet(floor: Floor, station: Station, job: Job, worker: Worker | None) -> None:
+    """The station stands still, a tool is missing, or there is nothing to do here."""
+    if worker is not None:
+        set_free(floor, worker)
+    if station.down:
+        stand_still(floor, station, job)
+    elif not station.tasks:
+        floor.tell(OPERATION_DONE, job)
+
+
+def stand_still(floor: Floor, station: Station, job: Job) -> None:
+    """The job waits on its server until the station goes on."""
+    floor.job_now(job, HELD, IS_DOWN)
+    station.standing.append(job)
+
+
+def call(floor: Floor, station: Station, job: Job) -> None:
+    """The job on its server calls for a worker, or for as many as ``job.wanted`` says."""
+    floor.job_now(job, HELD, NO_WORKER)
+    insort(station.calling, claim_of(job, floor.now))
+    floor.calling[station.rank] = station
+    floor.calls |= 1 << station.rank
+
+
+def quiet(floor: Floor, station: Station) -> None:
+    """Nobody calls at the station any more."""
+    if not station.calling and station.rank in floor.calling:
+        del floor.calling[station.rank]
+        floor.calls ^= 1 << station.rank
+
+
+def begin_setup(floor: Floor, job: Job, task: int) -> None:
+    """Set the server up for the job: a performance of a task of its own, after which the preparations go on."""
+    station: Station = job.station  # type: ignore[assignment]
+    job.setup_task = task
+    if station.down:
+        stand_still(floor, station, job)
+    elif station.setup_attended:
+        call(floor, station, job)
+    else:
+        run_automatic(floor, station, job)
+
+
+def go_on(floor: Floor, job: Job) -> None:
+    """A job that stood still goes on: with its set-up, or with the task it had come to."""
+    if job.setup_task < 0:
+        next_task(floor, job, None)
+    else:
+        begin_setup(floor, job, job.setup_task)
 
 
 def task_done(job: Job) -> bool:
@@ -53,39 +146,80 @@ def task_done(job: Job) -> bool:
 
 
 def perform(floor: Floor, job: Job, worker: Worker) -> None:
-    """The worker's next performance of the job's task begins now."""
+    """The worker's next performance of the job's task begins now, or the rest of one that was interrupted."""
     station: Station = job.station  # type: ignore[assignment]
-    task = station.tasks[job.task_position]
+    if station.down:
+        set_free(floor, worker)
+        stand_still(floor, station, job)
+        return
+    if station.act is not None and station.act(floor, job, worker):
+        return
+    task = station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
+    if job.rest_s and job.worker == worker.rank:
+        duration_s, k = job.rest_s, job.k
+    else:
+        duration_s, k = drawn_s(floor, station, worker, task)
+        if job.rest_s:
+            duration_s = on_grid(duration_s * (1.0 - job.progress_from))
+    begin(floor, job, worker.rank, task, k, duration_s)
+    worker.kind, worker.since_s = job.kind, floor.now
+    floor.at_end_of(duration_s, worker.stretch_over)
+
+
+def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> tuple[float, int]:
+    """The worker's own next duration of a task at a station, and its number k."""
     luck = worker.luck.get(task)
     if luck is None:
         luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
     k = worker.next_k[task]
     worker.next_k[task] = k + 1
-    duration_s = on_grid(next(luck) / worker.rating[station.rank])
-    _begin(floor, job, worker.rank, task, k, duration_s)
-    worker.kind, worker.since_s = WORK, floor.now
-    floor.at_end_of(duration_s, worker.stretch_over)
+    return on_grid(next(luck) / worker.rating[station.rank]), k
 
 
-def _run_automatic(floor: Floor, station: Station, job: Job) -> None:
-    task = station.tasks[job.task_position]
+def run_automatic(floor: Floor, station: Station, job: Job) -> None:
+    """The station does the job's task by itself, or the rest of a run that was interrupted."""
+    task = station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
+    if job.rest_s and job.worker < 0:
+        duration_s, k = job.rest_s, job.k
+    else:
+        duration_s, k = drawn_run_s(floor, station, task)
+    begin(floor, job, -1, task, k, duration_s)
+    rank = len(floor.workers) + station.rank
+    over = job.over = floor.at_end_of(duration_s, simpy.Event(floor.env))
+    over.callbacks.append(lambda _: floor.report(COMPLETION, rank, job.number, AUTOMATIC_DONE, job))
+
+
+def drawn_run_s(floor: Floor, station: Station, task: int) -> tuple[float, int]:
+    """The station's next duration of an automatic run of a task, and its number k."""
     luck = station.luck.get(task)
     if luck is None:
         luck = station.luck[task] = floor.draws.automatic_runs(task, station.rank)
     k = station.next_k.get(task, 0)
     station.next_k[task] = k + 1
-    duration_s = on_grid(next(luck))
-    _begin(floor, job, -1, task, k, duration_s)
-    rank = len(floor.workers) + station.rank
-    over = floor.at_end_of(duration_s, simpy.Event(floor.env))
-    over.callbacks.append(lambda _: floor.report(COMPLETION, rank, job.number, AUTOMATIC_DONE, job))
+    return on_grid(next(luck)), k
 
 
-def _begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
+def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: float) -> None:
+    """A performance, or the rest of one, begins: the job is in work from now on."""
     now = floor.now
     if now > job.since_s:
         floor.log_job(job)
-    job.kind, job.cause, job.since_s = WORK, 0, now
+    job.kind, job.cause, job.since_s = WORK if job.setup_task < 0 else SETUP, 0, now
+    if not job.rest_s or job.worker != worker or job.k != k:  # a rest by the same performer is the same performance
+        job.performance_id = floor.n_performances
+        floor.n_performances += 1
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
-    job.performance_id = floor.n_performances
-    floor.n_performances += 1
+    station: Station = job.station  # type: ignore[assignment]
+    if station.meter is not None:
+        station.meter.begin(floor)
+
+
+def ended(floor: Floor, job: Job) -> None:
+    """A performance of the job is over, to its end; its row is written when the job's state changes."""
+    if job.rest_s:
+        floor.log_job(job)  # the last piece, while it is known where it began
+        job.since_s = floor.now
+        job.progress_from = job.rest_s = 0.0
+    station: Station = job.station  # type: ignore[assignment]
+    if station.meter is not None:
+        station.meter.end(floor)

@@ -9,7 +9,7 @@ from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Worker
-from opsim.log import IDLE, JOB_BLOCKED, WAIT, WALK, WORK, pack_row
+from opsim.log import IDLE, JOB_BLOCKED, SETUP, WAIT, WALK, WORK, pack_row
 
 STRETCH_DONE = "stretch done"
 
@@ -18,14 +18,25 @@ def working_life(floor: Floor, worker: Worker) -> Generator[simpy.Event, None, N
     """The SimPy process of a worker: spend the stretch of time he was given, report it, wait for the next."""
     env, report, rank = floor.env, floor.report, worker.rank
     while True:
-        yield worker.stretch_over
+        try:
+            yield worker.stretch_over
+        except simpy.Interrupt:  # the stretch means nothing any more; another event is in its place
+            continue
         worker.stretch_over = simpy.Event(env)
         report(COMPLETION, rank, 0, STRETCH_DONE, worker)
 
 
+def stop(floor: Floor, worker: Worker) -> None:
+    """The stretch under way means nothing any more, and the worker is given another event to wait for."""
+    worker.stretch_over = simpy.Event(floor.env)
+    process = worker.process
+    if process is not None and process is not floor.env.active_process:
+        process.interrupt()
+
+
 def set_free(floor: Floor, worker: Worker) -> None:
     """The worker is idle from now on and can be sent."""
-    if worker.kind != WORK:  # work is written with the job
+    if worker.kind != WORK and worker.kind != SETUP:  # these are written with the job
         log_worker(floor, worker)
     worker.kind, worker.cause, worker.since_s = WAIT, IDLE, floor.now
     worker.job = worker.station = None
@@ -34,9 +45,14 @@ def set_free(floor: Floor, worker: Worker) -> None:
 
 def hold(floor: Floor, worker: Worker, job: Job) -> None:
     """The worker stays with a blocked job until it moves."""
-    log_worker(floor, worker)
-    worker.kind, worker.cause, worker.since_s = WAIT, JOB_BLOCKED, floor.now
+    wait_by(floor, worker, JOB_BLOCKED)
     job.held_by = worker
+
+
+def wait_by(floor: Floor, worker: Worker, cause: int) -> None:
+    """The worker stands by his job and waits, for a cause."""
+    log_worker(floor, worker)
+    worker.kind, worker.cause, worker.since_s = WAIT, cause, floor.now
 
 
 def walk(floor: Floor, worker: Worker, place: int, walk_s: float) -> None:
@@ -57,7 +73,7 @@ def log_worker(floor: Floor, worker: Worker) -> None:
     if job is None:
         source = number = product = operation = -1
     else:
-        source, number, product, operation = 0, job.number, job.product, job.operation_rank
+        source, number, product, operation = job.source, job.number, job.product, job.operation_rank
     floor.write(pack_row(
         kind, worker.since_s, now, worker.rank, -1 if station is None else station.rank,
         place_from, worker.place, source, number, product, operation,

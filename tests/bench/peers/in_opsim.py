@@ -41,7 +41,7 @@ def numbers(variant: str, until_s: float, seed: int, n: int) -> Given:
     plan = PLANS[variant](until_s, seed)
     draws = Draws(plan, 0)
     saturated = plan.release.kind == "saturated"
-    gaps = [] if saturated else [on_grid(gap_s) for gap_s in islice(draws.gaps(), n)]
+    gaps = [] if saturated else [on_grid(gap_s) for gap_s in islice(draws.gaps(0), n)]
     if variant == "pool":
         streams = [draws.durations(0, worker) for worker in range(len(plan.workers))]
     elif plan.workers:
@@ -49,7 +49,7 @@ def numbers(variant: str, until_s: float, seed: int, n: int) -> Given:
     else:
         streams = [draws.automatic_runs(rank, rank) for rank in range(len(plan.stations))]
     services = [[on_grid(s) for s in islice(stream, n)] for stream in streams]
-    return Given(gaps, [draws.product(number) for number in range(len(gaps))], services)
+    return Given(gaps, [*map(draws.products(0), range(len(gaps)))], services)
 
 
 def _mm1_manned(until_s, seed):

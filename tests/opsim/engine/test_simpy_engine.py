@@ -43,8 +43,8 @@ def test_one_server_is_lindleys_recursion_to_the_last_bit():
     finished = run_plan(p).of(FINISH)
     draws, arrive, leave = Draws(p, 0), 0.0, 0.0
     expected = []
-    for i in range(len(finished)):
-        arrive += on_grid(draws.gap_s(i))
+    for i, gap_s in zip(range(len(finished)), draws.gaps(0)):
+        arrive += on_grid(gap_s)
         leave = max(arrive, leave) + on_grid(draws.duration_s(0, 0, i))
         expected.append(leave)
     assert np.array_equal(finished["end_s"], expected)

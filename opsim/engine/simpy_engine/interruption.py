@@ -1,0 +1,72 @@
+"""Performances that are broken off, and stations that stand still: for breakdowns, maintenance, pre-emption."""
+
+from opsim.engine.simpy_engine.floor import Floor, cancel, progress
+from opsim.engine.simpy_engine.state import Job, Station
+from opsim.engine.simpy_engine.station import go_on, quiet, stand_still
+from opsim.engine.simpy_engine.worker import set_free, stop
+from opsim.log import HELD, IS_DOWN, SETUP, WORK
+
+
+def stop_station(floor: Floor, station: Station) -> None:
+    """The station stands still for one reason more: work is broken off, nobody is called, nothing begins.
+
+    The station needs ``seated``: a block that stops stations gives them an empty list when it is installed.
+    """
+    station.down += 1
+    if station.down > 1:
+        return
+    for _, _, _, job in station.calling:
+        job.wanted += len(job.team or ())
+        release_team(floor, job)
+        stand_still(floor, station, job)
+    station.calling.clear()
+    quiet(floor, station)
+    for job in station.seated or ():
+        if job.kind == WORK or job.kind == SETUP:
+            interrupt(floor, job, IS_DOWN)
+            station.standing.append(job)
+
+
+def start_station(floor: Floor, station: Station) -> None:
+    """One reason less to stand still; where it was the last one, jobs on servers go on."""
+    station.down -= 1
+    if station.down:
+        return
+    standing, station.standing = station.standing, []
+    for job in sorted(standing, key=lambda job: job.number):
+        go_on(floor, job)
+
+
+def interrupt(floor: Floor, job: Job, cause: int) -> None:
+    """The performance under way is broken off: the piece that was done is written, its workers are free, and the job is
+    held. ``job.rest_s`` and ``job.progress_from`` say what is left: the same worker goes on with it, another one takes
+    his own next time for the same share.
+    """
+    rest_s = job.since_s + job.duration_s - floor.now
+    done = progress(job, floor.now)
+    floor.job_now(job, HELD, cause)
+    job.rest_s, job.progress_from = rest_s, done
+    station: Station = job.station  # type: ignore[assignment]
+    if station.meter is not None:
+        station.meter.end(floor)
+    if job.over is not None:
+        cancel(job.over)
+        job.over = None
+    if job.worker >= 0:
+        worker = floor.workers[job.worker]
+        stop(floor, worker)
+        set_free(floor, worker)
+    release_team(floor, job)
+
+
+def forget_progress(job: Job) -> None:
+    """What was done of a broken-off performance is lost: it is done again from its beginning."""
+    job.rest_s = job.progress_from = 0.0
+
+
+def release_team(floor: Floor, job: Job) -> None:
+    """Workers who stand by a job, work on it together, or wait for others, are free."""
+    team, job.team = job.team, None
+    for worker in team or ():
+        stop(floor, worker)
+        set_free(floor, worker)
