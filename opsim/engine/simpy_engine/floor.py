@@ -136,9 +136,10 @@ class Floor:
         number, product, operation = job.number, job.product, job.operation_rank
         kind = job.kind
         if kind == WORK or kind == SETUP:  # noqa: SIM109  NOTE: twice as fast as a tuple
+            to = 1.0 if now - start_s == job.duration_s else progress(job, now)
             self.write(pack_row(
                 kind, start_s, now, job.worker, station, -1, -1, job.source, number, product, operation,
-                job.task, job.performance_id, job.k, job.progress_from, progress(job, now), 0.0, 0,
+                job.task, job.performance_id, job.k, job.progress_from, to, 0.0, 0,
             ))  # fmt: skip
         else:
             self.write(pack_row(

@@ -46,7 +46,11 @@ def operation_done(floor: Floor, job: Job) -> None:
 
 def move_on(floor: Floor, job: Job) -> None:
     """The job wants to go where its way leads, or is finished."""
-    go_to(floor, job, next_step(floor, job) if job.ahead is None else job.ahead.step)
+    if job.ahead is not None:
+        go_to(floor, job, job.ahead.step)
+        return
+    onward = job.plan.onward[job.step]
+    go_to(floor, job, onward[0][1] if len(onward) == 1 else next_step(floor, job))
 
 
 def go_to(floor: Floor, job: Job, step: int) -> None:
@@ -55,9 +59,15 @@ def go_to(floor: Floor, job: Job, step: int) -> None:
         leave_station(floor, job)
         leave_floor(floor, job, FINISH)
         return
-    floor.job_now(job, BLOCKED)
-    aim(floor, job, step)
-    want_in(floor, job)
+    now = floor.now
+    if now > job.since_s:
+        floor.log_job(job)
+    job.kind, job.cause, job.since_s = BLOCKED, 0, now
+    job.step = step
+    job.operation, job.operation_rank, gate = floor.steps[job.product][step]
+    job.gate = gate
+    insort(gate.claims, (-job.priority, now, job.number, job))
+    floor.stirred.add(gate)
 
 
 def aim(floor: Floor, job: Job, step: int) -> None:
@@ -120,7 +130,7 @@ def turn_away(floor: Floor) -> None:
 def want_in(floor: Floor, job: Job) -> None:
     """The job claims a place at its next operation."""
     gate = job.gate
-    insort(gate.claims, claim_of(job, job.since_s))
+    insort(gate.claims, (-job.priority, job.since_s, job.number, job))
     floor.stirred.add(gate)
 
 
@@ -176,7 +186,8 @@ def _next_has_room(floor: Floor, source: Source) -> bool:
 
 def _enter(floor: Floor, job: Job, gate: Gate) -> None:
     """There is room for the job: the place is its own from now on."""
-    station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
+    stations = gate.stations
+    station = stations[0] if len(stations) == 1 else _chosen(gate, job)
     station.n_inside += 1
     if gate.entered is not None:
         gate.entered(floor, job)
@@ -229,8 +240,12 @@ def leave_station(floor: Floor, job: Job) -> None:
             told(floor, job, station)
     if station.vacate is not None:
         station.vacate(floor, station, job)
-    else:
+    elif job.seat is not None or station.seated is not None:
         leave_server(floor, station, job)
+    else:  # NOTE: leave_server written out, once for each operation
+        station.free_servers += 1
+        if station.queue:
+            fill_servers(floor, station)
     for gate in station.wanted_by:
         if gate.claims:
             floor.stirred.add(gate)

@@ -20,12 +20,18 @@ def dispatch(floor: Floor) -> None:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)
-        changed = False
-        for given_out in floor.dispatchers:
-            changed |= given_out(floor)
+        changed = bool(floor.dispatchers) and _give_out(floor)
         if floor.free:
             send_workers(floor)
         if not floor.stirred and not changed:
             return
     names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)
     raise EndlessInstant(f"t = {floor.now} s: over {MOST_ROUNDS} rounds in one instant; still moving at: {names}")
+
+
+def _give_out(floor: Floor) -> bool:
+    """Tools, parts, vehicles and whatever else jobs wait for; True where somebody got something."""
+    changed = False
+    for given_out in floor.dispatchers:
+        changed |= given_out(floor)
+    return changed

@@ -7,7 +7,7 @@ import simpy
 from opsim.clock import on_grid
 from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import GOES_ON, Job, Station, Worker, claim_of
+from opsim.engine.simpy_engine.state import GOES_ON, Job, Station, Worker
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import HELD, IS_DOWN, NO_WORKER, SETUP, WORK
 
@@ -54,7 +54,10 @@ def seat(floor: Floor, station: Station, job: Job) -> None:
     if job.stage != GOES_ON:
         job.task_position = job.repeats_done = 0
     job.stage = 0
-    proceed(floor, job)
+    if station.stages:
+        proceed(floor, job)
+    else:
+        next_task(floor, job, None)
 
 
 def proceed(floor: Floor, job: Job, worker: Worker | None = None) -> None:
@@ -103,7 +106,7 @@ def stand_still(floor: Floor, station: Station, job: Job) -> None:
 def call(floor: Floor, station: Station, job: Job) -> None:
     """The job on its server calls for a worker, or for as many as ``job.wanted`` says."""
     floor.job_now(job, HELD, NO_WORKER)
-    insort(station.calling, claim_of(job, floor.now))
+    insort(station.calling, (-job.priority, floor.now, job.number, job))
     floor.calling[station.rank] = station
     floor.calls |= 1 << station.rank
 
