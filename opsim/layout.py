@@ -12,7 +12,7 @@ from opsim.names import natural_key
 if TYPE_CHECKING:
     import numpy as np
 
-    from opsim.scenario.schema import Layout
+    from opsim.scenario.schema import Layout, Path
 
 Point = tuple[float, float]
 Matrix = tuple[tuple[float, ...], ...]
@@ -46,7 +46,7 @@ class Ways:
 def ways(layout: Layout) -> Ways:
     """The shortest ways between all places of a layout, in natural order of their names."""
     if layout.distance == "paths":
-        return _along_paths(layout)
+        return _along(layout.places, layout.path_steps)
     names = tuple(sorted(layout.places, key=natural_key))
     return Ways(names, _as_the_crow_flies(tuple(layout.places[name] for name in names), layout.distance))
 
@@ -65,30 +65,37 @@ def _as_the_crow_flies(points: tuple[Point, ...], distance: str) -> Matrix:
     return tuple(tuple([abs(x - u) + abs(y - v) for u, v in points]) for x, y in points)
 
 
-def _along_paths(layout: Layout) -> Ways:
+def road_distances_m(layout: Layout, roads: list) -> Matrix:
+    """(P, P) metres between the places of a layout along given roads only (inf: none leads)."""
+    from opsim.scenario.schema.layout import steps_of
+
+    return _along(layout.places, steps_of(roads)).distance_m
+
+
+def _along(places: dict[str, Point], steps: list[Path]) -> Ways:
     """Dijkstra from every place; of equal ways the one by the places first in natural order."""
     from scipy.sparse.csgraph import dijkstra
 
-    names = tuple(sorted(layout.places, key=natural_key))
-    distance, before = dijkstra(_lengths(layout, names), return_predecessors=True)
+    names = tuple(sorted(places, key=natural_key))
+    distance, before = dijkstra(_lengths(places, steps, names), return_predecessors=True)
     return Ways(names, tuple(map(tuple, distance.tolist())), tuple(map(tuple, before.clip(min=-1).tolist())))
 
 
-def _lengths(layout: Layout, names: tuple[str, ...]) -> np.ndarray:
+def _lengths(places: dict[str, Point], steps: list[Path], names: tuple[str, ...]) -> np.ndarray:
     """Sparse (P, P): the length of the shortest direct path; 0 is a length too."""
     from scipy.sparse import csr_array
 
     rank = {name: number for number, name in enumerate(names)}
     shortest: dict[tuple[int, int], float] = {}
-    for path in layout.path_steps:
+    for path in steps:
         a, b = rank[path.start], rank[path.end]
-        straight_m = _euclidean_m(layout.places[path.start], layout.places[path.end])
+        straight_m = _euclidean_m(places[path.start], places[path.end])
         length_m = straight_m if path.length_m is None else path.length_m
-        for step in [(a, b)] if path.one_way else [(a, b), (b, a)]:
-            shortest[step] = min(length_m, shortest.get(step, inf))
-    steps = sorted(shortest)
-    rows, columns = [a for a, _ in steps], [b for _, b in steps]
-    return csr_array(([shortest[step] for step in steps], (rows, columns)), shape=(len(names), len(names)))
+        for pair in [(a, b)] if path.one_way else [(a, b), (b, a)]:
+            shortest[pair] = min(length_m, shortest.get(pair, inf))
+    pairs = sorted(shortest)
+    rows, columns = [a for a, _ in pairs], [b for _, b in pairs]
+    return csr_array(([shortest[pair] for pair in pairs], (rows, columns)), shape=(len(names), len(names)))
 
 
 def _euclidean_m(a: Point, b: Point) -> float:

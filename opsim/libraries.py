@@ -45,6 +45,14 @@ def library_people(path: Path) -> dict[str, tuple[str, ...]]:
     return {task: _people(plain) for task, plain in _tasks(path, status.st_mtime_ns, status.st_size).items()}
 
 
+def library_marks(path: Path) -> dict[str, tuple[str, ...]]:
+    """Names of the marks of each task, in their order, from the header alone. Raises LibraryMissing."""
+    status = path.stat()
+    return {
+        task: _listed(plain, "mark_names") for task, plain in _tasks(path, status.st_mtime_ns, status.st_size).items()
+    }
+
+
 def library_speeds(path: Path) -> dict[str, tuple[float, float]]:
     """The slowest and the fastest walking, in m/s, of each task that is walking, from the header alone.
 
@@ -105,7 +113,12 @@ def _tasks(path: Path, _changed: int, _size: int) -> dict[str, Any]:
 
 
 def _people(plain: Any) -> tuple[str, ...]:
-    named = plain.get("workers") if isinstance(plain, dict) else None
+    return _listed(plain, "workers")
+
+
+def _listed(plain: Any, key: str) -> tuple[str, ...]:
+    """The names that a task's header lists under a key."""
+    named = plain.get(key) if isinstance(plain, dict) else None
     return tuple(str(name) for name in named) if isinstance(named, list) else ()
 
 

@@ -61,15 +61,15 @@ def read_labels(path: Path, column: str) -> list[str]:
 
 def _table(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """The names of the columns, and the rows below them with their line numbers."""
-    rows = _rows(path)
+    rows = rows_of(path)
     heading = [cell.strip() for cell in rows[0][1]]
     if all(_number(cell) is not None for cell in heading):
         return [str(number + 1) for number in range(len(heading))], rows
     return heading, rows[1:]
 
 
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """The rows that are not blank, each with its line number from 1."""
+def rows_of(path: Path) -> list[tuple[int, list[str]]]:
+    """The rows of a CSV file that are not blank, each with its line number from 1. Raises RecordedError."""
     if path.stat().st_size > MOST_BYTES:
         raise RecordedError(f"{shown(path.name)} is larger than {MOST_BYTES / 1e6:.0f} MB")
     try:

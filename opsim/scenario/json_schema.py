@@ -21,6 +21,7 @@ Schema = dict[str, Any]
 FILE_NAME = "opsim.schema.json"
 DRAFT = "http://json-schema.org/draft-07/schema#"
 _NOISE = ("title", "quantity")
+_JOBS_COME_IN = {"anyOf": [{"required": ["release"]}, {"required": ["sources"]}]}
 
 
 def json_schema() -> Schema:
@@ -46,7 +47,7 @@ def json_schema() -> Schema:
         "properties": {**properties, **_of_the_file(properties)},
         "required": ["opsim"],
         "allOf": [
-            {"if": {"not": {"required": ["include"]}}, "then": {"required": required}},
+            {"if": {"not": {"required": ["include"]}}, "then": {"required": required, **_JOBS_COME_IN}},
             {
                 "if": {"not": {"anyOf": [{"required": ["include"]}, {"required": ["defaults"]}]}},
                 "then": {"properties": {section: {"additionalProperties": one} for section, one in needed.items()}},
@@ -64,7 +65,7 @@ def _plain(node: Any) -> Any:
     if "properties" in node:  # keys of a scenario, which may be called as words of the schema
         inside = {key: _plain(value) for key, value in node["properties"].items()}
         return {**_plain({key: value for key, value in node.items() if key != "properties"}), "properties": inside}
-    renamed = {"$defs": "definitions", "oneOf": "anyOf", "prefixItems": "items"}
+    renamed = {"$defs": "definitions", "oneOf": "anyOf", "prefixItems": "items", "ge": "minimum", "le": "maximum"}
     told = _told(_without_null(node))
     return {renamed.get(key, key): _plain(value) for key, value in told.items() if key not in _NOISE}
 
@@ -96,7 +97,7 @@ def _sharpen(properties: Schema, definitions: Schema) -> None:
     station, layout, product = (definitions[name]["properties"] for name in ("Station", "Layout", "Product"))
     definitions["Run"]["properties"]["start"]["pattern"] = "^\\s*[A-Za-z]+\\s+[0-9]{1,2}:[0-9]{2}\\s*$"
     buffer = station["buffer"]
-    whole = {"type": buffer.pop("type"), "minimum": buffer.pop("ge"), "maximum": buffer.pop("le")}
+    whole = {"type": buffer.pop("type"), "minimum": buffer.pop("minimum"), "maximum": buffer.pop("maximum")}
     buffer["anyOf"] = [whole, {"const": "unlimited"}]
     for people in ("Worker", "Workforce"):
         definitions[people]["properties"]["skills"]["additionalProperties"]["type"] = ["number", "string"]

@@ -7,8 +7,10 @@ from dataclasses import replace
 from opsim.scenario.positions import Node, entries
 from opsim.scenario.schema import KIND_KEYS
 
-_KEPT_OF_A_TASK = {"load", "repeat", "automatic", "like"}
+_KEPT_OF_A_TASK = {"load", "repeat", "automatic", "per", "like"}
 _WAYS = {"route", "routing"}
+_OF_A_KIND = {"every", "at_once", "file", "store", "level"}
+_MIX = {"products", "sequence"}
 
 
 def laid_over(lower: Node, upper: Node, path: tuple[str, ...] = ()) -> Node:
@@ -30,8 +32,10 @@ def without_outdated(path: tuple[str, ...], lower: dict[str, Node], upper: dict[
         return {key: node for key, node in lower.items() if key in _KEPT_OF_A_TASK}
     if section == "products" and len(path) == 2 and any(key in upper for key in _WAYS):
         return {key: node for key, node in lower.items() if key not in _WAYS}
-    if path == ("release",) and "kind" in upper:
-        return {key: node for key, node in lower.items() if key != "every"}
+    if path == ("release",) or (section == "sources" and len(path) == 2):
+        outdated = _OF_A_KIND if "kind" in upper else set()
+        outdated = outdated | (_MIX if any(key in upper for key in _MIX) else set())
+        return {key: node for key, node in lower.items() if key not in outdated}
     return lower
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
 
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import like
 from opsim.scenario.positions import Node, Part, child, problem
-from opsim.scenario.schema import BLOCKS, TASK_KINDS, Block, Path, Scenario, Step
+from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
+from opsim.scenario.schema.cycles import CYCLE_KINDS, SO_MANY
 from opsim.scenario.yaml_nodes import scalar
 
-_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>")
+_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", *CYCLE_KINDS, SO_MANY)
 _TYPES = {
     "string_type": "text",
     "int_type": "a whole number",
@@ -139,11 +140,34 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
-    if not loc:
-        return Scenario
-    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step}
-    kind = next((marked[part] for part in reversed(loc) if isinstance(part, str) and part in marked), None)
-    return kind or BLOCKS.get(str(loc[0]), Scenario)
+    """The block at a location, found by walking down the models; marks say which kind of a task, a path, a step."""
+    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step, **CYCLE_KINDS}
+    model: type[Block] = Scenario
+    parts = iter(loc)
+    for part in parts:
+        if isinstance(part, str) and part in marked:
+            model = marked[part]
+            continue
+        inside = _block_in(_annotations(model).get(str(part)))
+        if inside is not None:
+            model, n_names = inside
+            for _ in range(n_names):
+                next(parts, None)
+    return model
+
+
+def _annotations(model: type[Block]) -> dict[str, Any]:
+    """What stands at each key of a block, by its name in the file."""
+    return {field.alias or name: field.annotation for name, field in model.model_fields.items()}
+
+
+def _block_in(annotation: Any) -> tuple[type[Block], int] | None:
+    """The first block inside a type, and how many names or numbers lead from the key to it."""
+    if isinstance(annotation, type) and issubclass(annotation, Block):
+        return annotation, 0
+    found = next((one for inside in get_args(annotation) if (one := _block_in(inside)) is not None), None)
+    by_name = get_origin(annotation) in (dict, list)
+    return found if found is None else (found[0], found[1] + by_name)
 
 
 def _deepest(tree: Node, path: tuple[Part, ...]) -> Node:

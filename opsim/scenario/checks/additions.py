@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from opsim.problems import Problem, nearest, shown
+from opsim.scenario.checks.sequence import setup_times
 from opsim.scenario.checks.ways import visited
 from opsim.scenario.positions import Node, entries, items, problem, text
 
@@ -14,6 +15,7 @@ def addition_problems(tree: Node, base: Node) -> Iterator[Problem]:
     stations, workers = entries(tree, "stations").values(), entries(tree, "workers").values()
     places = {text(station, "at") for station in stations} | {text(worker, "home") for worker in workers}
     tasks = {task.value for station in stations for task in items(station, "tasks") if isinstance(task.value, str)}
+    tasks |= {time.value for station in stations for time in setup_times(station) if isinstance(time.value, str)}
     yield from _unused(tree, base, ("layout", "places"), places, "place")
     yield from _unused(tree, base, ("tasks",), tasks, "task")
     yield from _unused(tree, base, ("stations",), visited(tree), "station")

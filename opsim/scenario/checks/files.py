@@ -8,8 +8,10 @@ from pathlib import Path
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.recorded import RecordedError, read_times, resolve_times
+from opsim.scenario.checks.failures import stop_times
 from opsim.scenario.checks.references import emulators
-from opsim.scenario.positions import Node, child, entries, problem, text
+from opsim.scenario.checks.releases import releases
+from opsim.scenario.positions import Node, Part, child, entries, problem, text
 
 
 def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -29,12 +31,15 @@ def file_problems(tree: Node, folder: Path) -> Iterator[Problem]:
             yield problem(model.place, path, f"no task {shown(inside)} in library {shown(library)}", hint)
     for name, task in entries(tree, "tasks").items():
         yield from _recorded(task, ("tasks", name), folder)
-    gap = child(tree, "release", "every")
-    if gap is not None:
-        yield from _recorded(gap, ("release", "every"), folder)
+    for path, release in releases(tree).items():
+        gap = child(release, "every")
+        if gap is not None:
+            yield from _recorded(gap, (*path, "every"), folder)
+    for path, time in stop_times(tree):
+        yield from _recorded(time, path, folder)
 
 
-def _recorded(model: Node, path: tuple[str, ...], folder: Path) -> Iterator[Problem]:
+def _recorded(model: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Problem]:
     """What is wrong with a file of recorded times."""
     file = text(model, "recorded")
     if file is None:

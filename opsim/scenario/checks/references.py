@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.ways import onward
+from opsim.scenario.checks.ways import onward, points
 from opsim.scenario.positions import Node, Part, child, entries, items, problem, text
 from opsim.scenario.schema.routing import OUT, START
 
@@ -14,42 +14,42 @@ def reference_problems(tree: Node) -> Iterator[Problem]:
     """Places, tasks, stations and libraries that are named and do not exist."""
     places, tasks, stations = entries(tree, "layout", "places"), entries(tree, "tasks"), entries(tree, "stations")
     for name, station in stations.items():
-        yield from _named(child(station, "at"), places, "place", ("stations", name, "at"))
+        yield from named(child(station, "at"), places, "place", ("stations", name, "at"))
         for number, task in enumerate(items(station, "tasks")):
-            yield from _named(task, tasks, "task", ("stations", name, "tasks", number))
-    yield from _paths(tree, places)
+            yield from named(task, tasks, "task", ("stations", name, "tasks", number))
+    yield from path_problems(items(tree, "layout", "paths"), places, ("layout", "paths"))
+    steps = points(tree)
     for name, product in entries(tree, "products").items():
         for number, step in enumerate(items(product, "route")):
             path = ("products", name, "route", number)
             for one in [step, *items(step)]:
-                yield from _named(one, stations, "station", path)
-        yield from _routing(product, stations, ("products", name, "routing"))
+                yield from named(one, steps, "station", path)
+        yield from _routing(product, steps, ("products", name, "routing"))
     for name, worker in entries(tree, "workers").items():
-        yield from _named(child(worker, "home"), places, "place", ("workers", name, "home"))
+        yield from named(child(worker, "home"), places, "place", ("workers", name, "home"))
         for skill, rating in entries(worker, "skills").items():
-            named = Node(skill, rating.name_place)
-            yield from _named(named, stations, "station", ("workers", name, "skills", skill))
+            yield from named(Node(skill, rating.name_place), stations, "station", ("workers", name, "skills", skill))
         for number, station in enumerate(items(worker, "patrol")):
-            yield from _named(station, stations, "station", ("workers", name, "patrol", number))
+            yield from named(station, stations, "station", ("workers", name, "patrol", number))
     yield from _libraries(tree)
 
 
-def _paths(tree: Node, places: Collection[str]) -> Iterator[Problem]:
-    for number, way in enumerate(items(tree, "layout", "paths")):
-        path = ("layout", "paths", number)
+def path_problems(ways: Iterable[Node], places: Collection[str], path: tuple[Part, ...]) -> Iterator[Problem]:
+    """Places that paths or roads name and that do not exist."""
+    for number, way in enumerate(ways):
         for place, node in enumerate(items(way)):
-            yield from _named(node, places, "place", (*path, place))
+            yield from named(node, places, "place", (*path, number, place))
         for end in ("from", "to"):
-            yield from _named(child(way, end), places, "place", (*path, end))
+            yield from named(child(way, end), places, "place", (*path, number, end))
 
 
 def _routing(product: Node, stations: Collection[str], path: tuple[Part, ...]) -> Iterator[Problem]:
     """Stations that a routing leads to; a row of its own is named where jobs are sent to it."""
     known = {*stations, START, OUT}
     for name, row in entries(product, "routing").items():
-        yield from _named(Node(name, row.name_place), known, "station", (*path, name))
+        yield from named(Node(name, row.name_place), known, "station", (*path, name))
         for _, node in onward(row):
-            yield from _named(node, known, "station", (*path, name))
+            yield from named(node, known, "station", (*path, name))
 
 
 def _libraries(tree: Node) -> Iterator[Problem]:
@@ -91,7 +91,7 @@ def motion_emulators(tree: Node, name: str, task: Node) -> Iterator[tuple[tuple[
             yield (*path, "walk"), walking, motion.value["walk"]
 
 
-def _named(node: Node | None, known: Collection[str], what: str, path: tuple[Part, ...]) -> Iterator[Problem]:
+def named(node: Node | None, known: Collection[str], what: str, path: tuple[Part, ...]) -> Iterator[Problem]:
     """The problem of one name, where it is a text and not known."""
     if node is not None and isinstance(node.value, str) and node.value not in known:
         hint = did_you_mean(node.value, known, otherwise=f"known {what}s") or f"there are no {what}s yet"

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator
 
 from opsim.graph import reached, reverse
 from opsim.problems import Problem, shown
-from opsim.scenario.checks.ways import onward
+from opsim.scenario.checks.ways import onward, points, rework_at
 from opsim.scenario.positions import Node, child, entries, problem
 from opsim.scenario.schema.routing import OUT, START
 
@@ -17,12 +17,12 @@ def routing_problems(tree: Node) -> Iterator[Problem]:
         routing = child(product, "routing")
         if routing is not None and isinstance(routing.value, dict):
             yield from _words_kept(tree, routing, ("products", name, "routing"))
-            yield from _structure(routing, entries(tree, "stations"), ("products", name, "routing"))
+            yield from _structure(routing, points(tree), entries(tree, "stores"), ("products", name, "routing"))
 
 
 def _words_kept(tree: Node, routing: Node, path: tuple[str, ...]) -> Iterator[Problem]:
     for word in (START, OUT):
-        station = entries(tree, "stations").get(word)
+        station = points(tree).get(word)
         if station is not None:
             found = f"no station can be called {word!r} where a product has a routing"
             yield problem(station.name_place, ("stations", word), found, f"{word!r} has a meaning there")
@@ -31,17 +31,24 @@ def _words_kept(tree: Node, routing: Node, path: tuple[str, ...]) -> Iterator[Pr
         yield problem(place, (*path, OUT), f"a job that is {OUT!r} is done; nothing comes after", "remove the line")
 
 
-def _structure(routing: Node, stations: Collection[str], path: tuple[str, ...]) -> Iterator[Problem]:
-    rows = {name: row for name, row in entries(routing).items() if name != OUT}
+def _structure(
+    routing: Node, stations: dict[str, Node], stores: Collection[str], path: tuple[str, ...]
+) -> Iterator[Problem]:
+    rows = {name: row for name, row in entries(routing).items() if name != OUT and name not in stores}
     if START not in rows:
         first = next(iter(rows), "cut")
         yield problem(routing.name_place, path, "nothing says where a job begins", f"add e.g. 'start: {first}'")
         return
-    yield from _targets(rows, stations, path)
+    yield from _targets(rows, set(stations).difference(stores), path)
     graph = {name: [other for other, _ in onward(row)] for name, row in rows.items()}
     possible = {name: [other for other, _ in onward(row) if _taken(row, other)] for name, row in rows.items()}
-    there, home = reached(graph, [START]), reached(reverse(possible), [OUT])
-    dead_end = any(other not in rows and other != OUT for others in graph.values() for other in others)
+    for name, station in stations.items():
+        rework = rework_at(station)
+        if rework is not None and name in graph and rework.value in rows:
+            graph[name].append(rework.value)
+    there, home = reached(graph, [START]), reached(reverse(possible), [OUT, *stores])
+    ends = {OUT, *rows, *stores}
+    dead_end = any(other not in ends for others in graph.values() for other in others)
     for name, row in rows.items():
         if name not in there:
             yield problem(row.name_place, (*path, name), f"no way leads to {shown(name)}", "is it missing elsewhere?")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from opsim.problems import Problem, shown
+from opsim.scenario.checks.sequence import setup_times
 from opsim.scenario.checks.ways import visited
 from opsim.scenario.positions import Node, Place, child, entries, items, problem, text
 
@@ -17,9 +18,9 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
     rounds = {stop for stop in stops if isinstance(stop, str)}
     on_a_route = visited(tree)
     for name, station in entries(tree, "stations").items():
-        manual = _manual_task(tree, station)
+        manual = _manual(tree, station)
         if manual is not None and name in on_a_route and name not in skilled:
-            found = f"task {shown(manual)} needs a worker, and no worker has the skill {shown(name)}"
+            found = f"{manual} needs a worker, and no worker has the skill {shown(name)}"
             workers = entries(tree, "workers")
             first = next(iter(workers), None)
             hint = (
@@ -27,7 +28,7 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
             )
             yield problem(station.name_place, ("stations", name), found, hint)
         elif manual is not None and name in on_a_route and patrols and rounds and name not in rounds:
-            found = f"task {shown(manual)} needs a worker, and nobody goes round by {shown(name)}"
+            found = f"{manual} needs a worker, and nobody goes round by {shown(name)}"
             yield problem(station.name_place, ("stations", name), found, f"add {name} to the patrol of a worker")
 
 
@@ -59,11 +60,22 @@ def _blocks(tree: Node) -> dict[str, Node]:
     return {name: workers[name] for name in first.values()}
 
 
-def _manual_task(tree: Node, station: Node) -> str | None:
-    """The first task of a station that is not automatic, or None."""
+def _manual(tree: Node, station: Node) -> str | None:
+    """The first work at a station that is not automatic, in words: a task, or its set-up; or None."""
     for task in items(station, "tasks"):
-        node = entries(tree, "tasks").get(task.value) if isinstance(task.value, str) else None
-        automatic = child(node, "automatic")
-        if node is not None and (automatic is None or automatic.value is not True):
-            return task.value
-    return None
+        if isinstance(task.value, str) and _by_hand(tree, task.value):
+            return f"task {shown(task.value)}"
+    attended = child(station, "setup", "attended")
+    if attended is not None and attended.value is False:
+        return None
+    by_hand = any(
+        isinstance(time.value, str) and (time.value not in entries(tree, "tasks") or _by_hand(tree, time.value))
+        for time in setup_times(station)
+    )
+    return "the set-up" if by_hand else None
+
+
+def _by_hand(tree: Node, task: str) -> bool:
+    node = entries(tree, "tasks").get(task)
+    automatic = child(node, "automatic")
+    return node is not None and (automatic is None or automatic.value is not True)

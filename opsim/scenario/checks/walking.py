@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from opsim.graph import Graph, reached, reverse, rings
 from opsim.problems import Problem, shown
-from opsim.scenario.checks.ways import one_of, onward
+from opsim.scenario.checks.ways import one_of, onward, rework_at, stations_of
 from opsim.scenario.positions import Node, child, entries, items, problem, text
 from opsim.scenario.schema.routing import OUT
 
@@ -17,7 +17,7 @@ def walking_problems(tree: Node) -> Iterator[Problem]:
     paths = child(tree, "layout", "paths")
     if text(tree, "layout", "distance") != "paths" or paths is None:
         return
-    graph = _graph(paths)
+    graph = graph_of(paths)
     back = reverse(graph)
     ring_of = {place: ring for ring in rings(graph) for place in ring}
     said: set[tuple[str, str]] = set()
@@ -66,6 +66,17 @@ def _carried_to(tree: Node, skilled: Collection[str]) -> Iterator[str]:
         for here_name, row in entries(product, "routing").items():
             if here_name in skilled:
                 yield from (name for name, _ in onward(row) if name != OUT)
+        yield from _reworked(tree, product, skilled)
+
+
+def _reworked(tree: Node, product: Node, skilled: Collection[str]) -> Iterator[str]:
+    """Where jobs are carried for rework, and back."""
+    for name in stations_of(product):
+        rework = rework_at(entries(tree, "stations").get(name))
+        if rework is not None and name in skilled:
+            yield rework.value
+        if rework is not None and rework.value in skilled:
+            yield name
 
 
 def _hint(graph: Graph, back: Graph, *places: str) -> str:
@@ -73,7 +84,7 @@ def _hint(graph: Graph, back: Graph, *places: str) -> str:
     return "is a path missing, or 'one_way' too much?" if cut_off is None else f"add e.g. [{cut_off}, ...]"
 
 
-def _graph(paths: Node) -> dict[str, set[str]]:
+def graph_of(paths: Node) -> dict[str, set[str]]:
     """Where one step leads from each place."""
     graph: dict[str, set[str]] = {}
     for way in items(paths):

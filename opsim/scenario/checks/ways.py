@@ -7,10 +7,20 @@ from collections.abc import Iterator
 from opsim.scenario.positions import Node, child, entries, items
 from opsim.scenario.schema.routing import OUT, START
 
+POINTS = ("stations", "stores", "conveyors")
+
 
 def visited(tree: Node) -> set[str]:
-    """The stations that some product goes to."""
-    return {name for product in entries(tree, "products").values() for name in stations_of(product)}
+    """The stations that some product goes to, if only for rework."""
+    on_a_way = {name for product in entries(tree, "products").values() for name in stations_of(product)}
+    reworks = (rework_at(station) for name, station in entries(tree, "stations").items() if name in on_a_way)
+    return on_a_way | {rework.value for rework in reworks if rework is not None}
+
+
+def rework_at(station: Node | None) -> Node | None:
+    """Where the rework of a station's inspection is named, or None."""
+    rework = child(station, "inspect", "then", "rework")
+    return rework if rework is not None and isinstance(rework.value, str) else None
 
 
 def stations_of(product: Node) -> set[str]:
@@ -41,3 +51,8 @@ def onward(row: Node) -> Iterator[tuple[str, Node]]:
         yield row.value, row
     for name, probability in entries(row).items():
         yield name, Node(name, probability.name_place)
+
+
+def points(tree: Node) -> dict[str, Node]:
+    """The points of the flow: stations, stores and conveyors, which share their names."""
+    return {name: node for section in POINTS for name, node in entries(tree, section).items()}

@@ -53,6 +53,24 @@ class Erlang(TaskBlock):
         return f"erlang of {self.k}, mean {self.mean_s:g} s"
 
 
+class Geometric(TaskBlock):
+    """A whole number of steps, with the same chance to end after each: the exponential of a clock that ticks."""
+
+    dist: Literal["geometric"]
+    mean_s: Seconds = MEAN
+    step_s: Seconds = Field(alias="step", description="time of one step, at most the mean", examples=["1 s"])
+
+    @property
+    def words(self) -> str:
+        return f"geometric, mean {self.mean_s:g} s in steps of {self.step_s:g} s"
+
+    @model_validator(mode="after")
+    def _at_least_one_step(self) -> Geometric:
+        if self.step_s > self.mean_s:
+            raise plain_error(f"a step ({self.step_s:g} s) is longer than the mean ({self.mean_s:g} s)", on="step")
+        return self
+
+
 class Shared(TaskBlock):
     """A distribution by mean and cv; a share of its spread may lie between workers."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
@@ -47,6 +48,17 @@ Way = Annotated[
 ]
 
 
+def steps_of(ways: Iterable[list[str] | Path]) -> list[Path]:
+    """Every path between two neighbours; a list of places is one for each pair that follow each other."""
+    steps: list[Path] = []
+    for way in ways:
+        if isinstance(way, Path):
+            steps.append(way)
+        else:
+            steps += [Path.model_validate({"from": a, "to": b}) for a, b in pairwise(way)]
+    return steps
+
+
 class Layout(Block):
     """Where things are, and how a way between two places is measured."""
 
@@ -73,11 +85,5 @@ class Layout(Block):
 
     @property
     def path_steps(self) -> list[Path]:
-        """Every path between two neighbours; a list of places is one for each pair that follow each other."""
-        steps: list[Path] = []
-        for way in self.paths or ():
-            if isinstance(way, Path):
-                steps.append(way)
-            else:
-                steps += [Path.model_validate({"from": a, "to": b}) for a, b in pairwise(way)]
-        return steps
+        """Every path between two neighbours."""
+        return steps_of(self.paths or ())

@@ -2,33 +2,79 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from opsim.problems import shown
-from opsim.scenario.fields import NameText, Whole, plain_error
+from opsim.scenario.fields import MostLoad, Name, NameText, Seconds, Whole, plain_error
+from opsim.scenario.schema.assembly import MOST_PIECES, Batch, PiecesByStation, unlimited
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.failures import Breakdown, Maintenance
+from opsim.scenario.schema.quality import Inspect, LessThanAll, Yield, one_word_on_scrap
 from opsim.scenario.schema.routing import Onward
-
-
-def _unlimited(value: object) -> object:
-    if isinstance(value, str):
-        if value != "unlimited":
-            raise plain_error(f"expected a whole number or unlimited, found {shown(value)}")
-        return None
-    return value
+from opsim.scenario.schema.sequence import Blocking, Setup
+from opsim.scenario.schema.tools import Needs
 
 
 class Station(Block):
     """A place with servers and a buffer in front, where tasks are done in order."""
 
     at: NameText = Field(description="a place of the layout", examples=["bench"])
-    tasks: list[NameText] = Field(min_length=1, description="done here, in this order", examples=["[label]"])
+    tasks: list[NameText] = Field(description="done here, in this order; [] where jobs only pass", examples=["[label]"])
     servers: Whole = Field(1, ge=1, le=100_000, description="jobs in work at once")
-    buffer: Annotated[Whole | None, BeforeValidator(_unlimited)] = Field(
+    buffer: Annotated[Whole | None, BeforeValidator(unlimited)] = Field(
         None, ge=0, le=1_000_000_000, description="jobs that can wait in front; absent or 'unlimited': no limit"
     )
+    buffer_after: Whole = Field(
+        0, ge=0, le=1_000_000_000, description="finished jobs that can wait here for room downstream, off the servers"
+    )
+    blocking: Blocking | None = Field(
+        None,
+        description="after: a finished job keeps its server until there is room downstream; before: a job is begun "
+        "only when its place downstream is sure; absent: as flow.blocking",
+    )
+    dispatch: NameText | None = Field(None, description="which waiting job is next; absent: as flow.dispatch")
+    preempt: Literal["resume", "restart"] | None = Field(
+        None,
+        description="a job of higher priority takes the server of a lower one, which goes on where it was later "
+        "(resume) or begins the interrupted task anew (restart); absent: what was begun is finished",
+    )
+    setup: Setup | None = Field(
+        None, description="what changing over costs", examples=["{otherwise: 10 min, by: family}"]
+    )
+    batch: Batch | None = Field(
+        None, description="several jobs at once on a server, the tasks done once for all", examples=["{size: 4}"]
+    )
+    breakdowns: dict[Name, Breakdown] = Field(
+        {},
+        description="what stops the station by chance, by name; one at a time",
+        examples=[
+            "{jam: {every: {dist: exponential, mean: 4 h}, by: busy, repair: {dist: exponential, mean: 10 min}}}"
+        ],
+    )
+    maintenance: dict[Name, Maintenance] = Field(
+        {},
+        description="what stops the station as planned, by name",
+        examples=["{oiling: {every: 8 h, lasts: 20 min, team: mechanics}}"],
+    )
+    needs: Needs = Field(
+        {}, description="so many of each tool, all at once, from the server until the job leaves the station"
+    )
+    yield_share: Yield | None = Field(
+        None, alias="yield", description="share of jobs that the work here leaves without a defect; absent: all"
+    )
+    scrap_share: LessThanAll | None = Field(
+        None, alias="scrap", description="share of jobs that the work here spoils, each seen at once and scrapped"
+    )
+    inspect: Inspect | None = Field(
+        None, description="a look at each job when its work here is done", examples=["{finds: 0.98, then: scrap}"]
+    )
+
+    @model_validator(mode="after")
+    def _one_word_on_scrap(self) -> Station:
+        one_word_on_scrap(self)
+        return self
 
 
 def _steps(value: object) -> object:
@@ -57,6 +103,31 @@ class Product(Block):
         examples=["{start: cut, cut: {drill: 0.9, out: 0.1}, drill: out}"],
     )
 
+    lot: Whole = Field(
+        1, ge=1, le=MOST_PIECES, description="units in a job; tasks are done for each unit, those 'per: lot' once"
+    )
+    family: NameText | None = Field(
+        None, description="products of one family go together (batches, set-ups); absent: by itself", examples=["big"]
+    )
+    parts: PiecesByStation = Field(
+        {},
+        description="bill of material: pieces for one unit, by station and product, taken together before the first "
+        "task there from the stores where those products end, as soon as all are there",
+        examples=["{assemble: {wheel: 2, frame: 1}}"],
+    )
+    split: PiecesByStation = Field(
+        {},
+        description="by station: what one unit becomes when all is done there; the pieces go the ways of their "
+        "products",
+        examples=["{saw: {board: 4}}"],
+    )
+    mass_kg: MostLoad | None = Field(
+        None, alias="mass", description="of one piece, for who carries it; absent: nobody's limit", examples=["8 kg"]
+    )
+    priority: Whole = Field(0, ge=-1000, le=1000, description="jobs of a higher one go first, before any dispatch rule")
+    due_s: Seconds | None = Field(
+        None, alias="due", description="from the arrival of a job to its due date", examples=["4 h"]
+    )
     carried: bool = Field(
         False,
         description="who did the last task at a station carries the job to the next, and waits while that is full",

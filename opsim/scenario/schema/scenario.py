@@ -9,12 +9,19 @@ from pydantic import BeforeValidator, Field
 from opsim.kpi.names import KPIS, USUAL
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Name, Rating, plain_error
+from opsim.scenario.schema.assembly import Store
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.cards import Card
+from opsim.scenario.schema.conveyors import Conveyor
+from opsim.scenario.schema.failures import RepairTeam
 from opsim.scenario.schema.layout import Layout
 from opsim.scenario.schema.material import Product, Station
 from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
+from opsim.scenario.schema.sequence import Flow
 from opsim.scenario.schema.task_kinds import Task
+from opsim.scenario.schema.tools import Tool
+from opsim.scenario.schema.transporters import Transporter
 from opsim.scenario.schema.walking import Walking
 from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 
@@ -51,10 +58,39 @@ class Scenario(Block):
     stations: dict[Name, Station] = Field(
         min_length=1, description="where tasks are done", examples=["{pack: {at: bench, tasks: [label]}}"]
     )
+    stores: dict[Name, Store] = Field(
+        {},
+        description="where products wait until they are taken as parts, by name",
+        examples=["{wheels: {at: rack, capacity: 20}}"],
+    )
+    conveyors: dict[Name, Conveyor] = Field(
+        {},
+        description="belts, steps of routes like stations",
+        examples=["{belt: {from: press, to: pack, speed: 0.2 m/s, pitch: 0.5 m}}"],
+    )
+    transporters: dict[Name, Transporter] = Field(
+        {},
+        description="vehicles that bring jobs from station to station",
+        examples=["{forklift: {at: dock, speed: 2 m/s, legs: [[drill, paint]]}}"],
+    )
     products: dict[Name, Product] = Field(
         min_length=1, description="what is made, and its way", examples=["{carton: {route: [pack]}}"]
     )
-    release: Release = Field(description="how jobs come in", examples=["{kind: poisson, every: 55 s}"])
+    release: Release | None = Field(None, description="how jobs come in", examples=["{kind: poisson, every: 55 s}"])
+    sources: dict[Name, Release] = Field(
+        {},
+        description="several ways in which jobs come in, by name, instead of one release",
+        examples=["{calls: {kind: poisson, every: 55 s, products: [a]}}"],
+    )
+    cards: dict[Name, Card] = Field(
+        {}, description="loops of cards (CONWIP, kanban, POLCA) by name", examples=["{conwip: {n: 8}}"]
+    )
+    tools: dict[Name, Tool] = Field(
+        {}, description="tools and fixtures that stations and tasks share, by name", examples=["{torque_gun: {n: 2}}"]
+    )
+    repair_teams: dict[Name, RepairTeam] = Field(
+        {}, description="teams that repair and maintain stations, by name", examples=["{mechanics: {n: 1}}"]
+    )
     skill_levels: dict[Name, Rating] = Field(
         {}, description="ratings by name, for the skills of workers", examples=["{learner: 0.8, expert: 1.15}"]
     )
@@ -63,6 +99,7 @@ class Scenario(Block):
     walking: Walking | None = Field(
         None, description="how people walk between places", examples=["{emulator: walking/walk}"]
     )
+    flow: Flow = Field(Flow.model_validate({}), description="the rules by which jobs go on, of all stations")
     allocation: Allocation = Field(Allocation.model_validate({}), description="the rules by which workers choose")
     outputs: list[Annotated[str, BeforeValidator(_known_output)]] = Field(
         list(USUAL), description="the figures wanted, first those that matter most"
@@ -73,10 +110,16 @@ BLOCKS: dict[str, type[Block]] = {
     "run": Run,
     "layout": Layout,
     "stations": Station,
+    "stores": Store,
+    "conveyors": Conveyor,
+    "transporters": Transporter,
     "products": Product,
     "release": Release,
+    "tools": Tool,
+    "repair_teams": RepairTeam,
     "workforce": Workforce,
     "workers": Worker,
     "walking": Walking,
+    "flow": Flow,
     "allocation": Allocation,
 }

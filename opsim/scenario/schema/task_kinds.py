@@ -9,7 +9,15 @@ from pydantic import BeforeValidator, Discriminator, Tag
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import plain_error
 from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, Uniform
-from opsim.scenario.schema.distributions import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Weibull
+from opsim.scenario.schema.distributions import (
+    Erlang,
+    Exponential,
+    Gamma,
+    Geometric,
+    Hyperexponential,
+    Lognormal,
+    Weibull,
+)
 from opsim.scenario.schema.motions import Motions
 from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
 
@@ -19,6 +27,7 @@ DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
     "gamma": Gamma,
     "uniform": Uniform,
     "erlang": Erlang,
+    "geometric": Geometric,
     "weibull": Weibull,
     "triangular": Triangular,
     "normal": Normal,
@@ -71,6 +80,7 @@ Task = Annotated[
     | Annotated[Gamma, Tag("<gamma>")]
     | Annotated[Uniform, Tag("<uniform>")]
     | Annotated[Erlang, Tag("<erlang>")]
+    | Annotated[Geometric, Tag("<geometric>")]
     | Annotated[Weibull, Tag("<weibull>")]
     | Annotated[Triangular, Tag("<triangular>")]
     | Annotated[Normal, Tag("<normal>")]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from opsim.scenario.fields import Load, Seconds, Whole
+from opsim.scenario.fields import Load, Seconds, Whole, plain_error
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.tools import ATTENDED, Automatic, Hold, Needs
 
 
 class TaskBlock(Block):
@@ -15,12 +16,43 @@ class TaskBlock(Block):
 
     load_kg: Load | None = Field(None, alias="load", description="mass in the hands", examples=["6 kg"])
     repeat: Whole = Field(1, ge=1, le=10_000, description="how often it is done, each with a draw of its own")
-    automatic: bool = Field(False, description="true: the station does it alone, no worker")
+    automatic: Automatic = Field(
+        False,
+        description="true: the station does it alone, no worker; attended: the station's time, and a worker stays",
+    )
+    team: Whole = Field(
+        1, ge=1, le=100, description="workers at once; none is sent before so many are free, the slowest ends it"
+    )
+    needs: Needs = Field({}, description="so many of each tool, from when its worker sets out until the task is done")
+    hold: Hold | None = Field(
+        None,
+        description="a tool in the hands from one moment of each performance to another",
+        examples=["{tool: torque_gun, from: grasp, to: release}"],
+    )
+    per: Literal["unit", "lot"] = Field("unit", description="done for each unit of a lot, or once for the lot")
 
     @property
     def words(self) -> str:
         """Where the time comes from, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
         raise NotImplementedError
+
+    @model_validator(mode="after")
+    def _hands(self) -> TaskBlock:
+        """Who works, and with what in his hands."""
+        if self.team > 1 and self.automatic is True:
+            raise plain_error(
+                "nobody is needed where the station works alone", "write 'automatic: attended'", on="team"
+            )
+        if self.team > 1 and self.hold is not None:
+            hint = "take 'needs' for what the team works with, or make it a task of its own"
+            raise plain_error("a tool is held by one worker, and this task is done by a team", hint, on="hold")
+        if self.hold is not None and self.automatic is True:
+            hint = "take 'needs' for what the run takes as a whole"
+            raise plain_error("nobody holds a tool where the station works alone", hint, on="hold")
+        if self.automatic == ATTENDED and any(hasattr(self, kind) for kind in ("emulator", "motions", "plugin")):
+            hint = "give the station's time, such as 'fixed: 40 s'"
+            raise plain_error("a movement takes its worker's time, not the station's", hint, on="automatic")
+        return self
 
 
 class Emulated(TaskBlock):

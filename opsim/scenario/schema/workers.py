@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from opsim.scenario.fields import Age, Height, Mass, Name, NameText, Pace, Rating, Speed, Whole
+from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Rating, Speed, Whole
 from opsim.scenario.schema.base import Block
 
 MOST_WORKERS = 500
@@ -27,6 +27,12 @@ class Person(Block):
         examples=[1.1],
     )
     walk_m_per_s: Speed = Field(1.2, alias="walk", description="walking speed", examples=["1.2 m/s"])
+    most_load_kg: MostLoad | None = Field(
+        None,
+        alias="most_load",
+        description="what the worker carries at once from station to station; more needs several walks",
+        examples=["15 kg"],
+    )
     skills: dict[str, Rating] = Field(
         {},
         description="rating by station, a number (1.1: a tenth faster) or the name of a skill level",

@@ -1,0 +1,104 @@
+"""What comes in: one release or several sources, of products that there are, by files that can be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from opsim.orders import read_orders, read_sequence
+from opsim.problems import Problem, did_you_mean, nearest, shown
+from opsim.recorded import RecordedError, resolve_times
+from opsim.scenario.checks import releases as found
+from opsim.scenario.checks.ways import stations_of
+from opsim.scenario.positions import Node, Place, child, entries, items, problem, text
+from opsim.scenario.schema import Scenario
+
+
+def source_problems(tree: Node, folder: Path) -> Iterator[Problem]:
+    """Everything wrong with what a release, or each of the sources, says of other parts of the file."""
+    yield from _one_way(tree)
+    for path, release in found.releases(tree).items():
+        yield from _products(tree, release, path)
+        yield from _files(tree, release, path, folder)
+        if text(release, "kind") == "base_stock":
+            yield from _store(tree, release, path)
+
+
+def _one_way(tree: Node) -> Iterator[Problem]:
+    """Either a release or sources."""
+    release, sources = child(tree, "release"), child(tree, "sources")
+    if release is not None and sources is not None:
+        hint = "write the release as one of the sources"
+        yield problem(sources.name_place, ("sources",), "jobs come in by release and by sources", hint)
+    unsaid = release is None and (sources is None or sources.value == {})
+    mistyped = any(nearest(key, ("release", "sources")) for key in entries(tree) if key not in Scenario.model_fields)
+    if unsaid and not mistyped:
+        place = tree.place if sources is None else sources.name_place
+        yield problem(place, "", "nothing says how jobs come in", "add e.g. 'release: {kind: poisson, every: 55 s}'")
+
+
+def _products(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
+    products = entries(tree, "products")
+    named: list[tuple[str, Place, found.Path]] = [
+        (name, node.name_place, ("products", name)) for name, node in entries(release, "products").items()
+    ]
+    for key in ("products", "sequence"):
+        listed = enumerate(items(release, key))
+        named += [(node.value, node.place, (key, number)) for number, node in listed if isinstance(node.value, str)]
+    for name, place, where in named:
+        if name not in products:
+            hint = did_you_mean(name, products, otherwise="known products")
+            yield problem(place, (*path, *where), f"no product {shown(name)}", hint)
+
+
+def _files(tree: Node, release: Node, path: found.Path, folder: Path) -> Iterator[Problem]:
+    """Lists of orders and sequences that cannot be read, every mistake of each."""
+    for key in ("file", "sequence"):
+        name = text(release, key)
+        if name is None or (key == "file" and text(release, "kind") != "schedule"):
+            continue
+        place = release.value[key].place
+        try:
+            mistakes, says = _read(key, name, folder, tree)
+        except RecordedError as error:
+            yield problem(place, (*path, key), error.message, error.hint)
+            continue
+        for mistake in mistakes:
+            yield problem(place, (*path, key), mistake)
+        if key == "file" and says and found.says_products(release):
+            hint = "remove the column, or products and sequence"
+            yield problem(place, (*path, key), f"the products come from {shown(name)} and from the source", hint)
+
+
+def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[str], bool]:
+    """The mistakes of a file, and whether it says products. Raises RecordedError where it is no table."""
+    file, products = resolve_times(name, folder), entries(tree, "products")
+    if key == "sequence":
+        return read_sequence(file, products)[1], True
+    orders, mistakes = read_orders(file, products)
+    return mistakes, any(order.product is not None for order in orders)
+
+
+def _store(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
+    """A base stock is kept in a store, of the one product that goes there."""
+    node, stores = child(release, "store"), entries(tree, "stores")
+    if node is None or not isinstance(node.value, str):
+        return
+    place: Place = node.place
+    if node.value not in stores:
+        hint = did_you_mean(node.value, stores, otherwise="known stores") or "there are no stores yet"
+        yield problem(place, (*path, "store"), f"no store {shown(node.value)}", hint)
+        return
+    ending = [name for name, product in entries(tree, "products").items() if node.value in stations_of(product)]
+    named = found.made_by(tree, release) if found.says_products(release) else ending
+    if not ending:
+        hint = f"end the route of a product with {node.value}"
+        yield problem(place, (*path, "store"), f"no product's way ends in {shown(node.value)}", hint)
+    elif len(named) > 1:
+        found_here = f"{' and '.join(named[:3])} end in {shown(node.value)}, and a base_stock release is of one product"
+        yield problem(place, (*path, "store"), found_here, f"add 'products: [{named[0]}]', and a source for each other")
+    elif named[0] in entries(tree, "products") and named[0] not in ending:
+        at = child(release, "products")
+        yield problem(
+            place if at is None else at.place, (*path, "products"), f"{named[0]} does not end in {shown(node.value)}"
+        )

@@ -1,0 +1,99 @@
+"""Tools that are needed exist, there are enough of them, and are held between moments that exist."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+from opsim.problems import Problem, did_you_mean, shown
+from opsim.scenario.checks.marks import marks_of
+from opsim.scenario.checks.references import named
+from opsim.scenario.positions import Node, Part, child, entries, items, problem, text
+
+MOMENTS = ("from", "to")
+
+
+def tool_problems(tree: Node, folder: Path) -> Iterator[Problem]:
+    """Tools that are named and do not exist, wants that can never be met, and marks that no movement has."""
+    tools = entries(tree, "tools")
+    for section in ("stations", "tasks"):
+        for name, block in entries(tree, section).items():
+            for tool, number in entries(block, "needs").items():
+                yield from named(Node(tool, number.name_place), tools, "tool", (section, name, "needs", tool))
+    for name, task in entries(tree, "tasks").items():
+        yield from named(child(task, "hold", "tool"), tools, "tool", ("tasks", name, "hold", "tool"))
+        yield from _marks(tree, task, ("tasks", name, "hold"), folder)
+    yield from _too_few(tree)
+    yield from _set_ups(tree)
+
+
+def _too_few(tree: Node) -> Iterator[Problem]:
+    """A station where one job would need more of a tool than there are: it would wait for ever."""
+    counts = {tool: _whole(child(node, "n"), 1) for tool, node in entries(tree, "tools").items()}
+    there = {tool: n for tool, n in counts.items() if n > 0}  # the others are told of by the schema
+    for name, station in entries(tree, "stations").items():
+        for task, wanted in _wanted(tree, station):
+            short = next((tool for tool in wanted if tool in there and wanted[tool] > there[tool]), None)
+            if short is not None:
+                who = f"a job at {name}" if task is None else f"a job at {name} in task {task}"
+                found = f"{who} needs {wanted[short]} of {shown(short)}, and there {_are(there[short])}"
+                hint = f"write 'tools: {{{short}: {{n: {wanted[short]}}}}}', or need fewer"
+                yield problem(station.name_place, ("stations", name), found, hint)
+                break
+
+
+def _wanted(tree: Node, station: Node) -> Iterator[tuple[str | None, Counter[str]]]:
+    """What one job has of each tool: at the station alone, and in each of its tasks besides."""
+    always = _needs(station)
+    yield None, always
+    for node in items(station, "tasks"):
+        task = child(tree, "tasks", node.value) if isinstance(node.value, str) else None
+        if task is not None:
+            held = text(task, "hold", "tool")
+            yield node.value, always + _needs(task) + Counter([held] if held else [])
+
+
+def _needs(block: Node) -> Counter[str]:
+    return Counter({tool: _whole(number, 0) for tool, number in entries(block, "needs").items()})
+
+
+def _whole(node: Node | None, otherwise: int) -> int:
+    return node.value if node is not None and type(node.value) is int else otherwise
+
+
+def _are(n: int) -> str:
+    return "is 1" if n == 1 else f"are {n}"
+
+
+def _marks(tree: Node, task: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Problem]:
+    """Moments that are names, of a movement that has no such mark, or in the wrong order."""
+    said = {key: node for key in MOMENTS if (node := child(task, "hold", key)) is not None}
+    names = {key: node for key, node in said.items() if isinstance(node.value, str)}
+    marks = marks_of(tree, task, folder) if names else None
+    if marks is None:
+        return
+    for key, node in names.items():
+        if node.value not in marks:
+            hint = did_you_mean(node.value, marks, otherwise="its marks") or "say it as a share, such as 0.25"
+            found = f"no mark {shown(node.value)} in this movement" if marks else "this task has no marks"
+            yield problem(node.place, (*path, key), found, hint)
+    both = [marks.index(node.value) for node in names.values() if node.value in marks]
+    if len(both) == 2 and both[0] > both[1]:
+        yield problem(names["to"].place, (*path, "to"), f"{names['to'].value} comes before {names['from'].value}")
+
+
+def _set_ups(tree: Node) -> Iterator[Problem]:
+    """Set-ups that are tasks of a team, or with tools of their own."""
+    for name, station in entries(tree, "stations").items():
+        setup = child(station, "setup")
+        times: list[tuple[tuple[str, ...], Node | None]] = [(("otherwise",), child(setup, "otherwise"))]
+        for before, row in entries(setup, "times").items():
+            times += [(("times", before, after), node) for after, node in entries(row).items()]
+        for path, node in times:
+            task = child(tree, "tasks", node.value) if node is not None and isinstance(node.value, str) else None
+            key = next((key for key in ("team", "needs", "hold") if child(task, key) is not None), None)
+            if key is not None and node is not None:
+                found = f"{shown(node.value)} has {key!r}, and a set-up is done by one worker without tools of its own"
+                hint = "let the station need the tools" if key != "team" else ""
+                yield problem(node.place, ("stations", name, "setup", *path), found, hint)
