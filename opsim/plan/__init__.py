@@ -4,6 +4,7 @@ Both engines read a Plan and nothing else.
 """
 
 from opsim.plan.compile import compile_plan
+from opsim.plan.failures import BreakdownPlan, MaintenancePlan, RepairTeamPlan
 from opsim.plan.loads import StationLoad, station_loads
 from opsim.plan.material import Operation, ProductPlan, Ways
 from opsim.plan.plan import Plan
@@ -15,10 +16,13 @@ from opsim.plan.walking import WalkingPlan
 from opsim.plan.worker import WorkerPlan
 
 __all__ = [
+    "BreakdownPlan",
+    "MaintenancePlan",
     "Operation",
     "Plan",
     "ProductPlan",
     "Ranks",
+    "RepairTeamPlan",
     "SourcePlan",
     "StationLoad",
     "StationPlan",

@@ -1,12 +1,21 @@
 """Scenario -> Plan."""
 
 from opsim.layout import distances_m
+from opsim.plan.assembly import plan_assembly
+from opsim.plan.cards import plan_cards
+from opsim.plan.conveyors import plan_conveyors
+from opsim.plan.failures import plan_breakdowns, plan_maintenance, plan_repair_teams, repair_tasks
 from opsim.plan.material import plan_products
 from opsim.plan.plan import Plan
+from opsim.plan.quality import plan_quality, with_detours
 from opsim.plan.ranks import ranks_of
 from opsim.plan.release import plan_sources
+from opsim.plan.sequence import has_priorities, looks_ahead, plan_queues, work_ahead
+from opsim.plan.setup import plan_setups
 from opsim.plan.station import plan_stations
 from opsim.plan.tasks import plan_tasks
+from opsim.plan.tools import plan_tools
+from opsim.plan.transporters import plan_transporters
 from opsim.plan.walking import plan_walking
 from opsim.plan.worker import plan_workers
 
@@ -19,18 +28,23 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         return task_model(task, loaded)
 
     scenario = loaded.scenario
-    ranks = ranks_of(scenario)
+    tasks = plan_tasks(scenario, model_of, repair_tasks(scenario, model_of))
+    ranks = ranks_of(scenario, (task.name for task in tasks))
+    stations, distance_m = plan_stations(scenario, ranks), distances_m(scenario.layout)
+    products = with_detours(scenario, ranks, plan_products(scenario, ranks.stations))
+    assembly = plan_assembly(scenario, ranks, plan_sources(loaded, ranks, model_of))
+    queues = plan_queues(scenario, ranks, has_priorities(products, assembly.sources))
     return Plan(
         name=scenario.name,
         seed=scenario.run.seed if seed is None else seed,
         horizon_s=scenario.run.horizon_s,
         warm_up_s=scenario.run.warm_up_s,
         places=tuple(ranks.places),
-        distance_m=distances_m(scenario.layout),
-        tasks=plan_tasks(scenario, model_of),
-        stations=plan_stations(scenario, ranks),
-        products=plan_products(scenario, ranks.stations),
-        sources=plan_sources(scenario, ranks, model_of),
+        distance_m=distance_m,
+        tasks=tasks,
+        stations=stations,
+        products=products,
+        sources=assembly.sources,
         workers=plan_workers(scenario, ranks.places, ranks.stations),
         rule=scenario.allocation.rule,
         when_blocked=scenario.allocation.when_blocked,
@@ -38,4 +52,20 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         staffing=scenario.run.staffing,
         across_tasks=scenario.run.across_tasks,
         walking=plan_walking(loaded),
+        cards=plan_cards(scenario, ranks, products, assembly.sources),
+        stores=assembly.stores,
+        kits=assembly.kits,
+        splits=assembly.splits,
+        batches=assembly.batches,
+        quality=plan_quality(scenario, ranks, products),
+        tools=plan_tools(scenario),
+        queues=queues,
+        routing=scenario.flow.routing,
+        setups=plan_setups(scenario, ranks, tasks),
+        ahead=work_ahead(stations, products, tasks) if looks_ahead(queues, scenario.flow.routing) else None,
+        breakdowns=plan_breakdowns(scenario, ranks, model_of),
+        maintenance=plan_maintenance(scenario, ranks),
+        repair_teams=plan_repair_teams(scenario),
+        conveyors=plan_conveyors(scenario, ranks),
+        transporters=plan_transporters(scenario, ranks, distance_m),
     )

@@ -1,23 +1,29 @@
 """Products and their routes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import accumulate
+from math import inf
 
 from opsim.names import natural_key
 
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """What a product needs at one step: the tasks of a station, or of one of several parallel ones."""
+    """What a product needs at one step: the tasks of a station, or of one of several parallel ones.
+
+    listed : the same stations in the order of the scenario's list; empty where there is one only
+    """
 
     name: str
     stations: tuple[int, ...]
+    listed: tuple[int, ...] = ()
 
 
 Ways = tuple[tuple[float, int], ...]
 """(cumulative probability, step of the route) of each way on; -1 is the way out. One entry where it is sure."""
 _FIRST: Ways = ((1.0, 0),)
+_OUT: Ways = ((1.0, -1),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +31,8 @@ class ProductPlan:
     """share : of the mix, all sum to 1; route : its operations; start, onward : the first step, and from each step
 
     carried : who did the last task at a station carries it to the next
+    priority, due_s : jobs of a higher priority go first; from a job's arrival to its due date, inf where it has none
+    lot : units in a job; mass_kg : of one unit, None where nobody asks
     """
 
     name: str
@@ -33,6 +41,10 @@ class ProductPlan:
     start: Ways
     onward: tuple[Ways, ...]
     carried: bool = False
+    priority: int = 0
+    due_s: float = inf
+    lot: int = 1
+    mass_kg: float | None = None
 
     def visits(self) -> tuple[float, ...]:
         """How often a job comes to each step on average; in a route just once."""
@@ -44,7 +56,13 @@ def plan_products(scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]
     """Products in natural order; ``stations`` maps names to ranks."""
     total = sum(product.share for product in scenario.products.values())
     return tuple(
-        _product(name, product, product.share / total, stations)
+        replace(
+            _product(name, product, product.share / total, stations),
+            priority=product.priority,
+            due_s=inf if product.due_s is None else product.due_s,
+            lot=product.lot,
+            mass_kg=product.mass_kg,
+        )
         for name, product in sorted(scenario.products.items(), key=lambda item: natural_key(item[0]))
     )
 
@@ -64,9 +82,10 @@ def _one_by_one(n: int) -> tuple[Ways, ...]:
 def _network(name: str, product, share: float, stations: dict[str, int]) -> ProductPlan:
     """A way drawn step by step: from ``start``, and from each station, to others or ``out``, with probabilities."""
     routing = product.routing
-    names = sorted((key for key in routing if key != "start"), key=natural_key)
+    ends = {way for ways in routing.values() for way in ways if way not in routing and way != "out"}  # stores
+    names = sorted((*(key for key in routing if key != "start"), *ends), key=natural_key)
     step_of = {**{key: step for step, key in enumerate(names)}, "out": -1}
-    onward = tuple(_ways(routing[key], step_of) for key in names)
+    onward = tuple(_OUT if key in ends else _ways(routing[key], step_of) for key in names)
     route = tuple(_operation(key, stations) for key in names)
     return ProductPlan(name, share, route, _ways(routing["start"], step_of), onward, product.carried)
 
@@ -88,6 +107,11 @@ def _visits(start: Ways, onward: tuple[Ways, ...]) -> tuple[float, ...]:
     return tuple(np.linalg.solve(np.eye(n) - passing.T, _probabilities(start, n)).tolist())
 
 
+def onward_probabilities(product: ProductPlan) -> list[list[float]]:
+    """(steps, steps) probability of going from each step of a product's route to each other."""
+    return [_probabilities(ways, len(product.onward)) for ways in product.onward]
+
+
 def _probabilities(ways: Ways, n: int) -> list[float]:
     row = [0.0] * n
     for (cumulative, step), before in zip(ways, (0.0, *(point for point, _ in ways))):
@@ -98,4 +122,5 @@ def _probabilities(ways: Ways, n: int) -> list[float]:
 
 def _operation(step, stations: dict[str, int]) -> Operation:
     names = [step] if isinstance(step, str) else sorted(step, key=natural_key)
-    return Operation("|".join(names), tuple(stations[name] for name in names))
+    listed = () if isinstance(step, str) else tuple(stations[name] for name in step)
+    return Operation("|".join(names), tuple(stations[name] for name in names), listed)

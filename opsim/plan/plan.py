@@ -3,10 +3,21 @@
 from dataclasses import dataclass
 
 from opsim.names import natural_key
+from opsim.plan.assembly import BatchPlan, KitPlan
+from opsim.plan.cards import CardPlan
+from opsim.plan.conveyors import ConveyorPlan
+from opsim.plan.failures import BreakdownPlan, MaintenancePlan, RepairTeamPlan
 from opsim.plan.material import ProductPlan
+from opsim.plan.quality import QualityPlan
 from opsim.plan.release import SourcePlan
+from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
+from opsim.plan.setup import SetupPlan
+from opsim.plan.splits import SplitPlan
 from opsim.plan.station import StationPlan
+from opsim.plan.stores import StorePlan
 from opsim.plan.tasks import TaskPlan
+from opsim.plan.tools import ToolPlan
+from opsim.plan.transporters import TransporterPlan
 from opsim.plan.walking import WalkingPlan
 from opsim.plan.worker import WorkerPlan
 
@@ -23,6 +34,9 @@ class Plan:
     staffing : ``fixed`` (the same people in every replication) or ``redrawn``
     across_tasks : how a worker's effects in different tasks go together, one of ``opsim.effects.ACROSS_TASKS``
     walking : whose postures walks have; None where walking is time alone
+    quality : of the stations where something goes wrong, or is looked at; tools : what stations and tasks share
+    queues : those that are not simply first come, first served; routing : the rule by which one of several stations is
+             taken; ahead : mean times that their rules look at, where some do
     """
 
     name: str
@@ -42,6 +56,27 @@ class Plan:
     staffing: str
     across_tasks: str
     walking: WalkingPlan | None = None
+    cards: tuple[CardPlan, ...] = ()
+    stores: tuple[StorePlan, ...] = ()
+    kits: tuple[KitPlan, ...] = ()
+    splits: tuple[SplitPlan, ...] = ()
+    batches: tuple[BatchPlan, ...] = ()
+    quality: tuple[QualityPlan, ...] = ()
+    tools: tuple[ToolPlan, ...] = ()
+    queues: tuple[QueuePlan, ...] = ()
+    routing: str = SHORTEST_QUEUE
+    setups: tuple[SetupPlan, ...] = ()
+    ahead: WorkAhead | None = None
+    breakdowns: tuple[BreakdownPlan, ...] = ()
+    maintenance: tuple[MaintenancePlan, ...] = ()
+    repair_teams: tuple[RepairTeamPlan, ...] = ()
+    conveyors: tuple[ConveyorPlan, ...] = ()
+    transporters: tuple[TransporterPlan, ...] = ()
+
+    @property
+    def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:
+        """What stops stations: breakdowns, then maintenance; each in natural order of "station: stop"."""
+        return (*self.breakdowns, *self.maintenance)
 
     @property
     def release(self) -> SourcePlan:

@@ -19,10 +19,10 @@ class Ranks:
     products: dict[str, int]
 
 
-def ranks_of(scenario) -> Ranks:
-    """The ranks of a scenario's names."""
+def ranks_of(scenario, tasks: Iterable[str]) -> Ranks:
+    """The ranks of a scenario's names; ``tasks`` are those of the Plan, which has some that no scenario names."""
     points = (*scenario.stations, *getattr(scenario, "stores", ()), *getattr(scenario, "conveyors", ()))
-    return Ranks(ranked(scenario.layout.places), ranked(scenario.tasks), ranked(points), ranked(scenario.products))
+    return Ranks(ranked(scenario.layout.places), ranked(tasks), ranked(points), ranked(scenario.products))
 
 
 def ranked(names: Iterable[str]) -> dict[str, int]:

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from math import inf
 
 from opsim.names import natural_key
+from opsim.plan.conveyors import belt_capacity
 from opsim.plan.ranks import Ranks
+from opsim.plan.tools import Needs, needs_of
 
 STATION, STORE, CONVEYOR = "station", "store", "conveyor"
 
@@ -12,7 +14,9 @@ STATION, STORE, CONVEYOR = "station", "store", "conveyor"
 @dataclass(frozen=True, slots=True)
 class StationPlan:
     """servers : jobs in process at once; buffer : places in front of the servers (inf where unlimited);
-    tasks : ranks of the tasks a job gets here, in order; kind : ``station``, ``store`` or ``conveyor``.
+    tasks : ranks of the tasks a job gets here, in order; kind : ``station``, ``store`` or ``conveyor``;
+    buffer_after : places for finished jobs, off the servers; place_first : a job is begun only when its place
+    downstream is sure; needs : tools of a job from its server until it leaves.
     """
 
     name: str
@@ -21,6 +25,9 @@ class StationPlan:
     buffer: float
     tasks: tuple[int, ...]
     kind: str = STATION
+    buffer_after: int = 0
+    place_first: bool = False
+    needs: Needs = ()
 
     @property
     def capacity(self) -> float:
@@ -30,11 +37,30 @@ class StationPlan:
 
 def plan_stations(scenario, ranks: Ranks) -> tuple[StationPlan, ...]:
     """All points of the flow in natural order."""
-    points = {name: _station(name, station, ranks) for name, station in scenario.stations.items()}
+    points = {name: _station(name, station, scenario, ranks) for name, station in scenario.stations.items()}
+    points |= {name: _store(name, store, ranks) for name, store in scenario.stores.items()}
+    points |= {name: _conveyor(name, belt, scenario, ranks) for name, belt in scenario.conveyors.items()}
     return tuple(points[name] for name in sorted(points, key=natural_key))
 
 
-def _station(name: str, station, ranks: Ranks) -> StationPlan:
+def _station(name: str, station, scenario, ranks: Ranks) -> StationPlan:
     buffer = inf if station.buffer is None else station.buffer
     tasks = tuple(ranks.tasks[task] for task in station.tasks)
-    return StationPlan(name, ranks.places[station.at], station.servers, buffer, tasks)
+    before = (station.blocking or scenario.flow.blocking) == "before"
+    return StationPlan(
+        *(name, ranks.places[station.at], station.servers, buffer, tasks),
+        buffer_after=station.buffer_after,
+        place_first=before,
+        needs=needs_of(station, scenario),
+    )
+
+
+def _store(name: str, store, ranks: Ranks) -> StationPlan:
+    """A store has no servers, and room for what lies there."""
+    capacity = inf if store.capacity is None else store.capacity
+    return StationPlan(name, ranks.places[store.at], 0, capacity, (), STORE)
+
+
+def _conveyor(name: str, belt, scenario, ranks: Ranks) -> StationPlan:
+    """A conveyor stands where jobs get on, and has room for those on it."""
+    return StationPlan(name, ranks.places[belt.start], belt_capacity(belt, scenario.layout), 0, (), CONVEYOR)

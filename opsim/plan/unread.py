@@ -17,6 +17,7 @@ def unread(plan: Plan) -> list[str]:
 def tasks_of(plan: Plan, worker: WorkerPlan) -> list[TaskPlan]:
     """The tasks a worker may be sent to, in natural order."""
     ranks = {task for station, rating in zip(plan.stations, worker.rating) if rating for task in station.tasks}
+    ranks |= {task for one in plan.setups if worker.rating[one.station] for task in one.tasks_by_hand}
     return [plan.tasks[rank] for rank in sorted(ranks) if not plan.tasks[rank].automatic]
 
 

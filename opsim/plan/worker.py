@@ -33,6 +33,7 @@ class WorkerPlan:
 
     place  : where he starts and is at home
     patrol : ranks of the stations of his round, empty where he makes none
+    most_load_kg : what he carries at once; None: anything
     """
 
     name: str
@@ -41,6 +42,7 @@ class WorkerPlan:
     rating: tuple[float, ...]
     body: Body
     patrol: tuple[int, ...] = ()
+    most_load_kg: float | None = None
 
 
 def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tuple[WorkerPlan, ...]:
@@ -53,6 +55,7 @@ def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tup
             _ratings(worker, ranks),
             Body(**{key: getattr(worker, key) for key in BODY_KEYS}, walk_m_per_s=worker.walk_m_per_s),
             tuple(ranks[name] for name in worker.patrol or ()),
+            worker.most_load_kg,
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )

@@ -8,7 +8,7 @@ from opsim.tasks.model import SMALLEST_S, TimePerformances
 from opsim.tasks.of_scenario import task_model, time_model
 from opsim.tasks.seen import Empirical, Recorded
 from opsim.tasks.shared import Gamma, Hyperexponential, Lognormal, Weibull
-from opsim.tasks.simple import Erlang, Exponential, Fixed, Triangular, Uniform
+from opsim.tasks.simple import Erlang, Exponential, Fixed, Geometric, Triangular, Uniform
 from opsim.tasks.switched import switched
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "Exponential",
     "Fixed",
     "Gamma",
+    "Geometric",
     "Hyperexponential",
     "Lognormal",
     "Normal",

@@ -47,7 +47,7 @@ class TimePerformances:
 
 _TIME = ("a time in seconds above 0", lambda value: 0 < value < math.inf)
 _WANTED = {
-    **dict.fromkeys(("mean_s", "duration_s"), _TIME),
+    **dict.fromkeys(("mean_s", "duration_s", "step_s"), _TIME),
     **dict.fromkeys(("low_s", "mode_s"), ("a time in seconds from 0", lambda value: 0 <= value < math.inf)),
     "high_s": ("a time in seconds above 0", lambda value: value > 0),
     "cv": ("a number from 0", lambda value: 0 <= value < math.inf),

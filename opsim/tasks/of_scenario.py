@@ -10,7 +10,7 @@ from opsim.tasks.bounded import Beta, Normal
 from opsim.tasks.motions import motions_model
 from opsim.tasks.seen import Empirical, Recorded
 from opsim.tasks.shared import Gamma, Hyperexponential, Lognormal, Weibull
-from opsim.tasks.simple import Erlang, Exponential, Fixed, Triangular, Uniform
+from opsim.tasks.simple import Erlang, Exponential, Fixed, Geometric, Triangular, Uniform
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
@@ -48,6 +48,8 @@ def time_model(task: Any) -> Any:
             return Exponential(task.mean_s)
         case schema.Erlang():
             return Erlang(task.mean_s, task.k)
+        case schema.Geometric():
+            return Geometric(task.mean_s, task.step_s)
         case schema.Uniform():
             return Uniform(task.low_s, task.high_s)
         case schema.Triangular():

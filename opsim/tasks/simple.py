@@ -1,4 +1,4 @@
-"""Times in which workers do not differ: fixed, exponential, Erlang, uniform, triangular."""
+"""Times in which workers do not differ: fixed, exponential, geometric, Erlang, uniform, triangular."""
 
 from __future__ import annotations
 
@@ -37,6 +37,25 @@ class Exponential(TimeModel):
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
         return rng.exponential(self.mean_s, n)
+
+
+@dataclass(frozen=True)
+class Geometric(TimeModel):
+    """A whole number of steps from 1, the same chance step_s / mean_s to end after each: cv^2 = 1 - step_s / mean_s."""
+
+    mean_s: float
+    step_s: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.step_s > self.mean_s:
+            raise ValueError(f"Geometric: step_s must be at most mean_s, found {self.step_s!r} and {self.mean_s!r}")
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return self.mean_s
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return self.step_s * rng.geometric(self.step_s / self.mean_s, n)
 
 
 @dataclass(frozen=True)

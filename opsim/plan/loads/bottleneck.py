@@ -1,0 +1,48 @@
+"""What limits the floor, by mean times: the resource that the most is wanted of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+from opsim.plan.loads.people import crew_load
+from opsim.plan.loads.rates import flows_of
+from opsim.plan.loads.shared import REPAIR_TEAM, shared_loads
+from opsim.plan.loads.stations import station_loads
+from opsim.plan.plan import Plan
+
+
+@dataclass(frozen=True, slots=True)
+class Bottleneck:
+    """what : its name in words; load : share of it that is wanted, None where the floor decides what comes in;
+    most_per_h : jobs of the sources an hour that it lets through, if nothing else limits.
+    """
+
+    what: str
+    load: float | None
+    most_per_h: float
+
+
+def bottleneck(plan: Plan) -> list[Bottleneck]:
+    """Everything that limits the floor, what limits it most first; figures are estimates: nothing waits."""
+    flows = flows_of(plan)
+    per_h = None if flows.saturated else flows.per_h
+    found = [
+        Bottleneck(load.station, load.load, load.most_per_h / load.visits)
+        for load in station_loads(plan, flows)
+        if load.visits > 0 and load.most_per_h < inf
+    ]
+    shared = (one for one in shared_loads(plan, flows) if one.what != REPAIR_TEAM)
+    wanted = [(f"{one.what} {one.name}", one.wanted / one.n) for one in shared]
+    crew = crew_load(plan, flows)
+    if crew is not None:
+        wanted.append((_people(crew.workers), crew.share))
+    for what, share in wanted:
+        if share > 0:
+            found.append(Bottleneck(what, None if per_h is None else share, (1.0 if per_h is None else per_h) / share))
+    return sorted(found, key=lambda one: (one.most_per_h, one.what))
+
+
+def _people(workers: tuple[str, ...]) -> str:
+    names = [*workers[:3], f"{len(workers) - 3} more"] if len(workers) > 4 else list(workers)
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]} together"

@@ -1,0 +1,66 @@
+"""What cannot be done in the time there is: said by ``opsim check`` as a warning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+from opsim.plan.loads.people import crew_load, skill_loads
+from opsim.plan.loads.rates import Flows, flows_of
+from opsim.plan.loads.shared import shared_loads
+from opsim.plan.loads.stations import station_loads
+from opsim.plan.loads.visits import visits_of
+from opsim.plan.loads.work import visit_s
+from opsim.plan.plan import Plan
+
+
+def overloads(plan: Plan) -> list[str]:
+    """Every warning in a sentence."""
+    flows = flows_of(plan)
+    return [*_stations(plan, flows), *_people(plan, flows), *_shared(plan, flows), *_too_long(plan)]
+
+
+def _stations(plan: Plan, flows: Flows) -> Iterator[str]:
+    for load in station_loads(plan, flows):
+        if load.most_per_h == 0:
+            yield f"{load.station} never works: its maintenance takes all of its time"
+        elif load.load is not None and load.load >= 1:
+            yield f"{load.station} cannot keep up: {load.load:.0%} of its time is wanted"
+
+
+def _people(plan: Plan, flows: Flows) -> Iterator[str]:
+    if flows.saturated:
+        return
+    over = [load for load in skill_loads(plan, flows) if load.load is not None and load.load >= 1]
+    for load in over:
+        who = "1 worker who can" if load.able == 1 else f"{load.able} workers who can"
+        yield f"work at {load.skill} cannot be done: {load.load:.0%} of the time of the {who}, walks not counted"
+    crew = crew_load(plan, flows)
+    if crew is not None and crew.share >= 1 and not over:
+        yield (
+            f"the {len(crew.workers)} workers of {len(crew.skills)} stations cannot keep up: however they share the "
+            f"work, {crew.share:.0%} of their time is wanted, walks not counted ({', '.join(crew.skills[:6])})"
+        )
+
+
+def _shared(plan: Plan, flows: Flows) -> Iterator[str]:
+    for load in shared_loads(plan, flows):
+        if load.load is not None and load.load >= 1:
+            yield f"{load.what} {load.name}: {load.load:.0%} of what there is is wanted ({load.wanted:.1f} of {load.n})"
+
+
+def _too_long(plan: Plan) -> Iterator[str]:
+    """Products whose work alone takes longer than the run, or than they have until they are due."""
+    for rank, product in enumerate(plan.products):
+        steps = zip(product.route, visits_of(plan, rank))
+        alone_s = sum(n * _least_s(plan, step.stations, rank) for step, n in steps)
+        if alone_s >= plan.horizon_s:
+            yield f"no {product.name} is finished: its work takes {alone_s:.0f} s, the run {plan.horizon_s:g} s"
+        elif inf > product.due_s < alone_s:
+            yield f"{product.name} is late: due after {product.due_s:g} s, and its work alone takes {alone_s:.0f} s"
+
+
+def _least_s(plan: Plan, stations: tuple[int, ...], product: int) -> float:
+    """The shortest mean work at one of the stations of a step; rides on conveyors count."""
+    rides = {belt.station: belt.travel_s for belt in plan.conveyors}
+    return min(rides.get(station, visit_s(plan, station, product)) for station in stations)

@@ -1,0 +1,61 @@
+"""Tools: how many of each there are, who needs them, and between which moments of a task one is held."""
+
+from dataclasses import dataclass
+
+from opsim.plan.ranks import ranked
+
+Needs = tuple[tuple[int, int], ...]
+"""(rank of a tool, how many of it), in natural order of the tools."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToolPlan:
+    """Tools of one kind, n of them."""
+
+    name: str
+    n: int
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A moment of a performance: its ``mark``-th mark, or a share of its duration where mark is -1."""
+
+    mark: int = -1
+    share: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class HoldPlan:
+    """The rank of a tool that is in the hands from one moment of each performance to another."""
+
+    tool: int
+    start: Moment
+    end: Moment
+
+
+def plan_tools(scenario) -> tuple[ToolPlan, ...]:
+    """Tools in natural order."""
+    return tuple(ToolPlan(name, scenario.tools[name].n) for name in ranked(scenario.tools))
+
+
+def needs_of(block, scenario) -> Needs:
+    """What a station or a task needs."""
+    ranks = ranked(scenario.tools) if block.needs else {}
+    return tuple(sorted((ranks[name], n) for name, n in block.needs.items()))
+
+
+def hold_of(task, scenario, model) -> HoldPlan | None:
+    """What a task holds; its marks by the names that its model has for them. Raises ValueError for another name."""
+    if task.hold is None:
+        return None
+    names = tuple(getattr(model, "mark_names", ()))
+    moments = (_moment(said, names) for said in (task.hold.start, task.hold.end))
+    return HoldPlan(ranked(scenario.tools)[task.hold.tool], *moments)
+
+
+def _moment(said: float | str, names: tuple[str, ...]) -> Moment:
+    if isinstance(said, float):
+        return Moment(share=said)
+    if said not in names:
+        raise ValueError(f"no mark {said!r}; the movement has: {', '.join(names) or 'none'}")
+    return Moment(mark=names.index(said))
