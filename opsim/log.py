@@ -10,10 +10,10 @@ import numpy as np
 
 KINDS = (
     *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
-    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost"),
+    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool"),
 )
 WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
-REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST = range(12, 20)
+REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST, REWORK, TOOL = range(12, 22)
 WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, SETUP, REPAIR)
 """Kinds that are states of a worker, where the row names one."""
 JOB_KINDS = (QUEUE, WORK, SETUP, TRANSPORT, BLOCKED, HELD)
@@ -26,9 +26,10 @@ LEAVING_KINDS = (FINISH, SCRAP, JOIN, SPLIT, LOST)
 CAUSES = (
     *("", "idle", "blocked", "gate", "worker", "full", "down", "parts", "tool", "team", "card", "batch", "after"),
     *("stock", "pickup", "setup", "preempted", "place", "breakdown", "maintenance", "bad"),
+    "false_alarm",
 )
 NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL, IS_DOWN, NO_PARTS, NO_TOOL, TEAM, NO_CARD, BATCH, AFTER = range(13)
-STOCK, PICKUP, SETTING_UP, PREEMPTED, NO_PLACE, BREAKDOWN, MAINTENANCE, BAD = range(13, 21)
+STOCK, PICKUP, SETTING_UP, PREEMPTED, NO_PLACE, BREAKDOWN, MAINTENANCE, BAD, FALSE_ALARM = range(13, 22)
 
 COLUMNS: dict[str, type] = {
     "kind": np.int8,

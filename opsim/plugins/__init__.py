@@ -4,8 +4,10 @@
 |---|---|
 | ``opsim.emulators`` | a callable that takes parameters by name and gives a TaskModel (``opsim/task.py``) |
 | ``opsim.dispatch`` | a rule: a callable with the arguments of those in ``engine/rules/allocation.py``, giving a key |
+| ``opsim.sequencing`` | which waiting job is next, by ``flow.dispatch``: as those in ``engine/rules/sequencing.py`` |
+| ``opsim.routing`` | which of several stations it goes to, by ``flow.routing``: those in ``engine/rules/routing.py`` |
 | ``opsim.stations`` | a callable that takes parameters by name and gives the block of a station as a scenario has it |
-| ``opsim.routing``, ``opsim.human`` | nothing yet; the names are kept free |
+| ``opsim.human`` | nothing yet; the name is kept free |
 
 Our own distributions and rules are registered in the same groups. A parameter whose name ends in ``_s``, ``_m``,
 ``_kg`` or ``_m_per_s`` is written in a scenario without that ending and with its unit: ``reach_m`` is ``reach: 40 cm``.
@@ -22,8 +24,9 @@ _HOMES = {
     "plugin_model": "opsim.plugins.parameters",
     "plugin_problems": "opsim.plugins.parameters",
     "plugins": "opsim.plugins.door",
+    "rule_of": "opsim.plugins.door",
 }
-__all__ = ["NoSuchPlugin", "PluginError", "dispatch_rule", "plugin_model", "plugin_problems", "plugins"]
+__all__ = ["NoSuchPlugin", "PluginError", "dispatch_rule", "plugin_model", "plugin_problems", "plugins", "rule_of"]
 
 
 def __getattr__(name: str) -> Any:

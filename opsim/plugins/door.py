@@ -6,13 +6,19 @@ from collections.abc import Callable, Iterator, Mapping
 from importlib.metadata import entry_points
 from typing import Any
 
-from opsim.engine.rules import ALLOCATION_RULES
+from opsim.engine.rules import ALLOCATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.names import natural_key
 from opsim.plugins.blame import Found, NoSuchPlugin, PluginError, blamed
 from opsim.plugins.guard import GUARDS
 from opsim.problems import did_you_mean, shown
 
-GROUPS = ("opsim.emulators", "opsim.stations", "opsim.dispatch", "opsim.routing", "opsim.human")
+GROUPS = ("opsim.emulators", "opsim.stations", "opsim.dispatch", "opsim.sequencing", "opsim.routing", "opsim.human")
+RULES: dict[str, Mapping[str, Callable[..., tuple[float, ...]]]] = {
+    "opsim.dispatch": ALLOCATION_RULES,
+    "opsim.sequencing": SEQUENCING_RULES,
+    "opsim.routing": ROUTING_RULES,
+}
+"""Our own rules by group: who is sent where, which waiting job is next, which of several stations a job goes to."""
 
 
 class Plugins(Mapping[str, Any]):
@@ -61,9 +67,14 @@ def plugins(group: str) -> Plugins:
 
 
 def dispatch_rule(name: str) -> Callable[..., tuple[float, ...]]:
-    """The rule of that name: one of ours, else a plug-in. Raises NoSuchPlugin or PluginError."""
-    ours = ALLOCATION_RULES.get(name)
-    return plugins("opsim.dispatch")[name] if ours is None else ours
+    """The rule of allocation of that name."""
+    return rule_of("opsim.dispatch", name)
+
+
+def rule_of(group: str, name: str) -> Callable[..., tuple[float, ...]]:
+    """The rule of that name in a group of ``RULES``: ours, else a plug-in. Raises NoSuchPlugin or PluginError."""
+    ours = RULES[group].get(name)
+    return plugins(group)[name] if ours is None else ours
 
 
 def _load(found: Found) -> Any:

@@ -6,15 +6,15 @@ from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any
 
-from opsim.engine.rules import ALLOCATION_RULES
+from opsim.engine.rules import ALLOCATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.plugins.blame import Found, blamed, fault
 from opsim.plugins.model import guarded_model
 from opsim.plugins.taking import must_take, signature_of, worded
 
 
-def guarded_rule(found: Found, rule: Any) -> Callable[..., tuple[float, ...]]:
-    """A dispatch rule that takes the arguments of ours and gives a key of numbers."""
-    must_take(found, rule, like=ALLOCATION_RULES["nearest"])
+def guarded_rule(found: Found, rule: Any, like: Callable) -> Callable[..., tuple[float, ...]]:
+    """A rule that takes the arguments of ours and gives a key of numbers."""
+    must_take(found, rule, like=like)
 
     @wraps(rule)
     def key_of(*numbers: float) -> tuple[float, ...]:
@@ -68,9 +68,10 @@ def unguarded(_found: Found, part: Any) -> Any:
 
 
 GUARDS: dict[str, Callable[[Found, Any], Any]] = {
-    "opsim.dispatch": guarded_rule,
+    "opsim.dispatch": lambda found, rule: guarded_rule(found, rule, ALLOCATION_RULES["nearest"]),
+    "opsim.routing": lambda found, rule: guarded_rule(found, rule, ROUTING_RULES["in_order"]),
+    "opsim.sequencing": lambda found, rule: guarded_rule(found, rule, SEQUENCING_RULES["fifo"]),
     "opsim.emulators": lambda found, factory: guarded_factory(found, factory, guarded_model),
     "opsim.stations": lambda found, factory: guarded_factory(found, factory, station_block),
-    "opsim.routing": unguarded,
     "opsim.human": unguarded,
 }

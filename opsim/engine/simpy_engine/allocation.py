@@ -53,13 +53,12 @@ def _send(floor: Floor, worker: Worker, station: Station) -> None:
         log_worker(floor, worker)
     del floor.free[worker.rank]
     job = station.calling[0][3]
-    if job.wanted > 1:
-        job.wanted -= 1
-    else:
-        del station.calling[0]
-        if not station.calling:
-            del floor.calling[station.rank]
-            floor.calls ^= 1 << station.rank
+    del station.calling[0]
+    if not station.calling:
+        del floor.calling[station.rank]
+        floor.calls ^= 1 << station.rank
+    if job.with_tools:
+        station.sent(floor, job)  # type: ignore[misc]
     worker.job, worker.station = job, station
     walk_s = worker.walk_s[worker.place][station.rank]
     if walk_s > 0:

@@ -14,7 +14,7 @@ from opsim.engine.simpy_engine.station import (
 )
 from opsim.engine.simpy_engine.transport import put_down
 from opsim.engine.simpy_engine.worker import STRETCH_DONE, hold, log_worker, set_free
-from opsim.log import BLOCKED, SETUP, TRANSPORT, WALK
+from opsim.log import AFTER, BLOCKED, SETUP, TRANSPORT, WALK
 
 
 def _stretch_done(floor: Floor, worker: Worker) -> None:
@@ -25,6 +25,7 @@ def _stretch_done(floor: Floor, worker: Worker) -> None:
         put_down(floor, job, worker)
     elif worker.kind == WALK:
         log_worker(floor, worker)
+        worker.since_s = floor.now
         perform(floor, job, worker)
     elif job.station.acted is None or not job.station.acted(floor, job, worker):  # type: ignore[union-attr]
         performed(floor, job, worker)
@@ -38,12 +39,21 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
         _set_up(floor, job, worker)
     elif task_done(job):
         operation_done(floor, job)
-        if (job.plan.carried or floor.plan.when_blocked == "held") and job.kind == BLOCKED and job.number in floor.jobs:
+        if (job.plan.carried or floor.plan.when_blocked == "held") and job.number in floor.jobs and _stays(floor, job):
             hold(floor, worker, job)
         else:
             set_free(floor, worker)
     else:
         next_task(floor, job, worker)
+
+
+def _stays(floor: Floor, job: Job) -> bool:
+    """Whether the job waits at the station for room downstream: on its server, or put away with who will carry it."""
+    if floor.legs and floor.plan.when_blocked != "held":  # no need to stay with what a vehicle will fetch
+        ways = [(job.station.rank, station.rank) for station in job.gate.stations]  # type: ignore[union-attr]
+        if all(way in floor.legs for way in ways):
+            return False
+    return job.kind == BLOCKED or (job.plan.carried and job.cause == AFTER)
 
 
 def _set_up(floor: Floor, job: Job, worker: Worker | None) -> None:

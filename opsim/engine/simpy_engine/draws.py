@@ -1,15 +1,50 @@
 """All luck of a replication, by name: durations, gaps between arrivals, product mix."""
 
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from itertools import accumulate
 
 import numpy as np
 
 from opsim.effects import worker_effect
 from opsim.plan import Plan
+from opsim.plan.orders import ANY, order_of
+from opsim.plan.tools import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, Scattered
 from opsim.task import TaskModel
+
+Held = tuple[float, float, float]
+"""Seconds of a performance, and the shares of it from which to which a tool is held."""
+
+
+def _performed(model, effect):
+    """How a block of durations is drawn from a task model."""
+    at = getattr(model, "at", None) if getattr(model, "by_index", False) else None
+    if at is not None:
+        return lambda _rng, block: at(np.arange(block * BLOCK, (block + 1) * BLOCK)).tolist()
+    return lambda rng, _block: model.sample(BLOCK, rng, worker=effect).duration_s.tolist()
+
+
+def _held(hold: HoldPlan, model, effect):
+    """How a block of durations with two moments of each is drawn: as ``_performed`` draws, from the same numbers."""
+    if getattr(model, "by_index", False):
+        at, start, end = _performed(model, effect), hold.start.share, hold.end.share
+        return lambda rng, block: [(duration_s, start, end) for duration_s in at(rng, block)]
+
+    def draw(rng, _block: int) -> list[Held]:
+        drawn = model.sample(BLOCK, rng, worker=effect)
+        start = _shares(drawn, hold.start)
+        end = np.maximum(start, _shares(drawn, hold.end))
+        return list(zip(drawn.duration_s.tolist(), start.tolist(), end.tolist()))
+
+    return draw
+
+
+def _shares(drawn, moment: Moment) -> np.ndarray:
+    """(BLOCK,) where a moment lies in each performance, as a share of its duration."""
+    if moment.mark < 0:
+        return np.full(BLOCK, moment.share)
+    return np.clip(np.asarray(drawn.mark_s)[:, moment.mark] / drawn.duration_s, 0.0, 1.0)
 
 
 class Draws:
@@ -32,6 +67,15 @@ class Draws:
         """All performances of a task by a worker, one after the other: ``duration_s`` at k = 0, 1, 2, ..."""
         return iter(self._of_worker(task, worker))
 
+    def durations_with(self, hold: HoldPlan, task: int, worker: int) -> Iterator[Held]:
+        """``durations``, each with the moments between which a tool is held."""
+        return iter(self._of_worker(task, worker, partial(_held, hold)))
+
+    def runs_with(self, hold: HoldPlan, task: int, station: int) -> Iterator[Held]:
+        """``automatic_runs``, each with the moments between which a tool is held."""
+        name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
+        return iter(self._items(name, _held(hold, self._plan.tasks[task].model, None)))
+
     def automatic_runs(self, task: int, station: int) -> Iterator[float]:
         """All automatic runs of a task at a station, one after the other."""
         name = ("automatic", self._plan.tasks[task].name, self._plan.stations[station].name)
@@ -46,8 +90,12 @@ class Draws:
     def products(self, source: int) -> Callable[[int], int]:
         """The rank of the product that the n-th job of a source is, by n."""
         plan = self._plan.sources[source]
+        if plan.sequence:
+            return lambda n: plan.sequence[n % len(plan.sequence)]
         ranks = [rank for rank, _ in plan.mix]
         cumulative = list(accumulate(share for _, share in plan.mix))[:-1]
+        if plan.orders and plan.orders[0].product != ANY:
+            return lambda n: order_of(plan.orders, n).product
         if not cumulative:
             return lambda _n: ranks[0]
         drawn = self._items(("mix", plan.name), _ranks(cumulative))
@@ -68,22 +116,14 @@ class Draws:
         """Durations of a model under the name of a stream, one after the other, without end."""
         return iter(self._items(name, _performed(model, None)))
 
-    def _of_worker(self, task: int, worker: int) -> Items:
+    def _of_worker(self, task: int, worker: int, drawn: Callable = _performed) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
         body, across = self._plan.workers[worker].body, self._plan.across_tasks
         effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body, across)
-        return self._items(("duration", plan.name, name), _performed(plan.model, effect))
+        return self._items(("duration", plan.name, name), drawn(plan.model, effect))
 
     def _items(self, name, draw) -> Items:
         return Items(self._plan.seed, self._replication, name, draw)
-
-
-def _performed(model, effect):
-    """How a block of durations is drawn from a task model."""
-    at = getattr(model, "at", None) if getattr(model, "by_index", False) else None
-    if at is not None:
-        return lambda _rng, block: at(np.arange(block * BLOCK, (block + 1) * BLOCK)).tolist()
-    return lambda rng, _block: model.sample(BLOCK, rng, worker=effect).duration_s.tolist()
 
 
 @cache

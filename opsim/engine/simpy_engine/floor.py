@@ -31,7 +31,12 @@ class Floor:
 
     What blocks hang in, each empty where none does:
     dispatchers  : asked in every round of a settle step, before workers are sent; True where something changed
+    created      : told of each job that comes into being
     left_station : told of each job that gives its place at a station back; left_floor : of each that leaves
+    broken_off   : told of each job whose performance is broken off
+    lost_server  : told of each job that loses its server to another one and stays at the station
+    closing      : asked for their open rows at the horizon, before those of workers and jobs are written
+    stock, kits  : what lies in the stores, and who waits for parts, where there are some
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
     """
 
@@ -62,7 +67,13 @@ class Floor:
         self.jobs: dict[int, Job] = {}
         self.dispatchers: list[Callable[[Floor], bool]] = []
         self.left_station: list[Callable[[Floor, Job, Station], None]] = []
+        self.broken_off: list[Callable[[Floor, Job], None]] = []
+        self.lost_server: list[Callable[[Floor, Job, Station], None]] = []
+        self.created: list[Callable[[Floor, Job], None]] = []
         self.left_floor: list[Callable[[Floor, Job], None]] = []
+        self.closing: list[Callable[[Floor], None]] = []
+        self.stock: Any = None
+        self.kits: Any = None
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.now = 0.0
         self.n_performances = 0
@@ -153,12 +164,12 @@ class Floor:
             self.log_job(job)
         job.kind, job.cause, job.since_s = kind, cause, self.now
 
-    def log_instant(self, kind: int, job: Job, cause: int = 0) -> None:
-        """Write something that happened to a job at once."""
+    def log_instant(self, kind: int, job: Job, cause: int = 0, station: int = -1, other: int = -1) -> None:
+        """Write something that happened to a job at once; at a station and with another job, where it is worth it."""
         now = self.now
         self.write(pack_row(
-            kind, now, now, -1, -1, -1, -1, job.source, job.number, job.product, job.operation_rank,
-            -1, -1, -1, nan, nan, nan, cause,
+            kind, now, now, -1, station, -1, -1, job.source, job.number, job.product, job.operation_rank,
+            -1, -1, other, nan, nan, nan, cause,
         ))  # fmt: skip
 
 
@@ -181,7 +192,9 @@ def _station(plan: Plan, rank: int) -> Station:
     station = plan.stations[rank]
     tasks = [plan.tasks[task] for task in station.tasks]
     automatic, repeats = tuple(task.automatic for task in tasks), tuple(task.repeat for task in tasks)
-    return Station(station, rank, station.place, station.capacity, station.tasks, automatic, repeats, station.servers)
+    made = Station(station, rank, station.place, station.capacity, station.tasks, automatic, repeats, station.servers)
+    made.per_lot = tuple(task.per_lot for task in tasks)
+    return made
 
 
 def _worker(env: simpy.Environment, plan: Plan, rank: int) -> Worker:

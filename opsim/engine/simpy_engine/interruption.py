@@ -3,7 +3,7 @@
 from opsim.engine.simpy_engine.floor import Floor, cancel, progress
 from opsim.engine.simpy_engine.state import Job, Station
 from opsim.engine.simpy_engine.station import go_on, quiet, stand_still
-from opsim.engine.simpy_engine.worker import set_free, stop
+from opsim.engine.simpy_engine.worker import log_worker, set_free, stop
 from opsim.log import HELD, IS_DOWN, SETUP, WORK
 
 
@@ -16,8 +16,6 @@ def stop_station(floor: Floor, station: Station) -> None:
     if station.down > 1:
         return
     for _, _, _, job in station.calling:
-        job.wanted += len(job.team or ())
-        release_team(floor, job)
         stand_still(floor, station, job)
     station.calling.clear()
     quiet(floor, station)
@@ -57,6 +55,8 @@ def interrupt(floor: Floor, job: Job, cause: int) -> None:
         stop(floor, worker)
         set_free(floor, worker)
     release_team(floor, job)
+    for told in floor.broken_off:
+        told(floor, job)
 
 
 def forget_progress(job: Job) -> None:
@@ -68,5 +68,8 @@ def release_team(floor: Floor, job: Job) -> None:
     """Workers who stand by a job, work on it together, or wait for others, are free."""
     team, job.team = job.team, None
     for worker in team or ():
+        if worker.stint is not None:
+            log_worker(floor, worker)
+            worker.stint = None
         stop(floor, worker)
         set_free(floor, worker)

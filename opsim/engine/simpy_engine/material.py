@@ -2,13 +2,13 @@
 
 from bisect import insort
 
-from opsim.engine.rules import shortest_queue
+from opsim.engine.rules import shortest_queue, source_in_turn
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Ahead, Claim, Gate, Job, Source, Station, claim_of
 from opsim.engine.simpy_engine.station import fill_servers, proceed
 from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
-from opsim.log import BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, QUEUE
+from opsim.log import BAD, BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, NO_CARD, QUEUE
 from opsim.plan import ProductPlan, Ways
 
 
@@ -20,16 +20,23 @@ def create(floor: Floor, source: Source) -> Job:
     return job
 
 
-def new_job(floor: Floor, source: Source, rank: int) -> Job:
-    """The next job of a source, of the product of a rank: on the floor, and nowhere yet."""
-    n = source.n_released
+def new_job(floor: Floor, source: Source, rank: int, n: int | None = None, station: int = -1, other: int = -1) -> Job:
+    """The next job of a source (or its n-th), of the product of a rank: on the floor, and nowhere yet.
+
+    station, other : where it comes into being, and of which job, where that is worth knowing
+    """
+    n = source.n_released if n is None else n
     product = floor.plan.products[rank]
     step = _first_step(floor, source.rank, n, product)
     number = n * len(floor.sources) + source.rank
     job = Job(number, rank, product, step, *floor.steps[rank][step], HELD, GATE, floor.now, source.rank, n)
+    job.lot, job.priority, job.due_s = product.lot, product.priority, floor.now + product.due_s
     source.n_released = n + 1
     floor.jobs[number] = job
-    floor.log_instant(CREATE, job)
+    floor.log_instant(CREATE, job, 0, station, other)
+    if floor.created:
+        for told in floor.created:
+            told(floor, job)
     return job
 
 
@@ -38,7 +45,15 @@ def operation_done(floor: Floor, job: Job) -> None:
     station: Station = job.station  # type: ignore[assignment]
     if station.meter is not None:
         station.meter.cycle(floor)
-    for hook in station.after:
+    if station.after:
+        ask_after(floor, job)
+    else:
+        move_on(floor, job)
+
+
+def ask_after(floor: Floor, job: Job) -> None:
+    """What is asked when an operation is done; where nothing else becomes of it, the job moves on."""
+    for hook in job.station.after:  # type: ignore[union-attr]
         if not hook(floor, job):
             return
     move_on(floor, job)
@@ -57,7 +72,7 @@ def go_to(floor: Floor, job: Job, step: int) -> None:
     """The job wants to go to a step of its route; -1: out."""
     if step < 0:
         leave_station(floor, job)
-        leave_floor(floor, job, FINISH)
+        leave_floor(floor, job, FINISH, BAD if job.bad else 0)
         return
     now = floor.now
     if now > job.since_s:
@@ -68,6 +83,9 @@ def go_to(floor: Floor, job: Job, step: int) -> None:
     job.gate = gate
     insort(gate.claims, (-job.priority, now, job.number, job))
     floor.stirred.add(gate)
+    station: Station = job.station  # type: ignore[assignment]
+    if station.clear is not None:
+        station.clear(floor, station, job)
 
 
 def aim(floor: Floor, job: Job, step: int) -> None:
@@ -106,16 +124,23 @@ def admit(floor: Floor) -> None:
         elif job.ahead.station is None:
             _keep_place(floor, job, gate)
         else:
-            kept, job.ahead = job.ahead.station, None
+            kept, own, job.ahead = job.ahead.station, job.ahead.own, None
+            if own:  # it was never counted twice
+                kept.n_inside += 1
             depart_for(floor, job, kept)
 
 
 def release_saturated(floor: Floor) -> None:
-    """A saturated source makes jobs as long as the first station of the next one has room."""
-    for source in floor.saturated:
-        while _next_has_room(floor, source):
-            create(floor, source)
+    """A saturated source makes jobs as long as the first station of the next one has room; of several in turn."""
+    if len(floor.saturated) == 1:
+        (only,) = floor.saturated
+        while _next_has_room(floor, only):
+            create(floor, only)
             admit(floor)
+        return
+    while able := [source for source in floor.saturated if _next_has_room(floor, source)]:
+        create(floor, min(able, key=lambda source: source_in_turn(source.n_released, source.rank)))
+        admit(floor)
 
 
 def turn_away(floor: Floor) -> None:
@@ -124,7 +149,7 @@ def turn_away(floor: Floor) -> None:
         lost = [claim for claim in gate.claims if claim[3].station is None and claim[3].source in floor.losing]
         for claim in lost:
             gate.claims.remove(claim)
-            leave_floor(floor, claim[3], LOST, FULL)
+            leave_floor(floor, claim[3], LOST, NO_CARD if claim[3].cause == NO_CARD else FULL)
 
 
 def want_in(floor: Floor, job: Job) -> None:
@@ -138,10 +163,22 @@ def withdraw(floor: Floor, job: Job) -> None:
     """The job no longer claims a place at its next operation, and gives back the one it may have."""
     gate = job.gate if job.ahead is None else job.ahead.gate
     gate.claims = [claim for claim in gate.claims if claim[3] is not job]
-    if job.ahead is not None and job.ahead.station is not None:
-        job.ahead.station.n_inside -= 1
-        floor.stir(job.ahead.station)
+    if job.ahead is not None:
+        give_up_place(floor, job, job.ahead)
     job.ahead = None
+
+
+def give_up_place(floor: Floor, job: Job, ahead: Ahead) -> None:
+    """The job gives back the place that is kept for it, with the cards that were taken for it."""
+    kept, ahead.station = ahead.station, None
+    if kept is None:
+        return
+    if ahead.gate.given_up is not None:
+        ahead.gate.given_up(floor, job)
+    if not ahead.own:
+        kept.n_inside -= 1
+        floor.stir(kept)
+    ahead.own = False
 
 
 def _first_step(floor: Floor, source: int, n: int, product: ProductPlan) -> int:
@@ -181,6 +218,9 @@ def _next_has_room(floor: Floor, source: Source) -> bool:
         rank = source.product(source.n_released)
         step = _first_step(floor, source.rank, source.n_released, floor.plan.products[rank])
         gate = source.next_gate = floor.steps[rank][step][2]
+        source.next_want = rank, step
+    if gate.lets is not None:
+        return gate.has_room and gate.lets(*source.next_want)
     return not gate.claims and gate.has_room
 
 
@@ -196,8 +236,11 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
 
 def _keep_place(floor: Floor, job: Job, gate: Gate) -> None:
     """The place is kept for the job, which stays where it is and goes on there."""
-    station = job.ahead.station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)  # type: ignore[union-attr]
-    station.n_inside += 1
+    ahead: Ahead = job.ahead  # type: ignore[assignment]
+    station = gate.stations[0] if len(gate.stations) == 1 else _chosen(gate, job)
+    ahead.own = station is job.station and job.keeps_place
+    ahead.station = station
+    station.n_inside += not ahead.own
     if gate.entered is not None:
         gate.entered(floor, job)
     proceed(floor, job)
@@ -222,7 +265,7 @@ def depart_for(floor: Floor, job: Job, station: Station) -> None:
 
 
 def _chosen(gate: Gate, job: Job) -> Station:
-    with_room = [s for s in gate.stations if s.n_inside < s.capacity or s is job.station]
+    with_room = [s for s in gate.stations if s.n_inside < s.capacity or (s is job.station and job.keeps_place)]
     if gate.choose is not None:
         return gate.choose(with_room, job)
     return min(with_room, key=lambda s: shortest_queue(s.n_inside, s.plan.servers, s.rank))
@@ -258,6 +301,8 @@ def leave_server(floor: Floor, station: Station, job: Job) -> None:
     if job.seat is not None:
         seat, job.seat = job.seat, None
         seat.n_jobs -= 1
+        if seat.n_jobs or station.serve is not None:  # the room that was made for it goes with it
+            station.capacity -= 1
         if seat.n_jobs:
             return
     station.free_servers += 1
@@ -265,10 +310,12 @@ def leave_server(floor: Floor, station: Station, job: Job) -> None:
         fill_servers(floor, station)
 
 
-def leave_floor(floor: Floor, job: Job, kind: int, cause: int = 0) -> None:
-    """The job is on the floor no more, in the way that ``kind`` says."""
+def leave_floor(floor: Floor, job: Job, kind: int, cause: int = 0, station: int = -1, other: int = -1) -> None:
+    """The job is on the floor no more, in the way that ``kind`` says; where, and for which other job, where that is
+    worth knowing.
+    """
     floor.log_job(job)
-    floor.log_instant(kind, job, cause)
+    floor.log_instant(kind, job, cause, station, other)
     del floor.jobs[job.number]
     if floor.left_floor:
         for told in floor.left_floor:

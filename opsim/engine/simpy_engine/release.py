@@ -1,34 +1,61 @@
-"""Sources: the process of a release that does not wait for room."""
+"""Sources: the processes of those that do not wait for room."""
 
 from collections.abc import Generator
+from math import inf
 
 import simpy
 
 from opsim.clock import on_grid
 from opsim.engine.rules import ARRIVAL
 from opsim.engine.simpy_engine.floor import Floor, Handler
-from opsim.engine.simpy_engine.material import create
+from opsim.engine.simpy_engine.material import create, new_job, want_in
 from opsim.engine.simpy_engine.state import Source
+from opsim.plan.orders import OrderPlan
+from opsim.plan.release import POISSON, RENEWAL, SCHEDULE
 
-ARRIVED = "job arrived"
+ARRIVED, ORDERED = "job arrived", "order arrived"
+Process = Generator[simpy.Event, None, None]
 
 
 def install(floor: Floor) -> None:
     """A process for each source of a time of its own."""
     for source in floor.sources:
-        if source.plan.kind != "saturated":
+        if source.plan.kind in (POISSON, RENEWAL):
             floor.env.process(release_by_time(floor, source))
+        elif source.plan.kind == SCHEDULE:
+            floor.env.process(release_by_order(floor, source))
 
 
-def release_by_time(floor: Floor, source: Source) -> Generator[simpy.Event, None, None]:
+def release_by_time(floor: Floor, source: Source) -> Process:
     """The SimPy process of a source of its own time: wait a gap, report an arrival."""
     for number, gap_s in enumerate(floor.draws.gaps(source.rank)):
         yield floor.env.timeout(on_grid(gap_s))
         floor.report(ARRIVAL, source.rank, number, ARRIVED, source)
 
 
+def release_by_order(floor: Floor, source: Source) -> Process:
+    """The SimPy process of a schedule: wait for the time of the next order, report it."""
+    env = floor.env
+    for number, order in enumerate(source.plan.orders):
+        if order.time_s > env.now:
+            yield env.timeout(order.time_s - env.now)  # both on the grid, so the sum is exact
+        floor.report(ARRIVAL, source.rank, number, ORDERED, (source, order))
+
+
 def _arrived(floor: Floor, source: Source) -> None:
-    create(floor, source)
+    for _ in range(source.plan.at_once):
+        create(floor, source)
 
 
-HANDLERS: dict[str, Handler] = {ARRIVED: _arrived}
+def _ordered(floor: Floor, ordered: tuple[Source, OrderPlan]) -> None:
+    source, order = ordered
+    for _ in range(order.quantity):
+        job = new_job(floor, source, source.product(source.n_released))
+        if order.due_s < inf:
+            job.due_s = order.due_s
+        if order.priority is not None:
+            job.priority = order.priority
+        want_in(floor, job)
+
+
+HANDLERS: dict[str, Handler] = {ARRIVED: _arrived, ORDERED: _ordered}

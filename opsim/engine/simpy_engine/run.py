@@ -38,6 +38,8 @@ def _open(plan: Plan, replication: int) -> Floor:
 
 def _close(floor: Floor, replication: int) -> EventLog:
     floor.now = floor.plan.horizon_s
+    for close in floor.closing:
+        close(floor)
     for worker in floor.workers:
         log_worker(floor, worker)
     for job in floor.jobs.values():

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import simpy
 
-from opsim.log import WAIT
+from opsim.log import AFTER, WAIT
 from opsim.plan import Operation, ProductPlan, SourcePlan, StationPlan, WorkerPlan
 
 if TYPE_CHECKING:
     from opsim.engine.simpy_engine.floor import Floor
+    from opsim.engine.simpy_engine.setup import Servers
 
 GOES_ON = -1
 """The ``stage`` of a job that lost its server in the middle of a task, and goes on there when it is seated again."""
@@ -24,7 +25,7 @@ GOES_ON = -1
 class Source:
     """Where jobs come from. n_released : jobs so far; product : the rank of the product that the n-th job is
 
-    next_gate : of a saturated source, the gate that its next job wants in by
+    next_gate, next_want : of a saturated source, the gate that its next job wants in by, its product and step
     """
 
     plan: SourcePlan
@@ -32,11 +33,15 @@ class Source:
     product: Callable[[int], int]
     n_released: int = 0
     next_gate: Gate | None = None
+    next_want: tuple[int, int] = (-1, -1)
 
 
 @dataclass(slots=True, eq=False)
 class Seat:
-    """A server that several jobs share, such as those of a batch: free when the last of them has left it."""
+    """A server that several jobs share, those of a batch or the pieces of a split: free when the last has left it.
+
+    A station makes room for them (``capacity``), which goes with them.
+    """
 
     n_jobs: int
 
@@ -46,11 +51,15 @@ class Ahead:
     """A place that a job wants, or has, at its next operation before it is done with this one.
 
     station : where the place is kept; None while the job waits for it
+    own     : whether it is the place where the job is, which counts once
+    cards   : that were taken for it
     """
 
     step: int
     gate: Gate
     station: Station | None = None
+    own: bool = False
+    cards: list[Any] = field(default_factory=list)
 
 
 @dataclass(slots=True, eq=False)
@@ -67,7 +76,7 @@ class Job:
     over            : the end of an automatic run under way
     stage           : how many of the station's preparations are done
     setup_task      : the set-up under way or called for; -1: none
-    wanted          : workers it still calls for; team : those who have come or are on their way
+    with_tools      : whether it calls for a worker who takes tools with him; team : who has come, or is on his way
     visits          : how often each step was passed, where the way on is drawn
     due_s           : when it should be done; bad : whether a defect is in it
     """
@@ -99,7 +108,7 @@ class Job:
     over: simpy.Event | None = None
     stage: int = 0
     setup_task: int = -1
-    wanted: int = 1
+    with_tools: bool = False
     team: list[Worker] | None = None
     seat: Seat | None = None
     members: tuple[Job, ...] = ()
@@ -109,6 +118,11 @@ class Job:
     due_s: float = inf
     lot: int = 1
     bad: bool = False
+
+    @property
+    def keeps_place(self) -> bool:
+        """Whether it needs no other place where it is: who is behind the servers, or shares one, would need one."""
+        return (self.ahead is None or self.ahead.station is None) and self.seat is None and self.cause != AFTER
 
 
 Claim = tuple[float, float, int, Job]
@@ -143,17 +157,20 @@ class Station:
     luck    : by task, durations of automatic runs to come; next_k : how many there were
     down    : for how many reasons it stands still; standing : jobs on servers that wait until it goes on
     seated  : jobs on servers, where a block has to find them; else None
+    per_lot : of each task, whether it is done once for a lot; else for each of its units
 
     What blocks hang in, each empty or None where none does:
     stages  : preparations of a seated job, in their order
     ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``
+    sent    : told of a job with ``with_tools`` that a worker is sent to
     act, acted : another way to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
     after   : asked when an operation is done, in their order
     order   : key by which the next job of the queue is chosen; None: first come, first served
     serve   : fills free servers from the queue, in place of one job at a time; asked after each arrival too
     receive, vacate : in place of arriving at a server or the queue, and of giving the server back
     meter   : counts performances and operations
-    setup_attended : whether a worker sets it up
+    setup_attended : whether a worker sets it up; setups : what its servers are set up for
+    clear   : told of each finished job that has to go on, which may leave its server; put_away : those that have
     """
 
     plan: StationPlan
@@ -175,6 +192,7 @@ class Station:
     seated: list[Job] | None = None
     stages: tuple[Stage, ...] = ()
     ready: Callable[[Floor, Job], bool] | None = None
+    sent: Callable[[Floor, Job], None] | None = None
     act: Callable[[Floor, Job, Worker], bool] | None = None
     acted: Callable[[Floor, Job, Worker], bool] | None = None
     after: tuple[Hook, ...] = ()
@@ -183,7 +201,11 @@ class Station:
     receive: Callable[[Floor, Station, Job], None] | None = None
     vacate: Callable[[Floor, Station, Job], None] | None = None
     meter: Meter | None = None
+    per_lot: tuple[bool, ...] = ()
     setup_attended: bool = True
+    setups: Servers | None = None
+    clear: Callable[[Floor, Station, Job], None] | None = None
+    put_away: list[Job] = field(default_factory=list)
     ordered_stages: list[tuple[int, Stage]] = field(default_factory=list)
     ordered_hooks: list[tuple[int, Hook]] = field(default_factory=list)
 
@@ -204,6 +226,8 @@ class Gate:
 
     choose  : which of several stations a job takes; None: the fewest jobs a server
     allows  : whether a job may come in where there is room; entered : told of each that does; None: all may
+    given_up : told of each job that gives the place up that was kept for it
+    pick    : in place of ``next_claim``; lets : whether a new job of a product, at a step, may come in
     """
 
     stations: tuple[Station, ...]
@@ -211,6 +235,9 @@ class Gate:
     choose: Callable[[list[Station], Job], Station] | None = None
     allows: Callable[[Job], bool] | None = None
     entered: Callable[[Floor, Job], None] | None = None
+    given_up: Callable[[Floor, Job], None] | None = None
+    pick: Callable[[], Claim | None] | None = None
+    lets: Callable[[int, int], bool] | None = None
 
     @property
     def has_room(self) -> bool:
@@ -225,6 +252,8 @@ class Gate:
         claims = self.claims
         if not claims:
             return None
+        if self.pick is not None:
+            return self.pick()
         if self.allows is not None:
             return next((claim for claim in claims if self.may_enter(claim[3])), None)
         for station in self.stations:
@@ -236,7 +265,7 @@ class Gate:
         """Whether there is room for a job, and nothing else keeps it out."""
         if job.ahead is not None and job.ahead.station is not None:
             return True
-        room = self.has_room or (job.station in self.stations and job.ahead is None)
+        room = self.has_room or (job.station in self.stations and job.keeps_place)
         return room and (self.allows is None or self.allows(job))
 
 
@@ -249,6 +278,8 @@ class Worker:
     luck     : by task, durations to come at rating 1
     next_k   : by task, how often it was done
     round    : where the worker is on the round he patrols
+    walks_left : that he must still make, there and back, to bring all of the job he carries
+    stint    : his part of a team's performance under way, which has a row of its own
     """
 
     plan: WorkerPlan
@@ -267,4 +298,6 @@ class Worker:
     job: Job | None = None
     walk_from: int = -1
     round: int = -1
+    walks_left: int = 0
     process: simpy.Process | None = None
+    stint: Any = None

@@ -104,7 +104,7 @@ def stand_still(floor: Floor, station: Station, job: Job) -> None:
 
 
 def call(floor: Floor, station: Station, job: Job) -> None:
-    """The job on its server calls for a worker, or for as many as ``job.wanted`` says."""
+    """The job on its server calls for a worker."""
     floor.job_now(job, HELD, NO_WORKER)
     insort(station.calling, (-job.priority, floor.now, job.number, job))
     floor.calling[station.rank] = station
@@ -124,7 +124,7 @@ def begin_setup(floor: Floor, job: Job, task: int) -> None:
     job.setup_task = task
     if station.down:
         stand_still(floor, station, job)
-    elif station.setup_attended:
+    elif station.setup_attended and not floor.plan.tasks[task].automatic:
         call(floor, station, job)
     else:
         run_automatic(floor, station, job)
@@ -142,20 +142,26 @@ def task_done(job: Job) -> bool:
     """Count one performance; True where all tasks of the station are done."""
     repeats = job.station.repeats  # type: ignore[union-attr]
     job.repeats_done += 1
-    if job.repeats_done == repeats[job.task_position]:
+    if job.repeats_done == repeats[job.task_position] * (1 if job.lot == 1 else units(job)):
         job.repeats_done = 0
         job.task_position += 1
     return job.task_position == len(repeats)
 
 
+def units(job: Job) -> int:
+    """How many units of a lot the job's task is done for, each by itself."""
+    per_lot = job.station.per_lot  # type: ignore[union-attr]
+    return 1 if per_lot[job.task_position] else job.lot
+
+
 def perform(floor: Floor, job: Job, worker: Worker) -> None:
     """The worker's next performance of the job's task begins now, or the rest of one that was interrupted."""
     station: Station = job.station  # type: ignore[assignment]
+    if station.act is not None and station.act(floor, job, worker):
+        return
     if station.down:
         set_free(floor, worker)
         stand_still(floor, station, job)
-        return
-    if station.act is not None and station.act(floor, job, worker):
         return
     task = station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
     if job.rest_s and job.worker == worker.rank:

@@ -63,9 +63,13 @@ def walk(floor: Floor, worker: Worker, place: int, walk_s: float) -> None:
 
 
 def log_worker(floor: Floor, worker: Worker) -> None:
-    """Write the wait or the walk the worker was in until now; work is written with the job."""
+    """Write the wait or the walk the worker was in until now; work is written with the job, unless a team does it."""
     now, kind = floor.now, worker.kind
-    if now <= worker.since_s or (kind != WAIT and kind != WALK):
+    if now <= worker.since_s:
+        return
+    if kind != WAIT and kind != WALK:
+        if worker.stint is not None:
+            worker.stint.log(floor, worker)
         return
     walking = kind == WALK
     job, station = worker.job, worker.station

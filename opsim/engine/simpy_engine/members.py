@@ -1,0 +1,39 @@
+"""Who belongs to a team, until when."""
+
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.station import units
+from opsim.engine.simpy_engine.worker import set_free
+from opsim.log import WALK
+
+
+def chosen(floor: Floor, job: Job, station: Station) -> list[Worker]:
+    """The free workers who go, by the rule of allocation, in natural order; none where they are too few."""
+    n = floor.plan.tasks[station.tasks[job.task_position]].team
+    able = [worker for worker in floor.free.values() if worker.rating[station.rank] > 0]
+    if len(able) < n:
+        return []
+    rank, n_waiting = station.rank, 1 + len(station.queue)
+
+    def key(worker: Worker) -> tuple[float, ...]:
+        walk_s = worker.walk_s[worker.place][rank]
+        return floor.rule(n_waiting, job.since_s, walk_s, worker.plan.rating[rank], rank, worker.rank)
+
+    return sorted(sorted(able, key=key)[:n], key=lambda worker: worker.rank)
+
+
+def disband(floor: Floor, job: Job) -> None:
+    """Who has come is free; who is on his way comes, and is free there."""
+    team, job.team = job.team, None
+    for worker in team or ():
+        if worker.kind == WALK:
+            worker.job = worker.station = None
+        else:
+            set_free(floor, worker)
+
+
+def comes_again(job: Job) -> bool:
+    """Whether the performance that ends now is followed by another one of the same task."""
+    station: Station = job.station  # type: ignore[assignment]
+    times = station.repeats[job.task_position] * (1 if job.lot == 1 else units(job))
+    return job.repeats_done + 1 < times
