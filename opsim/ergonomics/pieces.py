@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from opsim.log import WORK, EventLog
+from opsim.log import SETUP, WORK, EventLog
 from opsim.own_luck import OwnLuck
 from opsim.plan import Plan
 from opsim.streams import BLOCK
@@ -30,10 +30,11 @@ class Pieces(NamedTuple):
 
 
 def pieces_in_window(log: EventLog, plan: Plan) -> Pieces:
-    """All work of workers, as far as it lies in the window, by worker, task, k and time."""
+    """All work of workers, set-ups too, as far as it lies in the window, by worker, task, k and time."""
     low, high = plan.window_s
     start_s, end_s = np.maximum(log["start_s"], low), np.minimum(log["end_s"], high)
-    rows = np.flatnonzero((log["kind"] == WORK) & (log["worker"] >= 0) & (log["task"] >= 0) & (end_s > start_s))
+    work = np.isin(log["kind"], (WORK, SETUP))
+    rows = np.flatnonzero(work & (log["worker"] >= 0) & (log["task"] >= 0) & (end_s > start_s))
     rows = rows[np.lexsort([start_s[rows], log["k"][rows], log["task"][rows], log["worker"][rows]])]
     begun_s, done = log["start_s"][rows], log["progress_from"][rows]
     a_second = (log["progress_to"][rows] - done) / (log["end_s"][rows] - begun_s)

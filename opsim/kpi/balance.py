@@ -20,8 +20,9 @@ def line_balance(log: EventLog, plan: Plan) -> Iterator[Figure]:
     Sources: Salveson 1955, The assembly line balancing problem, J. Industrial Engineering 6(3), 18-25; Moodie & Young
     1965 (smoothness), same journal 16(1), 23-29; Scholl 1999, Balancing and Sequencing of Assembly Lines, Physica.
     """
-    on_route = [(load.servers, load.visits, load.station) for load in station_loads(plan) if load.visits > 0]
     by_station = cycle_times(log, plan)
+    loads = [load for load in station_loads(plan) if load.visits > 0 and load.station in by_station]
+    on_route = [(load.servers, load.visits, load.station) for load in loads]
     servers = np.array([n for n, _, _ in on_route])
     work_s = np.array([visits * mean(by_station[station]) for _, visits, station in on_route]) / servers
     efficiency = (servers * work_s).sum() / (servers.sum() * work_s.max())

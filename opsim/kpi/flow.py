@@ -5,42 +5,54 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.kpi.figure import Figure
-from opsim.kpi.values import SECONDS_PER_HOUR, by_rank, in_window, mean, quantiles, window_length_s
-from opsim.log import CREATE, FINISH, LOST, EventLog
+from opsim.kpi.values import (
+    SECONDS_PER_HOUR,
+    by_rank,
+    created_s,
+    in_window,
+    mean,
+    quantiles,
+    units_each,
+    window_length_s,
+)
+from opsim.log import BAD, CREATE, FINISH, LEAVING_KINDS, LOST, EventLog
 from opsim.plan import Plan
+from opsim.plan.endings import finishes
 
 
 def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Good jobs finished in the window per hour, in all and by product.
+    """Good units finished in the window per hour, in all and by product; a lot counts as its units.
 
-    No calendar closes release or stations yet, so scheduled open hours and calendar hours are the same.
+    A job that leaves with a defect is not good. What ends in a store is no output until it goes out as a part of
+    something. No calendar closes release or stations yet, so scheduled open hours and calendar hours are the same.
     """
     hours = window_length_s(plan) / SECONDS_PER_HOUR
-    product = log["product"][_ended(log, plan, FINISH)]
+    done = _ended(log, plan, FINISH)
+    product = log["product"][done[log["cause"][done] != BAD]]
+    units = np.bincount(product, minlength=len(plan.products)) * units_each(plan)
     for name in ("throughput_per_h", "throughput_per_calendar_h"):
-        yield Figure(name, "", "", "1/h", product.size / hours)
-    for rank, count in enumerate(np.bincount(product, minlength=len(plan.products))):
-        if len(plan.products) > 1:
-            yield Figure("throughput_per_h", plan.products[rank].name, "", "1/h", count / hours)
+        yield Figure(name, "", "", "1/h", units.sum() / hours)
+    finished = [rank for rank in range(len(plan.products)) if finishes(plan, rank)]
+    for rank in finished if len(finished) > 1 else ():
+        yield Figure("throughput_per_h", plan.products[rank].name, "", "1/h", units[rank] / hours)
 
 
 def lost(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Jobs turned away per hour and their share of all that arrived in the window, where the source turns jobs away."""
-    if plan.release.when_full == "lose":
-        n_lost, n_arrived = _ended(log, plan, LOST).size, _ended(log, plan, CREATE).size
+    """Jobs turned away per hour, and their share of all that arrived in the window at sources that turn jobs away."""
+    losing = [rank for rank, source in enumerate(plan.sources) if source.when_full == "lose"]
+    if losing:
+        n_lost, arrived = _ended(log, plan, LOST).size, _ended(log, plan, CREATE)
+        n_arrived = int(np.isin(log["source"][arrived], losing).sum())
         yield Figure("lost_per_h", "", "", "1/h", n_lost / (window_length_s(plan) / SECONDS_PER_HOUR))
         yield Figure("lost_share", "", "", "share", n_lost / n_arrived if n_arrived else np.nan)
 
 
 def times_in_system(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
-    """By product: seconds from creation to leaving of jobs that finish in the window."""
-    created = np.flatnonzero(log["kind"] == CREATE)
-    enter_s = np.empty(created.size)
-    enter_s[log["job"][created]] = log["end_s"][created]
+    """By product that can finish: seconds from creation to leaving of jobs that finish in the window."""
     done = _ended(log, plan, FINISH)
-    stay_s = log["end_s"][done] - enter_s[log["job"][done]]
+    stay_s = log["end_s"][done] - created_s(log, log["job"][done])
     parts = by_rank(stay_s, log["product"][done], len(plan.products))
-    return {product.name: part for product, part in zip(plan.products, parts)}
+    return {plan.products[rank].name: part for rank, part in enumerate(parts) if finishes(plan, rank)}
 
 
 def time_in_system(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -49,7 +61,7 @@ def time_in_system(log: EventLog, plan: Plan) -> Iterator[Figure]:
     Both run from creation to finish: waiting outside a full first buffer belongs to them.
     """
     by_product = times_in_system(log, plan)
-    every_s = np.concatenate(list(by_product.values()))
+    every_s = np.concatenate([*by_product.values(), np.array([])])
     yield Figure("time_in_system_s", "", "", "s", mean(every_s))
     for product, stay_s in by_product.items():
         if len(by_product) > 1:
@@ -62,13 +74,13 @@ def time_in_system(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
 
 def work_in_progress(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Jobs inside, averaged over the window: in all, and by product where there are several.
+    """Jobs inside, averaged over the window: in all, and by product where there are several; those in stores too.
 
     Little's law L = lambda W holds of it exactly where the floor is empty at both ends of the window.
     Source: Little 1961, A proof for the queuing formula L = lambda W, Operations Research 9(3).
     """
     length_s = window_length_s(plan)
-    inside_s = _seconds_left(log, plan, CREATE) - _seconds_left(log, plan, FINISH, LOST)
+    inside_s = _seconds_left(log, plan, CREATE) - _seconds_left(log, plan, *LEAVING_KINDS)
     yield Figure("work_in_progress", "", "", "jobs", inside_s.sum() / length_s)
     for product, spent_s in zip(plan.products, inside_s):
         if len(plan.products) > 1:

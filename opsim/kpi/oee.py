@@ -4,37 +4,78 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from opsim.kpi.cycle import visits
 from opsim.kpi.figure import Figure
-from opsim.kpi.values import inside_s, window_length_s
-from opsim.log import WORK, EventLog
+from opsim.kpi.outages import outage_rows
+from opsim.kpi.values import in_window, inside_s, window_length_s
+from opsim.log import BATCH, BREAKDOWN, HELD, MAINTENANCE, REWORK, SCRAP, SETUP, WORK, EventLog
 from opsim.plan import Plan
+from opsim.plan.station import STATION
 
 
 def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """OEE = availability x performance x quality, per server of a station over the window; each factor beside it.
 
-    availability : 1, as no station breaks down and no calendar closes one yet
+    Planned time is the window without planned maintenance; no calendar closes a station yet.
+    availability : the share of planned time in which the station is neither down by a breakdown nor being set up
     performance  : seconds the work done should take by the tasks' mean durations / seconds available. It is speed
                    (should take / took) times use (took / available), so blocking, starving and waiting lower it
-    quality      : 1, as nothing is scrapped yet
+    quality      : the share of the operations of the window after which the job was neither scrap nor sent to rework
     Source: Nakajima 1988, Introduction to TPM, Productivity Press (performance = operating speed rate x net operating
-    rate; idling and minor stoppages are losses of performance).
+    rate; idling and minor stoppages are losses of performance, breakdowns and set-ups of availability). Minor stops
+    that a scenario models as breakdowns are losses of availability here.
     """
-    n = len(plan.stations)
-    rows = np.flatnonzero((log["kind"] == WORK) & (log["station"] >= 0) & (log["task"] >= 0))
-    station, took_s = log["station"][rows], inside_s(log, rows, plan)
+    rows = np.flatnonzero((log["kind"] == WORK) & (log["station"] >= 0) & (log["task"] >= 0) & (log["job"] >= 0))
+    took_s = inside_s(log, rows, plan)
     part_inside = took_s / (log["end_s"][rows] - log["start_s"][rows])
     done = (log["progress_to"][rows] - log["progress_from"][rows]) * part_inside
     mean_s = np.array([task.model.mean_duration_s() for task in plan.tasks])[log["task"][rows]]
-    planned_s = np.bincount(station, weights=done * mean_s, minlength=n)
-    worked_s = np.bincount(station, weights=took_s, minlength=n)
+    planned_s, worked_s = (_by_station(log, plan, rows, weights) for weights in (done * mean_s, took_s))
+    servers = np.array([station.servers for station in plan.stations])
+    planned_time_s, available_s = _times(log, plan, servers)
+    quality = _quality(log, plan)
     for rank, place in enumerate(plan.stations):
-        available_s = window_length_s(plan) * place.servers
-        availability, quality = 1.0, 1.0
-        performance = planned_s[rank] / available_s
-        yield Figure("oee", place.name, "", "share", availability * performance * quality)
-        factors = {"availability": availability, "performance": performance, "quality": quality}
-        factors["speed"] = planned_s[rank] / worked_s[rank] if worked_s[rank] > 0 else np.nan
-        factors["use"] = worked_s[rank] / available_s
+        if place.kind != STATION:
+            continue
+        factors = {"availability": _ratio(available_s[rank], planned_time_s[rank], 1.0)}
+        factors["performance"] = _ratio(planned_s[rank], available_s[rank])
+        factors["quality"] = quality[rank]
+        yield Figure("oee", place.name, "", "share", float(np.prod(list(factors.values()))))
+        factors["speed"] = _ratio(planned_s[rank], worked_s[rank])
+        factors["use"] = _ratio(worked_s[rank], available_s[rank])
         for part, value in factors.items():
             yield Figure("oee_factor", place.name, part, "share", value)
+
+
+def _times(log: EventLog, plan: Plan, servers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(stations,) seconds of servers in the window that are planned for work, and those of them it can be done in."""
+    stops = outage_rows(log)
+    down_s = inside_s(log, stops, plan) * servers[log["station"][stops]]
+    maintained = log["cause"][stops] == MAINTENANCE
+    setups = np.flatnonzero((log["kind"] == SETUP) & (log["station"] >= 0) & (log["job"] >= 0))
+    planned_s = window_length_s(plan) * servers - _by_station(log, plan, stops[maintained], down_s[maintained])
+    lost_s = _by_station(log, plan, stops[~maintained], down_s[~maintained])
+    return planned_s, planned_s - lost_s - _by_station(log, plan, setups, inside_s(log, setups, plan))
+
+
+def _quality(log: EventLog, plan: Plan) -> np.ndarray:
+    """(stations,) share of the operations of the window that ended well; 1 where there was none."""
+    wrong = np.isin(log["kind"], (SCRAP, REWORK)) & (log["station"] >= 0) & in_window(log["end_s"], plan)
+    found = np.flatnonzero(wrong)
+    halfway = found[log["cause"][found] == BREAKDOWN]  # these never became whole visits
+    n_wrong, n_halfway = (_by_station(log, plan, rows, np.ones(rows.size)) for rows in (found, halfway))
+    whole = visits(log, plan)
+    counted = whole.whole & in_window(whole.end_s, plan)
+    with_others = (log["kind"] == HELD) & (log["cause"] == BATCH) & in_window(log["end_s"], plan)
+    members = np.flatnonzero(with_others & (log["station"] >= 0))  # only the first of a batch has visits
+    n_done = np.bincount(whole.station[counted], minlength=len(plan.stations)) + n_halfway
+    n_done = n_done + _by_station(log, plan, members, np.ones(members.size))
+    return 1.0 - np.divide(n_wrong, n_done, out=np.zeros(n_done.size), where=n_done > 0)
+
+
+def _by_station(log: EventLog, plan: Plan, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    return np.bincount(log["station"][rows], weights=weights, minlength=len(plan.stations))
+
+
+def _ratio(part: float, whole: float, otherwise: float = np.nan) -> float:
+    return part / whole if whole > 0 else otherwise

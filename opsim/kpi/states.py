@@ -6,43 +6,41 @@ import numpy as np
 
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import inside_s, window_length_s
-from opsim.log import BLOCKED, HELD, JOB_BLOCKED, KINDS, QUEUE, WAIT, WALK, WORK, EventLog
+from opsim.log import JOB_BLOCKED, KINDS, NO_TOOL, SETUP, TEAM, TRANSPORT, WAIT, WALK, WORK, EventLog
 from opsim.plan import Plan
 
 
 def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Of each worker: work, walk, wait (idle), and held (standing by a blocked job) where allocation holds him."""
+    """Of each worker: work, walk, wait (idle), and what else people do here.
+
+    held : standing by a blocked job, where allocation holds him, or he is to carry it; setup : setting a station up;
+    team : waiting for the others of a team, before the work or after it; tool : waiting, in the middle of a task, for
+    the tool it takes now
+    """
     rows = np.flatnonzero(log["worker"] >= 0)
-    seconds = _seconds_by_kind(log, plan, rows, "worker", len(plan.workers))
-    held = rows[(log["kind"][rows] == WAIT) & (log["cause"][rows] == JOB_BLOCKED)]
-    held_s = _seconds_by_kind(log, plan, held, "worker", len(plan.workers))[:, WAIT]
-    parts = {"work": seconds[:, WORK], "walk": seconds[:, WALK], "wait": seconds[:, WAIT] - held_s}
-    if plan.when_blocked == "held":
+    kinds = _seconds_by_kind(log, plan, rows)
+    waits = rows[log["kind"][rows] == WAIT]
+    held_s, team_s, tool_s = (
+        _seconds_by_kind(log, plan, waits[log["cause"][waits] == cause])[:, WAIT]
+        for cause in (JOB_BLOCKED, TEAM, NO_TOOL)
+    )
+    parts = {"work": kinds[:, WORK], "walk": kinds[:, WALK] + kinds[:, TRANSPORT]}
+    parts["wait"] = kinds[:, WAIT] - held_s - team_s - tool_s
+    if plan.when_blocked == "held" or any(product.carried for product in plan.products):
         parts["held"] = held_s
+    if any(setup.attended for setup in plan.setups):
+        parts["setup"] = kinds[:, SETUP]
+    if any(task.team > 1 for task in plan.tasks):
+        parts["team"] = team_s
+    if any(task.hold is not None for task in plan.tasks):
+        parts["tool"] = tool_s
     for rank, worker in enumerate(plan.workers):
         for part, spent_s in parts.items():
             yield Figure("worker_states", worker.name, part, "share", spent_s[rank] / window_length_s(plan))
 
 
-def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """Of each station, per server: work, blocked, waiting (a job wants a worker), starved (no job).
-
-    And the jobs in its buffer or on its servers waiting for a worker, averaged over the window.
-    """
-    length_s = window_length_s(plan)
-    on_floor = np.flatnonzero((log["station"] >= 0) & np.isin(log["kind"], (WORK, BLOCKED, HELD, QUEUE)))
-    seconds = _seconds_by_kind(log, plan, on_floor, "station", len(plan.stations))
-    for rank, station in enumerate(plan.stations):
-        shares = seconds[rank] / (length_s * station.servers)
-        parts = {"work": shares[WORK], "blocked": shares[BLOCKED], "waiting": shares[HELD]}
-        for part, share in {**parts, "starved": 1.0 - sum(parts.values())}.items():
-            yield Figure("station_states", station.name, part, "share", share)
-    for rank, station in enumerate(plan.stations):
-        waiting_s = seconds[rank, QUEUE] + seconds[rank, HELD]
-        yield Figure("queue_length", station.name, "", "jobs", waiting_s / length_s)
-
-
-def _seconds_by_kind(log: EventLog, plan: Plan, rows: np.ndarray, column: str, n: int) -> np.ndarray:
-    """(n, kinds) seconds in the window of some rows, by the subject in a column and by kind."""
-    cell = log[column][rows].astype(np.int64) * len(KINDS) + log["kind"][rows]
+def _seconds_by_kind(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
+    """(workers, kinds) seconds in the window of some rows, by worker and by kind."""
+    n = len(plan.workers)
+    cell = log["worker"][rows].astype(np.int64) * len(KINDS) + log["kind"][rows]
     return np.bincount(cell, weights=inside_s(log, rows, plan), minlength=n * len(KINDS)).reshape(n, len(KINDS))

@@ -8,13 +8,21 @@ from opsim.kpi.active import active_time
 from opsim.kpi.balance import line_balance
 from opsim.kpi.bottleneck import bottleneck
 from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
+from opsim.kpi.due import due_dates
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
 from opsim.kpi.names import needs_postures
 from opsim.kpi.oee import oee
+from opsim.kpi.outages import outages
 from opsim.kpi.posture import trunk_flexion
-from opsim.kpi.states import station_states, worker_states
+from opsim.kpi.quality import quality
+from opsim.kpi.states import worker_states
+from opsim.kpi.station_states import station_states
+from opsim.kpi.stops import stops
+from opsim.kpi.stores import conveyors, stores
 from opsim.kpi.takt import takt
+from opsim.kpi.tools import tools
+from opsim.kpi.vehicles import transporters
 from opsim.kpi.walking import walked
 from opsim.log import EventLog
 from opsim.plan import Plan
@@ -23,6 +31,7 @@ _FUNCTIONS = (
     throughput,
     lost,
     time_in_system,
+    due_dates,
     work_in_progress,
     worker_states,
     station_states,
@@ -34,6 +43,13 @@ _FUNCTIONS = (
     oee,
     active_time,
     bottleneck,
+    outages,
+    stops,
+    stores,
+    conveyors,
+    transporters,
+    quality,
+    tools,
 )
 
 

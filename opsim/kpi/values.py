@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.kpi.figure import Figure
-from opsim.log import EventLog
+from opsim.log import CREATE, EventLog
 from opsim.plan import Plan
 
 SECONDS_PER_HOUR = 3600.0
@@ -28,6 +28,18 @@ def inside_s(log: EventLog, rows: np.ndarray, plan: Plan) -> np.ndarray:
     """(n,) seconds in the window of the rows with some numbers."""
     low, high = plan.window_s
     return np.maximum(np.minimum(log["end_s"][rows], high) - np.maximum(log["start_s"][rows], low), 0.0)
+
+
+def units_each(plan: Plan) -> np.ndarray:
+    """(products,) units in a job of each product: those of its lot."""
+    return np.array([product.lot for product in plan.products])
+
+
+def created_s(log: EventLog, jobs: np.ndarray) -> np.ndarray:
+    """(n,) when each of some jobs came onto the floor. NOTE: numbers of pieces have gaps, so they are looked up."""
+    created = np.flatnonzero(log["kind"] == CREATE)
+    order = created[np.argsort(log["job"][created], kind="stable")]
+    return log["end_s"][order[np.searchsorted(log["job"][order], jobs)]]
 
 
 def by_rank(values: np.ndarray, rank: np.ndarray, n: int) -> list[np.ndarray]:

@@ -16,7 +16,7 @@ from opsim.report.sentence import sentences
 from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
 from opsim.whole import write_text
 
-STATE_KPIS = {"worker_states": "Workers", "station_states": "Stations"}
+STATE_KPIS = {"worker_states": "Workers", "station_states": "Stations", "transporter_states": "Transporters"}
 HISTOGRAMS = {
     "time_in_system_s": "Time in system, by product",
     "cycle_time_s": "Work a job gets, by station",

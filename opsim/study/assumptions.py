@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
+from opsim.study.flow import flow
 from opsim.study.people import asked_for_pace, people
 from opsim.study.walking import walking
 from opsim.tasks.motions import emulators_of
@@ -27,7 +28,7 @@ Assumption = tuple[str, str]
 
 def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
-    lines = [line for part in (_switched, _times, people, walking, _flow, _window) for line in part(loaded, plan)]
+    lines = [line for part in (_switched, _times, people, walking, flow, _window) for line in part(loaded, plan)]
     return [*lines, *_run(loaded, asked)]
 
 
@@ -50,12 +51,11 @@ def _switched(loaded, plan: Plan) -> Iterator[Assumption]:
 
 def _times(loaded, plan: Plan) -> Iterator[Assumption]:
     tasks = loaded.scenario.tasks
-    made_up = [
-        task.name for task in plan.tasks if hasattr(tasks[task.name], "dist") or hasattr(tasks[task.name], "fixed_s")
-    ]
+    named = [task for task in plan.tasks if task.name in tasks]
+    made_up = [task.name for task in named if hasattr(tasks[task.name], "dist") or hasattr(tasks[task.name], "fixed_s")]
     if made_up:
         yield "task times", f"{listed(made_up)}: from the scenario, not from recordings; no posture is known for them"
-    for task in plan.tasks:
+    for task in named:
         if hasattr(tasks[task.name], "emulator"):
             report = fit_report(task.model)
             yield (
@@ -63,7 +63,7 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
                 f"{task.name}: people here move and take their time as in {tasks[task.name].emulator} "
                 f"({behind(report.source, report.n_sequences, report.n_workers)})",
             )
-    for task in plan.tasks:
+    for task in named:
         if hasattr(tasks[task.name], "motions"):
             report, emulators = fit_report(task.model), listed(emulators_of(tasks[task.name], loaded))
             yield (
@@ -81,42 +81,6 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
     loads = [name for name, task in tasks.items() if task.load_kg is not None]
     if loads:
         yield "loads", f"{listed(loads)}: the load is kept with the task; it does not change pace or posture"
-
-
-_IDLE = {
-    "stay": "stay where they are",
-    "home": "walk home, and can be called again when they are there",
-    "patrol": "walk round their stations and serve only where they stand",
-}
-
-
-def _flow(loaded, plan: Plan) -> Iterator[Assumption]:
-    carried = [product.name for product in plan.products if product.carried]
-    if carried:
-        yield (
-            "transport",
-            f"whoever did the last task at a station carries {listed(carried)} to the next at walking speed, "
-            "unhampered by the load, and waits with it while that is full; after an automatic task it passes without "
-            "time",
-        )
-    if len(carried) < len(plan.products):
-        yield "transport", f"{'other jobs' if carried else 'jobs'} pass between stations without time"
-    comes_back = any(len(ways) > 1 for product in plan.products for ways in product.onward)
-    rework = ", and rework only as the routing says" if comes_back else " or rework"
-    yield "stations", f"no set-ups, breakdowns or scrap{rework}"
-    if plan.workers:
-        rule, blocked = plan.rule.replace("_", " "), plan.when_blocked
-        chosen = "chosen" if "allocation.rule" in loaded.given else "default"
-        yield "allocation", f"free workers go by {rule} ({chosen}); with a blocked job a worker is {blocked}"
-        yield "allocation", f"idle workers {_IDLE[plan.idle]}"
-    unlimited = [station.name for station in plan.stations if station.buffer == float("inf")]
-    if unlimited:
-        yield "buffers", f"unlimited in front of {listed(unlimited)}"
-    if plan.release.kind != "saturated":
-        how = (
-            "at random (Poisson)" if plan.release.kind == "poisson" else "with gaps of their own distribution (renewal)"
-        )
-        yield "release", f"jobs come {how}, one every {plan.release.every_s:g} s on average; none come in lots"
 
 
 def _window(loaded, plan: Plan) -> Iterator[Assumption]:

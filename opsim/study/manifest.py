@@ -3,6 +3,7 @@
 import hashlib
 import json
 import platform
+from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -52,21 +53,36 @@ def library_files(loaded) -> dict[str, Path]:
 
 
 def recorded_files(loaded) -> dict[str, Path]:
-    """The files of recorded times, by the name that stands in the scenario."""
+    """The files of recorded times, orders and sequences, by the name that stands in the scenario."""
     from opsim.recorded import resolve_times
 
-    names = {task.recorded for task in loaded.scenario.tasks.values() if hasattr(task, "recorded")}
+    scenario = loaded.scenario
+    releases = [*scenario.sources.values(), *([] if scenario.release is None else [scenario.release])]
+    names = {name for release in releases for name in (release.file, release.sequence) if isinstance(name, str)}
+    names |= set(_recorded(loaded.resolved))
     return {name: resolve_times(name, loaded.folder) for name in sorted(names)}
+
+
+def _recorded(block: Any) -> Iterator[str]:
+    """Every file of recorded times that a scenario names, wherever a time may stand."""
+    for key, value in block.items() if isinstance(block, dict) else enumerate(block) if isinstance(block, list) else ():
+        if key == "recorded" and isinstance(value, str):
+            yield value
+        else:
+            yield from _recorded(value)
 
 
 def plugins_used(loaded) -> dict[str, str]:
     """The distribution and version behind each plug-in that the scenario uses, by the plug-in's name."""
-    from opsim.engine.rules import ALLOCATION_RULES
     from opsim.plugins import plugins
+    from opsim.plugins.door import RULES
 
-    rule = loaded.scenario.allocation.rule
-    used = {task.plugin: "opsim.emulators" for task in loaded.scenario.tasks.values() if hasattr(task, "plugin")}
-    used |= {} if rule in ALLOCATION_RULES else {rule: "opsim.dispatch"}
+    scenario = loaded.scenario
+    queues = [scenario.flow.dispatch, *(station.dispatch for station in scenario.stations.values() if station.dispatch)]
+    rules = [("opsim.dispatch", scenario.allocation.rule), ("opsim.routing", scenario.flow.routing)]
+    rules += [("opsim.sequencing", rule) for rule in queues]
+    used = {task.plugin: "opsim.emulators" for task in scenario.tasks.values() if hasattr(task, "plugin")}
+    used |= {rule: group for group, rule in rules if rule not in RULES[group]}
     return {name: plugins(used[name]).found(name).distribution for name in sorted(used)}
 
 

@@ -1,18 +1,37 @@
 """Where the times of each task come from."""
 
 from opsim.plan import Plan
+from opsim.plan.failures import repairs_said
+from opsim.plan.setup import setup_tasks
 from opsim.provenance import fit_report
 from opsim.tasks.motions import emulators_of
 
 
 def task_sources(loaded, plan: Plan) -> list[dict]:
     """A row a task, in natural order: its model in words, and for an emulated one the recordings behind it."""
-    return [_source(loaded, plan, task.name, task.model) for task in plan.tasks]
+    unnamed = {**setup_tasks(loaded.scenario), **repairs_said(loaded.scenario)}
+    return [
+        _source(loaded, plan, task.name, task.model)
+        if task.name in loaded.scenario.tasks
+        else _unnamed(plan, rank, unnamed[task.name])
+        for rank, task in enumerate(plan.tasks)
+    ]
+
+
+def _unnamed(plan: Plan, rank: int, said) -> dict:
+    """A task that the scenario says at its station: a set-up, a repair, a maintenance."""
+    task = plan.tasks[rank]
+    stops = [one.station for one in plan.stops if one.task == rank]
+    setups = [one.station for one in plan.setups if any(rank in row for row in one.task)]
+    row: dict = {"task": task.name, "station": ", ".join(plan.stations[at].name for at in (*stops, *setups))}
+    row |= {"emulated": False, "repeat": 1, "automatic": task.automatic, "mean_s": task.model.mean_duration_s()}
+    return row | {"model": f"fixed, {said:g} s" if isinstance(said, float) else said.words}
 
 
 def _source(loaded, plan: Plan, name: str, model) -> dict:
     task = loaded.scenario.tasks[name]
-    stations = [station.name for station in plan.stations if name in loaded.scenario.stations[station.name].tasks]
+    points = [station.name for station in plan.stations if station.name in loaded.scenario.stations]
+    stations = [point for point in points if name in loaded.scenario.stations[point].tasks]
     behind = _of_emulator(loaded, task) or _of_motions(loaded, task)
     row = {"task": name, "station": ", ".join(stations), "emulated": bool(behind)}
     row |= {"repeat": task.repeat, "automatic": task.automatic, "mean_s": model.mean_duration_s()}

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from opsim.names import listed
 from opsim.plan import Plan
 from opsim.plan.unread import unread
 from opsim.study.replicate import Replicated
@@ -13,16 +14,19 @@ def warnings_of(done: Sequence[Replicated], plan: Plan) -> list[str]:
 
 
 def _locked(done: Sequence[Replicated]) -> Iterator[str]:
-    """Floors that stood still because jobs waited for each other in a ring."""
+    """Floors that stood still because jobs waited for each other in a circle, with what each of them waited for."""
     stuck = [(one.locked.since_s, one.replication, one.locked) for one in done if one.locked is not None]
     if not stuck:
         return
     since_s, replication, ring = min(stuck, key=lambda one: one[:2])
-    waits = zip(ring.stations, (*ring.stations[1:], ring.stations[0]))
-    chain = ", ".join(f"{here} waits for {there}" for here, there in waits)
     people = f"; needed there, and held by blocked jobs: {', '.join(ring.workers)}" if ring.workers else ""
+    others = f" ({ring.n_jobs} jobs in all, at {listed(list(ring.stations))})" if ring.n_jobs > len(ring.circle) else ""
     yield (
         f"the floor locked itself in {len(stuck)} of {len(done)} replications and stood still from then on; first in "
-        f"replication {replication} at {since_s:.0f} s: {chain}{people}. More room, 'buffer: unlimited' or "
-        f"'when_blocked: free' helps"
+        f"replication {replication} at {since_s:.0f} s: {', '.join(ring.circle)}{others}{people}. "
+        f"{_REMEDY if ring.workers else _MORE}"
     )
+
+
+_MORE = "More of what they wait for helps: room ('buffer: unlimited'), tools, cards or stock"
+_REMEDY = "More room, 'buffer: unlimited' or 'when_blocked: free' helps"

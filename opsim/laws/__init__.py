@@ -1,0 +1,5 @@
+"""What must be true of every event log, checked after every run."""
+
+from opsim.laws.audit import CHECKS, BrokenLog, audit
+
+__all__ = ["CHECKS", "BrokenLog", "audit"]

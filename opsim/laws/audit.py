@@ -1,0 +1,39 @@
+"""All laws of an event log: nothing lost, nobody in two places, no gap, nothing where there is no room for it."""
+
+from collections.abc import Callable, Iterator
+
+from opsim.laws.jobs import conserved, integral, tiled
+from opsim.laws.outages import outages
+from opsim.laws.rooms import rooms
+from opsim.laws.shared import shared
+from opsim.laws.stays import Stays
+from opsim.laws.workers import one_state
+from opsim.log import EventLog
+from opsim.plan import Plan
+
+Law = Callable[[EventLog, Plan, Stays], Iterator[str]]
+
+LAWS: dict[str, Law] = {
+    "every job created is finished, scrapped, joined, split, lost or inside": conserved,
+    "a worker is in exactly one state at any time": one_state,
+    "a job's rows tile its stay without gap": tiled,
+    "time of jobs' rows in the window equals the integral of jobs inside": integral,
+    "no station, store or conveyor holds more jobs than it has room for": rooms,
+    "nobody works at a station that is down": outages,
+    "no more tools, cards, repair teams and vehicles are in use than there are": shared,
+}
+"""Each law yields what it finds wrong, in words; nothing where the log obeys it."""
+CHECKS = tuple(LAWS)
+
+
+class BrokenLog(AssertionError):
+    """An event log that contradicts itself; the message names the first contradiction found."""
+
+
+def audit(log: EventLog, plan: Plan) -> tuple[str, ...]:
+    """Check a log against all laws and return ``CHECKS``. Raises BrokenLog, naming what is wrong."""
+    stays = Stays(log)
+    for law in LAWS.values():
+        for complaint in law(log, plan, stays):
+            raise BrokenLog(f"replication {log.replication}: {complaint}")
+    return CHECKS
