@@ -1,4 +1,4 @@
-"""``opsim check``: is the scenario right, and can its stations keep up? No run."""
+"""``opsim check``: is the scenario right, can everything keep up, and what may lock? No run."""
 
 from __future__ import annotations
 
@@ -8,37 +8,36 @@ import click
 
 from opsim.cli.verbs import mistakes
 
-MOST_ROWS = 60
-
 
 @click.command("check")
 @click.argument("file")
 @click.option("--scenario", "names", multiple=True, metavar="NAME", help="Only this variant; may be given again.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
-    """Check a scenario FILE: schema, references, and the load of each station. Exit code 2 where something is wrong."""
+    """Check a scenario FILE: schema, references, what may lock, and the load of stations, skills and all that is
+    shared. Exit code 2 where something is wrong."""
+    from opsim.cli.check_tables import print_loads
     from opsim.cli.console import print_json
 
     with mistakes():
         variants, warnings = _checked(file, names)
     if as_json:
-        from dataclasses import asdict
-
-        loads_of = {name: [asdict(load) for load in loads] for name, loads in variants.items()}
-        print_json({"file": file, "variants": loads_of, "warnings": warnings})
+        print_json({"file": file, **_plain(variants), "warnings": warnings})
         return
     for name, loads in variants.items():
-        _print_loads(name, loads)
+        print_loads(name, loads)
         for warning in warnings[name]:
             click.echo(f"warning: {name}: {warning}", err=True)
     said = ", ".join(variants)
     click.echo(f"{file}: no problems found in {'variant' if len(variants) == 1 else 'variants'} {said}")
 
 
-def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], dict[str, list[str]]]:
-    """By variant: the load of each station, and what may go wrong."""
-    from opsim.plan import compile_plan, station_loads
+def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, dict[str, Any]], dict[str, list[str]]]:
+    """By variant: the loads of everything, and what may go wrong."""
+    from opsim.plan import compile_plan
     from opsim.plan.joins import wide_joins
+    from opsim.plan.loads import overloads
+    from opsim.plan.orders import late_orders
     from opsim.plan.unread import unread
     from opsim.scenario import read_scenarios
     from opsim.scenario.risks import risks_of
@@ -47,41 +46,36 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, list[Any]], d
     loads, warnings = {}, {}
     for name, variant in loaded.items():
         plan = compile_plan(variant)
-        loads[name] = station_loads(plan)
-        warnings[name] = [*_too_much(loads[name]), *risks_of(variant.scenario), *unread(plan), *wide_joins(plan)]
+        loads[name] = _loads(plan)
+        warnings[name] = [*overloads(plan), *risks_of(variant.scenario), *late_orders(plan)]
+        warnings[name] += [*unread(plan), *wide_joins(plan)]
     return loads, warnings
 
 
-def _too_much(loads: list[Any]) -> list[str]:
-    return [
-        f"{load.station} cannot keep up: {load.load:.0%} of its time is wanted"
-        for load in loads
-        if load.load is not None and load.load >= 1
-    ]
+def _loads(plan: Any) -> dict[str, Any]:
+    from opsim.plan.loads import bottleneck, crew_load, shared_loads, skill_loads, station_loads
+
+    return {
+        "stations": station_loads(plan),
+        "people": {"skills": skill_loads(plan), "together": crew_load(plan)},
+        "shared": shared_loads(plan),
+        "bottleneck": bottleneck(plan),
+    }
 
 
-def _print_loads(variant: str, loads: list[Any]) -> None:
-    from opsim.cli.console import print_table
+def _plain(variants: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """By what, then by variant, as values for JSON."""
+    from dataclasses import asdict
 
-    columns = ("station", "servers", "work a visit", "visits a job", "most per h", "arrivals per h", "load")
-    shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_ROWS]
-    print_table(f"{variant}: load of the stations, from mean times", columns, [_cells(load) for load in shown])
-    if len(loads) > MOST_ROWS:
-        click.echo(f"{variant}: the {MOST_ROWS} busiest of {len(loads)} stations are shown; --json has them all\n")
+    def listed(what: str) -> dict[str, Any]:
+        return {name: [asdict(one) for one in loads[what]] for name, loads in variants.items()}
 
-
-def _spare(load: Any) -> float:
-    """Small for the busiest: by load or, where release is saturated, by the jobs that can pass at most."""
-    return load.most_per_h / load.visits if load.visits else float("inf")
-
-
-def _cells(load: Any) -> tuple[str, ...]:
-    return (
-        load.station,
-        str(load.servers),
-        f"{load.work_s:.1f} s",
-        f"{load.visits:.2f}",
-        f"{load.most_per_h:.1f}",
-        "saturated" if load.arrivals_per_h is None else f"{load.arrivals_per_h:.1f}",
-        "–" if load.load is None else f"{load.load:.0%}",
-    )
+    people = {
+        name: {
+            "skills": [asdict(load) for load in loads["people"]["skills"]],
+            "together": None if loads["people"]["together"] is None else asdict(loads["people"]["together"]),
+        }
+        for name, loads in variants.items()
+    }
+    stations, shared, limits = listed("stations"), listed("shared"), listed("bottleneck")
+    return {"variants": stations, "people": people, "shared": shared, "bottleneck": limits}

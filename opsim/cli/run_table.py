@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
+_PARTS = ("", "work", "blocked", "loaded", "down", "repair")
+"""Of figures that have parts, what is shown; the report has all."""
+_BY_STOP = ("stops_per_h", "down_s", "wait_for_repair_s", "stop_share")
+
 
 def print_results(title: str, results: dict[str, Any]) -> None:
-    """One row a figure, one column a variant; the states of workers and stations as far as they are work or blocked."""
+    """One row a figure, one column a variant; of states what stands in ``_PARTS``."""
     from opsim.cli.console import print_table
     from opsim.report.words import kpi_name, largest_mean, plus_minus
 
     found: dict[str, dict[tuple[str, str], dict[str, Any]]] = {}
     for name, result in results.items():
         for row in result.summary["kpis"]:
-            if row["headline"] and row["part"] in ("", "work", "blocked"):
+            if row["headline"] and (row["part"] in _PARTS or row["kpi"] in _BY_STOP):
                 found.setdefault(row["kpi"], {}).setdefault((row["subject"], row["part"]), {})[name] = row
     rows = []
     for kpi, by_subject in found.items():

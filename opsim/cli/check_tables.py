@@ -1,0 +1,91 @@
+"""The tables of ``opsim check``: loads of stations, people and what is shared, and what limits the floor."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+MOST_ROWS = 60
+NEXT = 2
+"""Of what limits the floor after the bottleneck, so many are named."""
+
+
+def print_loads(variant: str, loads: dict[str, Any]) -> None:
+    """Everything that ``opsim check`` has found about a variant."""
+    _print_stations(variant, loads["stations"])
+    _print_people(variant, loads["people"])
+    _print_shared(variant, loads["shared"])
+    if loads["bottleneck"]:
+        first, *others = (_limit(one) for one in loads["bottleneck"][: NEXT + 1])
+        rest = f"; next {', '.join(others)}" if others else ""
+        click.echo(f"{variant}: bottleneck by mean times: {first}{rest}\n")
+
+
+def _limit(one: Any) -> str:
+    said = f"{one.most_per_h:.1f} jobs per h at most"
+    return f"{one.what} ({said})" if one.load is None else f"{one.what} ({one.load:.0%}, {said})"
+
+
+def _print_stations(variant: str, loads: list[Any]) -> None:
+    from opsim.cli.console import print_table
+
+    setups, stops = any(load.setup_s for load in loads), any(load.up < 1 for load in loads)
+    more = (*(("set-up",) if setups else ()), *(("up",) if stops else ()))
+    columns = ("station", "servers", "work a visit", *more, "visits a job", "most per h", "arrivals per h", "load")
+    shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_ROWS]
+    rows = [_cells(load, setups, stops) for load in shown]
+    print_table(f"{variant}: load of the stations, from mean times", columns, rows)
+    if len(loads) > MOST_ROWS:
+        click.echo(f"{variant}: the {MOST_ROWS} busiest of {len(loads)} stations are shown; --json has them all\n")
+
+
+def _spare(load: Any) -> float:
+    """Small for the busiest: by load or, where release is saturated, by the jobs that can pass at most."""
+    return load.most_per_h / load.visits if load.visits else float("inf")
+
+
+def _cells(load: Any, setups: bool, stops: bool) -> tuple[str, ...]:
+    return (
+        load.station,
+        str(load.servers) if load.servers else "–",
+        f"{load.work_s:.1f} s",
+        *((f"{load.setup_s:.1f} s",) if setups else ()),
+        *((f"{load.up:.1%}",) if stops else ()),
+        f"{load.visits:.2f}" if load.visits or not load.arrivals_per_h else "–",  # of sources beside a saturated one
+        f"{load.most_per_h:.1f}" if load.most_per_h < float("inf") else "–",
+        "saturated" if load.arrivals_per_h is None else f"{load.arrivals_per_h:.1f}",
+        "–" if load.load is None else f"{load.load:.0%}",
+    )
+
+
+def _print_people(variant: str, people: dict[str, Any]) -> None:
+    from opsim.cli.console import print_table
+
+    skills, crew = people["skills"], people["together"]
+    if not skills:
+        return
+    rated = any(load.load is not None for load in skills)
+    shown = skills if len(skills) <= MOST_ROWS else sorted(skills, key=lambda load: -load.wanted / max(1, load.able))
+    columns = ("skill", "workers", "work a visit", *(("wanted", "load") if rated else ()))
+    rows = [_skill_cells(load, rated) for load in shown[:MOST_ROWS]]
+    print_table(f"{variant}: load of the skills, from mean times, walks not counted", columns, rows)
+    if crew is not None and rated:
+        who = f"{len(crew.workers)} workers" if len(crew.workers) > 1 else crew.workers[0]
+        where = ", ".join(crew.skills[:6]) + (" and others" if len(crew.skills) > 6 else "")
+        click.echo(f"{variant}: however work is shared, {crew.share:.0%} of the time of {who} ({where}) is wanted\n")
+
+
+def _skill_cells(load: Any, rated: bool) -> tuple[str, ...]:
+    wanted = (f"{load.wanted:.2f}", "–" if load.load is None else f"{load.load:.0%}") if rated else ()
+    return (load.skill, str(load.able), f"{load.work_s:.1f} s", *wanted)
+
+
+def _print_shared(variant: str, shared: list[Any]) -> None:
+    from opsim.cli.console import print_table
+
+    if shared:
+        rows = [
+            (load.name, load.what, str(load.n), "–" if load.load is None else f"{load.load:.0%}") for load in shared
+        ]
+        print_table(f"{variant}: load of what is shared, at least", ("name", "what", "there are", "load"), rows)
