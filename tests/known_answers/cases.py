@@ -4,55 +4,11 @@ The expected numbers are those of ``known_answers.json`` (each with its formula 
 from the closed form or the Markov chain named there), or come from the Markov chain of ``chains.py``.
 """
 
-import json
-from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
-
+from known_answers import assembly, failures, pull, sequence
+from known_answers.case import HERE, Case
 from known_answers.chains import line_rate
-from recordings import reference
 
-HERE = Path(__file__).parent
-
-
-@dataclass(frozen=True)
-class Case:
-    """A figure ``kpi`` of a variant of a file; ``expected`` is theory's number, or names the model and the path to it.
-
-    scale : figure = scale x number + shift (a rate per second is asked as a rate per hour; a wait as a stay)
-    most_half_width : of the 95 % interval, relative, at the replications the file asks for
-    few   : replications that give 5 %, for ``make test``
-    """
-
-    file: str
-    variant: str
-    kpi: str
-    expected: tuple[str, ...] | float
-    scale: float = 1.0
-    shift: float = 0.0
-    most_half_width: float = 0.01
-    few: int = 12
-
-    @property
-    def name(self) -> str:
-        return f"{self.file}/{self.variant} {self.kpi}"
-
-    def answer(self) -> float:
-        """The number that theory gives."""
-        found = _looked_up(self.expected) if isinstance(self.expected, tuple) else self.expected
-        return self.scale * found + self.shift
-
-
-def _looked_up(path: tuple[str, ...]) -> float:
-    found = _reference()
-    for part in path:
-        found = sum(found) if part == "sum" else found[part]
-    return found
-
-
-@cache
-def _reference() -> dict:
-    return {entry["name"]: entry["expected"] for entry in json.loads(reference("known_answers.json").read_text())}
+__all__ = ["CASES", "HERE", "Case"]
 
 
 def _queue(file: str, variant: str, model: str, few: int = 12) -> list[Case]:
@@ -114,4 +70,8 @@ CASES = (
     _chain("line_of_three", "arch", (0.9, 1.2, 0.9)),
     *(_chain(f"line_of_{word}", "erlang", (1.0,) * k, phases=2) for k, word in _WORD.items()),
     *(_chain(f"line_of_{word}", "erlang_buffer_1", (1.0,) * k, phases=2, room=1) for k, word in _WORD.items()),
+    *failures.CASES,
+    *assembly.CASES,
+    *pull.CASES,
+    *sequence.CASES,
 )

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 import simpy
+from made_shops import begun, ran
 
 from opsim import Worker
 from opsim.engine.rules import ALLOCATION_RULES
-from opsim.plugins import NoSuchPlugin, PluginError, dispatch_rule, plugin_model, plugin_problems, plugins
+from opsim.plugins import NoSuchPlugin, PluginError, dispatch_rule, plugin_model, plugin_problems, plugins, rule_of
 from opsim.tasks import Lognormal
 
 RULE = "def first(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_rank):\n"
@@ -281,3 +282,34 @@ def test_a_trace_of_a_plug_in_is_still_a_trace(install):
     install("opsim.emulators", lines, "grab", attribute="Model")
     grab = plugins("opsim.emulators")["grab"](reach_m=0.4)
     assert grab.by_index and np.array_equal(grab.at(np.arange(3)), [1.0, 2.0, 3.0])
+
+
+OF_JOBS = "def first(now_s, since_s, work_s, left_s, left_steps, due_s, setup_s, number):\n"
+OF_STATIONS = "def first(n_inside, servers, station_rank, n_free, mean_s, setup_s, distance_m, position):\n"
+
+
+@pytest.mark.parametrize(("group", "code", "key"), [
+    ("opsim.sequencing", OF_JOBS + "    return (-since_s, number)\n", (-1.0, 7.0)),
+    ("opsim.routing", OF_STATIONS + "    return (-position, station_rank)\n", (-7.0, 2.0)),
+])  # fmt: skip
+def test_rules_of_jobs_and_of_stations_come_in_by_their_own_groups(group, code, key, install):
+    install(group, code)
+    assert rule_of(group, "part")(*(float(n) for n in range(8))) == key
+
+
+@pytest.mark.parametrize("group", ["opsim.sequencing", "opsim.routing"])
+def test_they_are_guarded_as_those_of_allocation_are(group, install):
+    install(group, RULE + "    return (walk_s,)\n")
+    with pytest.raises(PluginError, match=r"first takes \(n_waiting, .*expected \(n"):
+        rule_of(group, "part")
+
+
+def test_a_scenario_may_name_a_rule_of_a_plug_in(install, tmp_path):
+    """Last come, first served."""
+    install("opsim.sequencing", OF_JOBS + "    return (-since_s, number)\n", name="lifo")
+    text = """
+tasks: {cut: {fixed: 10 s, automatic: true}}
+stations: {saw: {at: hall, tasks: [cut], dispatch: lifo}}
+products: {a: {route: [saw]}, b: {route: [saw]}, c: {route: [saw]}}
+"""
+    assert begun(ran(tmp_path, text, "0,a 1,a 2,b 3,c")) == "acba"

@@ -75,3 +75,19 @@ def test_of_many_stations_the_busiest_are_shown(tmp_path):
     _, shown, _ = opsim("check", line(tmp_path, many_stations(80)))
     assert "the 60 busiest of 80 stations are shown" in shown
     assert " s19 " in shown and " s20 " not in shown
+
+
+def test_people_what_is_shared_and_the_bottleneck_are_shown(tmp_path):
+    code, shown, _ = opsim("check", "pump_plant", "--scenario", "base")
+    assert code == 0 and "load of the skills" in shown and "however work is shared" in shown
+    assert "load of what is shared" in shown and "forklift" in shown and "repair team" in shown
+    assert "bottleneck by mean times:" in shown and "set-up" in shown and "no problems found" in shown
+
+
+def test_loads_of_everything_are_in_the_json():
+    said = json.loads(opsim("check", "pump_plant", "--scenario", "base", "--json")[1])
+    assert {one["name"] for one in said["shared"]["base"]} >= {"torque_gun", "forklift", "mechanics", "small"}
+    people = said["people"]["base"]
+    assert people["skills"][0]["skill"] == "balancing" and set(people["together"]["workers"]) <= {"adam", "bea"}
+    limits = [one["most_per_h"] for one in said["bottleneck"]["base"]]
+    assert limits == sorted(limits)

@@ -6,6 +6,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from choices import Drawn, Lots
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plans import plan
@@ -17,24 +18,6 @@ from opsim.log import COLUMNS, FINISH, WORK
 
 WORK_AT = ("t{0}", "m, t{0}", "t{0}, m", "m, t{0}, m")
 RELEASES = ("{kind: saturated}", "{kind: poisson, every: 3 s}", "{kind: poisson, every: 3 s, when_full: lose}")
-
-
-class Lots:
-    """Choices by an ordinary random generator."""
-
-    def __init__(self, seed: int):
-        generator = random.Random(seed)
-        self.whole, self.one_of = generator.randint, generator.choice
-        self.shuffled = lambda items: generator.sample(list(items), len(items))
-
-
-class Drawn:
-    """The same choices by hypothesis, which makes a failing one smaller."""
-
-    def __init__(self, draw):
-        self.whole = lambda low, high: draw(st.integers(low, high))
-        self.one_of = lambda items: draw(st.sampled_from(items))
-        self.shuffled = lambda items: draw(st.permutations(list(items)))
 
 
 def floor(pick) -> dict:

@@ -82,3 +82,35 @@ def test_who_carries_on_his_round_serves_where_he_put_the_job_down():
     # nobody is sent to a call: all his walks are of the round, or with a job
     sent = walks.where((walks["job"] >= 0) & ~np.isin(walks["start_s"], log.of(TRANSPORT)["start_s"]))
     assert len(sent) == 0
+
+
+LOT = CARRIED.replace("carried: true", "carried: true, mass: 6 kg, lot: 5")
+HEAVY = LOT.replace("workers: {w: {", "workers: {w: {most_load: 13 kg, ")
+
+
+def test_who_cannot_carry_all_walks_again_for_the_rest():
+    p = plan(HEAVY)
+    log = run_plan(p)
+    assert audit(log, p) == CHECKS
+    # five units worked on till 30 s; two are carried at once, so three times there and twice back, 3 s each: 30 to 45 s
+    carried = log.of(TRANSPORT)
+    assert (carried["start_s"][0], carried["end_s"][0]) == (30.0, 45.0)
+    walks = log.of(WALK)
+    assert walks["end_s"][:5].tolist() == [33.0, 36.0, 39.0, 42.0, 45.0]
+    assert walks["place_to"][:5].tolist() == [1, 0, 1, 0, 1]
+
+
+@pytest.mark.parametrize(
+    ("mass", "most_load", "walks"),
+    [("6 kg", "30 kg", 1), ("6 kg", "29.9 kg", 3), ("0.1 kg", "0.3 kg", 3), ("6 kg", None, 1)],
+)
+def test_as_much_is_carried_at_once_as_the_limit_lets(mass, most_load, walks):
+    limit = "" if most_load is None else f"most_load: {most_load}, "
+    p = plan(HEAVY.replace("most_load: 13 kg, ", limit).replace("mass: 6 kg", f"mass: {mass}"))
+    assert len(log_of_first(run_plan(p))) == walks
+
+
+def log_of_first(log):
+    """The walks with the first job."""
+    walks = log.of(WALK)
+    return walks.where(walks["job"] == 0)

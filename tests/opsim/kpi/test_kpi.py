@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -92,8 +93,19 @@ def test_states_sum_to_one(text):
 
 
 def test_every_name_a_scenario_may_ask_for_is_computed():
-    p = walking(plan(CELL))
-    assert {figure.kpi for figure in figures(run_plan(p), p, KPIS)} == set(KPIS)
+    """Walks by a cell with an emulator of walking, the blocks of the station model by the shipped plant."""
+    cell = walking(plan(CELL))
+    plant = replace(shipped("pump_plant.yaml"), horizon_s=7200.0)
+    named = {figure.kpi for p in (cell, plant) for figure in figures(run_plan(p), p, KPIS if p is cell else ())}
+    assert named == set(KPIS)
+
+
+def shipped(name):
+    """The plan of a scenario that comes with opsim."""
+    from opsim.plan import compile_plan
+    from opsim.scenario import read_scenarios
+
+    return compile_plan(next(iter(read_scenarios(Path(__file__).parents[3] / "scenarios" / name).values())))
 
 
 def test_samples_average_to_their_figures():

@@ -65,6 +65,9 @@ RIGHT = [
         "workers:\n", "workforce: {n: 12, from: population, prefix: q, like: ana, skills: {pack: 1}}\nworkers:\n"
     ),
     GOOD.replace("workers:\n", "libraries: {w: libraries/walking.npz}\nwalking: {emulator: w/walk}\nworkers:\n"),
+    GOOD.replace("every: 55 s}", "every: 55 s, at_once: 3, products: {carton: 3/3}}"),
+    GOOD.replace("release: {kind: poisson, every: 55 s}", "sources: {a: {kind: saturated, sequence: [carton]}}"),
+    GOOD.replace("workers:\n", "cards: {loop: {n: 3, from: pack, to: [pack], products: carton}}\nworkers:\n"),
     GOOD.replace("{pack: 1.1}", "{pack: expert}").replace("workers:\n", "skill_levels: {expert: 1.15}\nworkers:\n"),
 ]
 WRONG = [
@@ -84,6 +87,9 @@ WRONG = [
     (GOOD.replace("like: ana", "like: ana, age: 4"), ".workers.ben.age: none of 2 fits"),
     (GOOD.replace("like: ana", "like: ana, age: 41 y"), ".workers.ben.age: none of 2 fits"),
     (GOOD.replace("like: ana", "like: ana, pace: 11"), ".workers.ben.pace: 11 is beyond"),
+    (GOOD.replace("release:", "#"), ": none of 2 fits"),
+    (GOOD.replace("every: 55 s}", "every: 55 s, products: {carton: 2}}"), ".release.products: none of 2 fits"),
+    (GOOD.replace("workers:\n", "cards: {loop: {n: 0}}\nworkers:\n"), ".cards.loop.n: 0 is beyond 1"),
     (with_task("dist: lognormal, mean: 3 s"), ".tasks.lift: none of"),
     (with_task("dist: lognormall, mean: 3 s, cv: 0.2"), ".tasks.lift: none of"),
     (with_task("fixed: 3 kg"), ".tasks.lift: none of"),

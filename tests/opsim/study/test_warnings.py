@@ -8,7 +8,7 @@ def test_a_floor_that_locks_itself_is_said(tmp_path):
     result = run_scenario(loaded(text), folder=tmp_path / "r", processes=1, replications=2)
     (warning,) = result.summary["warnings"]
     assert warning.startswith("the floor locked itself in 2 of 2 replications")
-    assert "s1 waits for s2, s2 waits for s1" in warning
+    assert "job 1 (part) at s1 waits for a place at s2, job 0 (part) at s2 waits for a place at s1" in warning
 
 
 def test_a_floor_that_moves_says_nothing(tmp_path):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from opsim.tasks import Beta, Empirical, Erlang, Gamma, Hyperexponential, Normal, Triangular, Weibull
+from opsim.tasks import Beta, Empirical, Erlang, Gamma, Geometric, Hyperexponential, Normal, Triangular, Weibull
 from opsim.tasks.bounded import normal_cut
 from opsim.tasks.shared import balanced_probability, weibull_shape
 
@@ -61,6 +61,14 @@ P = balanced_probability(2.0)
 def test_draws_follow_the_family(model, cdf):
     times = model.sample(20_000, np.random.default_rng(4)).duration_s
     assert stats.kstest(times, cdf).pvalue > 1e-3
+
+
+def test_a_geometric_time_ends_after_each_step_with_the_same_chance():
+    steps = Geometric(20.0, 4.0).sample(50_000, np.random.default_rng(4)).duration_s / 4.0
+    assert np.array_equal(steps, np.rint(steps))
+    for n in (1, 2, 3, 6):
+        still = (steps >= n).sum()
+        assert abs((steps == n).sum() - 0.2 * still) < 4 * (0.16 * still) ** 0.5
 
 
 def test_draws_follow_the_normal_above_the_cut():

@@ -12,6 +12,7 @@ from opsim.tasks import (
     Exponential,
     Fixed,
     Gamma,
+    Geometric,
     Hyperexponential,
     Lognormal,
     Normal,
@@ -27,6 +28,7 @@ KINDS = [
     ("fixed: 3 s", Fixed(3.0), "fixed, 3 s"),
     ("dist: exponential, mean: 3 s", Exponential(3.0), "exponential, mean 3 s"),
     ("dist: erlang, mean: 3 s, k: 2", Erlang(3.0, 2), "erlang of 2, mean 3 s"),
+    ("dist: geometric, mean: 3 s, step: 1 s", Geometric(3.0, 1.0), "geometric, mean 3 s in steps of 1 s"),
     ("dist: lognormal, mean: 3 s, cv: 0.2", Lognormal(3.0, 0.2), "lognormal, mean 3 s, cv 0.2"),
     ("dist: gamma, mean: 3 s, cv: 0", Fixed(3.0), "gamma, mean 3 s, cv 0"),
     (

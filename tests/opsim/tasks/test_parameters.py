@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from opsim.tasks import Erlang, Exponential, Fixed, Hyperexponential, Lognormal, Uniform
+from opsim.tasks import Erlang, Exponential, Fixed, Geometric, Hyperexponential, Lognormal, Uniform
 
 
 @pytest.mark.parametrize(
@@ -19,6 +19,7 @@ from opsim.tasks import Erlang, Exponential, Fixed, Hyperexponential, Lognormal,
         lambda: Lognormal(20.0, 0.2, 1.5),
         lambda: Hyperexponential(0.0, 1.5),
         lambda: Erlang(5.0, 0),
+        lambda: Geometric(5.0, 6.0),
         lambda: Uniform(-1.0, 2.0),
     ],
 )

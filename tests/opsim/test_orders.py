@@ -1,0 +1,78 @@
+"""Lists of orders and sequences: read as written, and every mistake told with its line."""
+
+import math
+
+import pytest
+
+from opsim.orders import MOST_OF_AN_ORDER, Order, read_orders, read_sequence
+from opsim.recorded import RecordedError
+
+PRODUCTS = ("a", "b", "board")
+
+
+def written(folder, text, name="orders.csv"):
+    file = folder / name
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_times_are_seconds_or_hours_and_minutes_and_stand_on_the_grid(tmp_path):
+    text = "time,product\n0,a\n1:00,a\n0:00:30.5,b\n12.3,b\n"
+    orders, wrong = read_orders(written(tmp_path, text), PRODUCTS)
+    assert not wrong
+    assert [order.time_s for order in orders] == [0.0, round(12.3 * 2**20) / 2**20, 30.5, 3600.0]
+
+
+def test_orders_of_one_time_keep_the_order_of_the_file(tmp_path):
+    orders, _ = read_orders(written(tmp_path, "product;time\nb;5\na;5\nb;1\n"), PRODUCTS)
+    assert [order.product for order in orders] == ["b", "b", "a"]
+
+
+def test_what_is_not_said_of_an_order_is_left_to_others(tmp_path):
+    file = written(tmp_path, "time,product,quantity,due,priority\n1,a,,,\n2,b,3,1:00,-2\n")
+    orders, wrong = read_orders(file, PRODUCTS)
+    assert (orders, wrong) == ([Order(1.0, "a"), Order(2.0, "b", 3, 3600.0, -2)], [])
+    assert (orders[0].due_s, orders[0].priority) == (math.inf, None)
+
+
+def test_every_mistake_of_a_file_is_told_with_its_line(tmp_path):
+    text = "time,product,quantity,due,priority\n-1,a,1,,\nx,bord,0,9:99,high\n3,,2,,\n"
+    _, wrong = read_orders(written(tmp_path, text), PRODUCTS)
+    assert wrong == [
+        "'orders.csv' line 2: time '-1' is not a time in seconds or as h:mm:ss",
+        "'orders.csv' line 3: time 'x' is not a time in seconds or as h:mm:ss",
+        "'orders.csv' line 3: no product 'bord'; did you mean 'board'?",
+        f"'orders.csv' line 3: quantity '0' is not a whole number from 1 to {MOST_OF_AN_ORDER:,}",
+        "'orders.csv' line 3: due '9:99' is not a time in seconds or as h:mm:ss",
+        "'orders.csv' line 3: priority 'high' is not a whole number",
+        "'orders.csv' line 4: there is no product",
+    ]
+
+
+@pytest.mark.parametrize(("text", "said"), [
+    ("product\na\n", "no column 'time'"),
+    ("time,prodct\n1,a\n", "a column 'prodct'; did you mean 'product'?"),
+    ("time,time\n1,2\n", "two columns 'time'"),
+    ("time,product\n", "no rows below its heading"),
+    ("", "is empty"),
+])  # fmt: skip
+def test_a_file_that_is_no_list_of_orders_is_refused(tmp_path, text, said):
+    with pytest.raises(RecordedError, match="orders") as caught:
+        read_orders(written(tmp_path, text), PRODUCTS)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("cell", ["nan", "inf", "1e999", "-0.1", "1e99", "1:5", "1:60", "a:00"])
+def test_no_time_is_negative_endless_or_beyond_the_clock(tmp_path, cell):
+    _, wrong = read_orders(written(tmp_path, f"time\n{cell}\n"), PRODUCTS)
+    assert len(wrong) == 1
+
+
+def test_a_sequence_holds_each_product_as_often_as_its_quantity_says(tmp_path):
+    sequence, wrong = read_sequence(written(tmp_path, "product,quantity\na,2\nb,\na,1\n"), PRODUCTS)
+    assert (sequence, wrong) == (["a", "a", "b", "a"], [])
+
+
+def test_a_sequence_tells_products_that_are_not_there(tmp_path):
+    _, wrong = read_sequence(written(tmp_path, "product\na\nc\n"), PRODUCTS)
+    assert wrong == ["'orders.csv' line 3: no product 'c'; products: a, b, board"]
