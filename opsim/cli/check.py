@@ -32,11 +32,11 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     click.echo(f"{file}: no problems found in {'variant' if len(variants) == 1 else 'variants'} {said}")
 
 
-def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, dict[str, Any]], dict[str, list[str]]]:
+def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[str, list[str]]]:
     """By variant: the loads of everything, and what may go wrong."""
     from opsim.plan import compile_plan
     from opsim.plan.joins import wide_joins
-    from opsim.plan.loads import overloads
+    from opsim.plan.loads import loads_of, overloads
     from opsim.plan.orders import late_orders
     from opsim.plan.unread import unread
     from opsim.scenario import read_scenarios
@@ -46,36 +46,27 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, dict[str, Any
     loads, warnings = {}, {}
     for name, variant in loaded.items():
         plan = compile_plan(variant)
-        loads[name] = _loads(plan)
-        warnings[name] = [*overloads(plan), *risks_of(variant.scenario), *late_orders(plan)]
+        loads[name] = loads_of(plan)
+        warnings[name] = [*overloads(plan, loads[name]), *risks_of(variant.scenario), *late_orders(plan)]
         warnings[name] += [*unread(plan), *wide_joins(plan)]
     return loads, warnings
 
 
-def _loads(plan: Any) -> dict[str, Any]:
-    from opsim.plan.loads import bottleneck, crew_load, shared_loads, skill_loads, station_loads
-
-    return {
-        "stations": station_loads(plan),
-        "people": {"skills": skill_loads(plan), "together": crew_load(plan)},
-        "shared": shared_loads(plan),
-        "bottleneck": bottleneck(plan),
-    }
-
-
-def _plain(variants: dict[str, dict[str, Any]]) -> dict[str, Any]:
+def _plain(variants: dict[str, Any]) -> dict[str, Any]:
     """By what, then by variant, as values for JSON."""
     from dataclasses import asdict
 
     def listed(what: str) -> dict[str, Any]:
-        return {name: [asdict(one) for one in loads[what]] for name, loads in variants.items()}
+        return {name: [asdict(one) for one in getattr(loads, what)] for name, loads in variants.items()}
 
+    skills, crews = listed("skills"), {name: loads.crew for name, loads in variants.items()}
     people = {
-        name: {
-            "skills": [asdict(load) for load in loads["people"]["skills"]],
-            "together": None if loads["people"]["together"] is None else asdict(loads["people"]["together"]),
-        }
-        for name, loads in variants.items()
+        name: {"skills": skills[name], "together": None if crew is None else asdict(crew)}
+        for name, crew in crews.items()
     }
-    stations, shared, limits = listed("stations"), listed("shared"), listed("bottleneck")
-    return {"variants": stations, "people": people, "shared": shared, "bottleneck": limits}
+    return {
+        "variants": listed("stations"),
+        "people": people,
+        "shared": listed("shared"),
+        "bottleneck": listed("limits"),
+    }

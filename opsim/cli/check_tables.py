@@ -7,17 +7,19 @@ from typing import Any
 import click
 
 MOST_ROWS = 60
+MOST_SKILLS = 20
+"""Rows, where there are more than ``MOST_ROWS``."""
 NEXT = 2
 """Of what limits the floor after the bottleneck, so many are named."""
 
 
-def print_loads(variant: str, loads: dict[str, Any]) -> None:
+def print_loads(variant: str, loads: Any) -> None:
     """Everything that ``opsim check`` has found about a variant."""
-    _print_stations(variant, loads["stations"])
-    _print_people(variant, loads["people"])
-    _print_shared(variant, loads["shared"])
-    if loads["bottleneck"]:
-        first, *others = (_limit(one) for one in loads["bottleneck"][: NEXT + 1])
+    _print_stations(variant, loads.stations)
+    _print_people(variant, loads.skills, loads.crew)
+    _print_shared(variant, loads.shared)
+    if loads.limits:
+        first, *others = (_limit(one) for one in loads.limits[: NEXT + 1])
         rest = f"; next {', '.join(others)}" if others else ""
         click.echo(f"{variant}: bottleneck by mean times: {first}{rest}\n")
 
@@ -59,16 +61,16 @@ def _cells(load: Any, setups: bool, stops: bool) -> tuple[str, ...]:
     )
 
 
-def _print_people(variant: str, people: dict[str, Any]) -> None:
+def _print_people(variant: str, skills: Any, crew: Any) -> None:
     from opsim.cli.console import print_table
 
-    skills, crew = people["skills"], people["together"]
     if not skills:
         return
     rated = any(load.load is not None for load in skills)
     shown = skills if len(skills) <= MOST_ROWS else sorted(skills, key=lambda load: -load.wanted / max(1, load.able))
+    shown = shown if len(skills) <= MOST_ROWS else shown[:MOST_SKILLS]
     columns = ("skill", "workers", "work a visit", *(("wanted", "load") if rated else ()))
-    rows = [_skill_cells(load, rated) for load in shown[:MOST_ROWS]]
+    rows = [_skill_cells(load, rated) for load in shown]
     print_table(f"{variant}: load of the skills, from mean times, walks not counted", columns, rows)
     if crew is not None and rated:
         who = f"{len(crew.workers)} workers" if len(crew.workers) > 1 else crew.workers[0]

@@ -10,7 +10,6 @@ from opsim.kpi.outages import outage_rows
 from opsim.kpi.values import by_rank, changes, mean
 from opsim.log import SETUP, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.station import STATION
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,5 +52,5 @@ def active_time(log: EventLog, plan: Plan) -> Iterator[Figure]:
     counted = periods.end_s > plan.window_s[0]
     length_s = (periods.end_s - periods.start_s)[counted]
     for station, lengths_s in zip(plan.stations, by_rank(length_s, periods.station[counted], len(plan.stations))):
-        if station.kind == STATION:
+        if station.tasks:
             yield Figure("active_period_s", station.name, "", "s", mean(lengths_s))

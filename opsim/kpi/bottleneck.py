@@ -9,7 +9,6 @@ from opsim.kpi.figure import Figure
 from opsim.kpi.values import window_length_s
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plan.station import STATION
 
 
 def bottleneck(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -35,7 +34,7 @@ def bottleneck(log: EventLog, plan: Plan) -> Iterator[Figure]:
     parts["shifting"] = np.maximum(np.bincount(periods.station[chosen], chosen_s, n) - sole_s, 0.0)
     length_s = window_length_s(plan)
     for rank, station in enumerate(plan.stations):
-        for part, spent_s in parts.items() if station.kind == STATION else ():
+        for part, spent_s in parts.items() if station.tasks else ():
             yield Figure("bottleneck", station.name, part, "share", spent_s[rank] / length_s)
     yield Figure("bottleneck", "", "shifting", "share", seconds[overlapping > 1].sum() / length_s)
     yield Figure("bottleneck", "", "none", "share", 1.0 - seconds[anyone].sum() / length_s)

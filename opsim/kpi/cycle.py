@@ -9,7 +9,6 @@ from opsim.kpi.figure import Figure
 from opsim.kpi.values import by_rank, changes, in_window, mean, quantiles
 from opsim.log import SETUP, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.station import STATION
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +66,7 @@ def cycle_times(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
     found = visits(log, plan)
     counted = found.whole & in_window(found.end_s, plan)
     parts = by_rank(found.work_s[counted], found.station[counted], len(plan.stations))
-    return {station.name: part for station, part in zip(plan.stations, parts) if station.kind == STATION}
+    return {station.name: part for station, part in zip(plan.stations, parts) if station.tasks}
 
 
 def task_durations(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:

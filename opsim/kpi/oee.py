@@ -10,7 +10,6 @@ from opsim.kpi.outages import outage_rows
 from opsim.kpi.values import in_window, inside_s, window_length_s
 from opsim.log import BATCH, BREAKDOWN, HELD, MAINTENANCE, REWORK, SCRAP, SETUP, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.station import STATION
 
 
 def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -35,7 +34,7 @@ def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
     planned_time_s, available_s = _times(log, plan, servers)
     quality = _quality(log, plan)
     for rank, place in enumerate(plan.stations):
-        if place.kind != STATION:
+        if not place.tasks:
             continue
         factors = {"availability": _ratio(available_s[rank], planned_time_s[rank], 1.0)}
         factors["performance"] = _ratio(planned_s[rank], available_s[rank])

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import inf
 
+from opsim.clock import on_grid
 from opsim.names import natural_key
 from opsim.plan.ranks import Ranks
 from opsim.plan.release import SourcePlan
@@ -21,8 +22,9 @@ class KitPlan:
 
 @dataclass(frozen=True, slots=True)
 class BatchPlan:
-    """size : jobs on a server at once; most_wait_s : after which a job goes with those there are, inf for never
+    """size : jobs on a server at once
 
+    most_wait_s : after which a job goes with those there are, on the grid; inf for never
     class_of : (P,) jobs go together whose products have the same number
     """
 
@@ -76,7 +78,7 @@ def _batch(name: str, scenario, ranks: Ranks) -> BatchPlan:
     batch = scenario.stations[name].batch
     classes = [_class(batch.of, product, scenario.products[product]) for product in ranks.products]
     number = {one: number for number, one in enumerate(dict.fromkeys(classes))}
-    most_wait_s = inf if batch.most_wait_s is None else batch.most_wait_s
+    most_wait_s = inf if batch.most_wait_s is None else batch.most_wait_s and on_grid(batch.most_wait_s)
     return BatchPlan(ranks.stations[name], batch.size, most_wait_s, tuple(number[one] for one in classes))
 
 

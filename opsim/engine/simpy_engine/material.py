@@ -47,8 +47,11 @@ def operation_done(floor: Floor, job: Job) -> None:
         station.meter.cycle(floor)
     if station.after:
         ask_after(floor, job)
-    else:
+    elif job.ahead is not None:
         move_on(floor, job)
+    else:  # NOTE: ``move_on`` written out, once for each operation
+        onward = job.plan.onward[job.step]
+        go_to(floor, job, onward[0][1] if len(onward) == 1 else next_step(floor, job))
 
 
 def ask_after(floor: Floor, job: Job) -> None:

@@ -81,10 +81,16 @@ def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
         if worker is not None:
             set_free(floor, worker)
         run_automatic(floor, station, job)
-    elif worker is None:
-        call(floor, station, job)
-    else:
+    elif worker is not None:
         perform(floor, job, worker)
+    else:  # NOTE: ``call`` written out, once for each operation
+        now, rank = floor.now, station.rank
+        if now > job.since_s:
+            floor.log_job(job)
+        job.kind, job.cause, job.since_s = HELD, NO_WORKER, now
+        insort(station.calling, (-job.priority, now, job.number, job))
+        floor.calling[rank] = station
+        floor.calls |= 1 << rank
 
 
 def _not_yet(floor: Floor, station: Station, job: Job, worker: Worker | None) -> None:
@@ -164,15 +170,26 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
         stand_still(floor, station, job)
         return
     task = station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
-    if job.rest_s and job.worker == worker.rank:
-        duration_s, k = job.rest_s, job.k
-    else:
-        duration_s, k = drawn_s(floor, station, worker, task)
-        if job.rest_s:
-            duration_s = on_grid(duration_s * (1.0 - job.progress_from))
+    if job.rest_s:
+        duration_s, k = _rest(floor, job, worker, task)
+    else:  # NOTE: ``drawn_s`` written out, once for each performance
+        luck = worker.luck.get(task)
+        if luck is None:
+            luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
+        k = worker.next_k[task]
+        worker.next_k[task] = k + 1
+        duration_s = on_grid(next(luck) / worker.rating[station.rank])
     begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = job.kind, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)
+
+
+def _rest(floor: Floor, job: Job, worker: Worker, task: int) -> tuple[float, int]:
+    """What is left of a performance that was broken off: for him who began it, or by somebody else's own next time."""
+    if job.worker == worker.rank:
+        return job.rest_s, job.k
+    duration_s, k = drawn_s(floor, job.station, worker, task)  # type: ignore[arg-type]
+    return on_grid(duration_s * (1.0 - job.progress_from)), k
 
 
 def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> tuple[float, int]:

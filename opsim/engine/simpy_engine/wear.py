@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import simpy
 
-from opsim.clock import TICKS_PER_S, on_grid
+from opsim.clock import on_grid
 from opsim.engine.rules import BREAKDOWN
 from opsim.engine.simpy_engine.floor import Floor, cancel
 from opsim.engine.simpy_engine.stops import Stop
@@ -27,7 +27,7 @@ class Countdown:
 
     def renew(self) -> None:
         """It begins anew, standing still."""
-        self.left_s = max(on_grid(next(self.gaps)), 1 / TICKS_PER_S)  # 0 is what is over
+        self.left_s = on_grid(next(self.gaps))
 
     def run(self, floor: Floor) -> None:
         """The seconds go by from now on."""

@@ -1,6 +1,6 @@
 """What everything would have to do if nothing ever waited: loads from mean durations, found without a run."""
 
-from opsim.plan.loads.bottleneck import Bottleneck, bottleneck
+from opsim.plan.loads.bottleneck import Bottleneck, Loads, bottleneck, loads_of
 from opsim.plan.loads.overload import overloads
 from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
 from opsim.plan.loads.shared import SharedLoad, shared_loads
@@ -9,11 +9,13 @@ from opsim.plan.loads.stations import StationLoad, station_loads
 __all__ = [
     "Bottleneck",
     "Crew",
+    "Loads",
     "SharedLoad",
     "SkillLoad",
     "StationLoad",
     "bottleneck",
     "crew_load",
+    "loads_of",
     "overloads",
     "shared_loads",
     "skill_loads",

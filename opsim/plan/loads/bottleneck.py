@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from opsim.plan.loads.people import crew_load
-from opsim.plan.loads.rates import flows_of
-from opsim.plan.loads.shared import REPAIR_TEAM, shared_loads
-from opsim.plan.loads.stations import station_loads
+from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
+from opsim.plan.loads.rates import Flows, flows_of
+from opsim.plan.loads.shared import REPAIR_TEAM, SharedLoad, shared_loads
+from opsim.plan.loads.stations import StationLoad, station_loads
 from opsim.plan.plan import Plan
 
 
@@ -25,22 +25,46 @@ class Bottleneck:
 
 def bottleneck(plan: Plan) -> list[Bottleneck]:
     """Everything that limits the floor, what limits it most first; figures are estimates: nothing waits."""
+    return list(loads_of(plan).limits)
+
+
+@dataclass(frozen=True, slots=True)
+class Loads:
+    """Everything that was found of a Plan; crew is None where nobody is needed."""
+
+    flows: Flows
+    stations: tuple[StationLoad, ...]
+    skills: tuple[SkillLoad, ...]
+    crew: Crew | None
+    shared: tuple[SharedLoad, ...]
+
+    @property
+    def limits(self) -> tuple[Bottleneck, ...]:
+        """What limits the floor, most first."""
+        per_h = None if self.flows.saturated else self.flows.per_h
+        found = [
+            Bottleneck(load.station, load.load, load.most_per_h / load.visits)
+            for load in self.stations
+            if load.visits > 0 and load.most_per_h < inf
+        ]
+        shared = (one for one in self.shared if one.what != REPAIR_TEAM)
+        wanted = [(f"{one.what} {one.name}", one.wanted / one.n) for one in shared]
+        if self.crew is not None:
+            wanted.append((_people(self.crew.workers), self.crew.share))
+        found += [
+            Bottleneck(what, None if per_h is None else share, (1.0 if per_h is None else per_h) / share)
+            for what, share in wanted
+            if share > 0
+        ]
+        return tuple(sorted(found, key=lambda one: (one.most_per_h, one.what)))
+
+
+def loads_of(plan: Plan) -> Loads:
+    """All loads of a Plan."""
     flows = flows_of(plan)
-    per_h = None if flows.saturated else flows.per_h
-    found = [
-        Bottleneck(load.station, load.load, load.most_per_h / load.visits)
-        for load in station_loads(plan, flows)
-        if load.visits > 0 and load.most_per_h < inf
-    ]
-    shared = (one for one in shared_loads(plan, flows) if one.what != REPAIR_TEAM)
-    wanted = [(f"{one.what} {one.name}", one.wanted / one.n) for one in shared]
-    crew = crew_load(plan, flows)
-    if crew is not None:
-        wanted.append((_people(crew.workers), crew.share))
-    for what, share in wanted:
-        if share > 0:
-            found.append(Bottleneck(what, None if per_h is None else share, (1.0 if per_h is None else per_h) / share))
-    return sorted(found, key=lambda one: (one.most_per_h, one.what))
+    stations = station_loads(plan, flows)
+    shared = shared_loads(plan, flows, stations)
+    return Loads(flows, tuple(stations), tuple(skill_loads(plan, flows)), crew_load(plan, flows), tuple(shared))
 
 
 def _people(workers: tuple[str, ...]) -> str:

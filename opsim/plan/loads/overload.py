@@ -5,37 +5,34 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf
 
-from opsim.plan.loads.people import crew_load, skill_loads
-from opsim.plan.loads.rates import Flows, flows_of
-from opsim.plan.loads.shared import shared_loads
-from opsim.plan.loads.stations import station_loads
+from opsim.plan.loads.bottleneck import Loads, loads_of
 from opsim.plan.loads.visits import visits_of
 from opsim.plan.loads.work import visit_s
 from opsim.plan.plan import Plan
 
 
-def overloads(plan: Plan) -> list[str]:
+def overloads(plan: Plan, loads: Loads | None = None) -> list[str]:
     """Every warning in a sentence."""
-    flows = flows_of(plan)
-    return [*_stations(plan, flows), *_people(plan, flows), *_shared(plan, flows), *_too_long(plan)]
+    loads = loads_of(plan) if loads is None else loads
+    return [*_stations(loads), *_people(loads), *_shared(loads), *_too_long(plan)]
 
 
-def _stations(plan: Plan, flows: Flows) -> Iterator[str]:
-    for load in station_loads(plan, flows):
+def _stations(loads: Loads) -> Iterator[str]:
+    for load in loads.stations:
         if load.most_per_h == 0:
             yield f"{load.station} never works: its maintenance takes all of its time"
         elif load.load is not None and load.load >= 1:
             yield f"{load.station} cannot keep up: {load.load:.0%} of its time is wanted"
 
 
-def _people(plan: Plan, flows: Flows) -> Iterator[str]:
-    if flows.saturated:
+def _people(loads: Loads) -> Iterator[str]:
+    if loads.flows.saturated:
         return
-    over = [load for load in skill_loads(plan, flows) if load.load is not None and load.load >= 1]
+    over = [load for load in loads.skills if load.load is not None and load.load >= 1]
     for load in over:
         who = "1 worker who can" if load.able == 1 else f"{load.able} workers who can"
         yield f"work at {load.skill} cannot be done: {load.load:.0%} of the time of the {who}, walks not counted"
-    crew = crew_load(plan, flows)
+    crew = loads.crew
     if crew is not None and crew.share >= 1 and not over:
         yield (
             f"the {len(crew.workers)} workers of {len(crew.skills)} stations cannot keep up: however they share the "
@@ -43,8 +40,8 @@ def _people(plan: Plan, flows: Flows) -> Iterator[str]:
         )
 
 
-def _shared(plan: Plan, flows: Flows) -> Iterator[str]:
-    for load in shared_loads(plan, flows):
+def _shared(loads: Loads) -> Iterator[str]:
+    for load in loads.shared:
         if load.load is not None and load.load >= 1:
             yield f"{load.what} {load.name}: {load.load:.0%} of what there is is wanted ({load.wanted:.1f} of {load.n})"
 

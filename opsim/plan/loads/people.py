@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Collection
 from dataclasses import dataclass
+from itertools import compress
 
 from opsim.plan.loads.rates import Flows, flows_of
 from opsim.plan.loads.sharing import best_share
@@ -39,9 +41,9 @@ class Crew:
 def skill_loads(plan: Plan, flows: Flows | None = None) -> list[SkillLoad]:
     """Load of each skill that is needed, in natural order."""
     flows = flows_of(plan) if flows is None else flows
-    found = []
+    found, able = [], _able(plan)
     for rank, (work_s, wanted) in sorted(_wanted(plan, flows).items()):
-        ratings = [worker.rating[rank] for worker in plan.workers if worker.rating[rank] > 0]
+        ratings = able[rank].values()
         load = None if flows.saturated or not ratings else wanted / sum(ratings)
         found.append(SkillLoad(plan.stations[rank].name, len(ratings), work_s, wanted, load))
     return found
@@ -49,17 +51,24 @@ def skill_loads(plan: Plan, flows: Flows | None = None) -> list[SkillLoad]:
 
 def crew_load(plan: Plan, flows: Flows | None = None) -> Crew | None:
     """The people who are worked hardest; None where nobody is needed."""
-    wanted = {rank: work for rank, (_, work) in _wanted(plan, flows_of(plan) if flows is None else flows).items()}
-    able = {rank: [n for n, worker in enumerate(plan.workers) if worker.rating[rank] > 0] for rank in wanted}
-    work = {
-        rank: wanted[rank] / _mean([plan.workers[n].rating[rank] for n in able[rank]]) for rank in able if able[rank]
-    }
-    found = best_share(work, able)
+    wanted = _wanted(plan, flows_of(plan) if flows is None else flows)
+    able = {rank: people for rank, people in _able(plan).items() if rank in wanted and people}
+    work = {rank: wanted[rank][1] / _mean(people.values()) for rank, people in able.items()}
+    found = best_share(work, {rank: tuple(people) for rank, people in able.items()})
     if found is None:
         return None
     share, skills = found
     people = sorted({n for rank in skills for n in able[rank]})
     return Crew(share, tuple(plan.stations[rank].name for rank in skills), tuple(plan.workers[n].name for n in people))
+
+
+def _able(plan: Plan) -> dict[int, dict[int, float]]:
+    """By station: who can work there, each with the rating."""
+    able: dict[int, dict[int, float]] = {rank: {} for rank in range(len(plan.stations))}
+    for number, worker in enumerate(plan.workers):
+        for rank in compress(range(len(worker.rating)), worker.rating):  # NOTE: workers x stations, and most are 0
+            able[rank][number] = worker.rating[rank]
+    return able
 
 
 def _wanted(plan: Plan, flows: Flows) -> dict[int, tuple[float, float]]:
@@ -83,5 +92,5 @@ def by_hand_s(plan: Plan, station: int, product: int) -> float:
     return sum(task_s(plan, rank, product) * task.team for rank, task in tasks if task.attended or not task.automatic)
 
 
-def _mean(values: list[float]) -> float:
+def _mean(values: Collection[float]) -> float:
     return sum(values) / len(values)

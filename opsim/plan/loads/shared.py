@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf
 
@@ -30,10 +30,12 @@ class SharedLoad:
     load: float | None
 
 
-def shared_loads(plan: Plan, flows: Flows | None = None) -> list[SharedLoad]:
+def shared_loads(
+    plan: Plan, flows: Flows | None = None, stations: Iterable[StationLoad] | None = None
+) -> list[SharedLoad]:
     """Load of everything that stations share, at least: nothing waits for anything else."""
     flows = flows_of(plan) if flows is None else flows
-    loads = {load.station: load for load in station_loads(plan, flows)}
+    loads = {load.station: load for load in (station_loads(plan, flows) if stations is None else stations)}
     return [*_tools(plan, flows), *_repair_teams(plan, loads, flows), *_transporters(plan, flows), *_cards(plan, flows)]
 
 

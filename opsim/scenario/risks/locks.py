@@ -39,6 +39,8 @@ def _rings_of_room(scenario: Scenario) -> Iterator[str]:
 
 def _rings_of_resources(scenario: Scenario) -> Iterator[str]:
     """Of points and resources that hang together the first ring, and how many more there are."""
+    if not (scenario.tools or scenario.cards or scenario.stores):
+        return
     graph, never = waits_of(scenario), never_together(scenario)
     for ring in sorted(rings(graph), key=lambda ring: natural_key(min(ring, key=natural_key))):
         inside = {name: {other: why for other, why in graph[name].items() if other in ring} for name in ring}

@@ -5,6 +5,7 @@ import pytest
 from plans import loaded, plan
 
 from opsim import log as kinds
+from opsim.clock import on_grid
 from opsim.engine.rules.batch import batch_begins
 from opsim.engine.simpy_engine import run_plan
 from opsim.laws import audit
@@ -89,6 +90,12 @@ def test_a_family_goes_together():
         ("b: {route", "b: {family: x, route"),
     )
     assert baked(log)[0] == (40.0, 4)
+
+
+@pytest.mark.parametrize("wait_s", [6.3, 6.4])
+def test_a_longest_wait_between_two_ticks_ends_at_one_of_them(wait_s):
+    log = ran(("size: 4", f"size: 4, most_wait: {wait_s} s"), ("fixed: 10 s}, seq", "fixed: 70 s}, seq"))
+    assert baked(log)[:2] == [(70 + on_grid(wait_s), 1), (140 + on_grid(wait_s), 1)]
 
 
 def test_the_buffer_limits_who_waits_and_not_who_bakes():

@@ -142,3 +142,10 @@ def test_states_of_a_worker_tell_waiting_for_a_tool_apart():
     assert waited > 0 and found["worker_states", "w2", "tool"] == pytest.approx(waited / 60)
     parts = [value for (kpi, who, _), value in found.items() if (kpi, who) == ("worker_states", "w2")]
     assert sum(parts) == pytest.approx(1)
+
+
+def test_a_tool_that_comes_free_while_the_station_stands_still_stays_free():
+    """w2 wants it from 2 s on; when w1 gives it back, at 6 s, s2 is down, and goes on at 11 s."""
+    log, _ = ran(("s2: {at: b,", "s2: {at: b, breakdowns: {jam: {every: {fixed: 4 s}, repair: {fixed: 7 s}}},"))
+    assert spans(log, log["kind"] == TOOL)[:3] == [(2, 6), (11, 15), (15, 19)]
+    assert [piece[:2] for piece in pieces(log, "w2")[:2]] == [(0, 2), (11, 15)]

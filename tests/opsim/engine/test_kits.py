@@ -1,5 +1,6 @@
 """Bills of material and stores: known answers by hand, and the laws."""
 
+import made_shops
 import numpy as np
 import pytest
 from plans import plan
@@ -160,3 +161,16 @@ def test_the_order_of_declaration_decides_nothing(edit):
     one, other = ran(), ran(edit)
     assert one.names == other.names
     assert all(np.array_equal(one[c], other[c], equal_nan=True) for c in one.columns)
+
+
+def test_a_bad_part_goes_into_the_job_of_a_batch_that_takes_it(tmp_path):
+    text = """
+tasks: {cut: {fixed: 10 s, automatic: true}}
+stations: {cast: {at: hall, tasks: [cut], yield: 0.001}, saw: {at: hall, tasks: [cut], batch: {size: 2}}}
+stores: {bin: {at: hall}}
+products: {bolt: {route: [cast, bin]}, a: {route: [saw], parts: {saw: {bolt: 1}}}}
+"""
+    log = made_shops.ran(tmp_path, text, "0,bolt 0,bolt 0,a 0,a")
+    assert made_shops.spans(log, "finish", cause="bad") == [("a", 30, 30), ("a", 30, 30)]
+    joined = log.of(kinds.JOIN)
+    assert joined["k"].tolist() == [2, 3]

@@ -1,7 +1,7 @@
 """Blocking before service and buffers behind: by hand arithmetic."""
 
 import pytest
-from made_shops import ran, spans
+from made_shops import HEAD, ran, spans
 
 LINE = """
 tasks: {quick: {fixed: 10 s, automatic: true}, slow: {fixed: 30 s, automatic: true}}
@@ -99,3 +99,42 @@ products: {a: {route: [s1, s1]}}
 """.replace("MORE", more)
     log = ran(tmp_path, text, "0,a 0,a 0,a")
     assert [end for _, _, end in spans(log, "finish")] == [30, 40, 60]
+
+
+def test_a_job_that_comes_back_to_its_own_station_through_cards_keeps_the_one_place_it_has(tmp_path):
+    text = """
+tasks: {cut: {fixed: 5 s, automatic: true}}
+stations: {saw: {at: hall, tasks: [cut], blocking: before, buffer: BUFFER}}
+cards: {loop: {n: 5}}
+products: {a: {route: [saw, saw]}}
+"""
+    for buffer in ("0", "1"):
+        log = ran(tmp_path, text.replace("BUFFER", buffer), "0,a 20,a 40,a")
+        assert spans(log, "work") == [("a", start, start + 5) for start in (0, 5, 20, 25, 40, 45)]
+
+
+def test_a_place_and_its_card_are_given_back_when_the_job_goes_back_for_rework(tmp_path):
+    text = """
+tasks: {cut: {fixed: 5 s, automatic: true}}
+stations:
+  saw: {at: hall, tasks: [cut], blocking: before, yield: 0.001, inspect: {then: {rework: saw}, most: 1}}
+  pack: {at: hall, tasks: [cut]}
+cards: {loop: {n: 1, from: pack}}
+products: {a: {route: [saw, pack]}}
+"""
+    log = ran(tmp_path, text, "0,a 0,a")
+    assert spans(log, "work", "saw") == [("a", 0, 5), ("a", 5, 10), ("a", 10, 15), ("a", 15, 20)]
+    assert len(spans(log, "scrap")) == 2
+
+
+def test_a_job_that_waits_for_a_vehicle_on_its_server_is_put_away_when_there_is_room_behind(tmp_path):
+    head = HEAD.replace("{hall: [0 m, 0 m]}", "{hall: [0 m, 0 m], far: [30 m, 0 m]}")
+    text = """
+tasks: {cut: {fixed: 10 s, automatic: true}}
+stations: {saw: {at: hall, tasks: [cut], buffer_after: 1}, packer: {at: far, tasks: [cut]}}
+products: {a: {route: [saw, packer]}}
+transporters: {fork: {n: 1, at: far, speed: 1 m/s, legs: [[saw, packer]]}}
+"""
+    log = ran(tmp_path, text, "0,a 0,a 0,a", head)
+    assert spans(log, "work", "saw") == [("a", 0, 10), ("a", 10, 20), ("a", 40, 50)]
+    assert spans(log, "held", "saw", "pickup") == [("a", 20, 40), ("a", 50, 100)]

@@ -127,3 +127,32 @@ def test_a_held_tool_is_given_up_with_the_server(tmp_path):
     text = ONE.replace("HOW", "resume").replace("automatic: true", "automatic: true, needs: {gun: 1}")
     log = ran(tmp_path, text + "tools: {gun: {n: 1}}\n", "0,low 4,top")
     assert spans(log, "work") == [("low", 0, 4), ("top", 4, 14), ("low", 14, 20)]
+
+
+def test_who_loses_the_server_loses_the_place_downstream_too(tmp_path):
+    """Else who took the server waits for the place of a job that waits for the server."""
+    text = """
+tasks: {cut: {fixed: 10 s, automatic: true}, pack: {fixed: 30 s, automatic: true}}
+stations:
+  saw: {at: hall, tasks: [cut], preempt: resume, blocking: before}
+  packer: {at: hall, tasks: [pack], buffer: 0}
+products: {low: {route: [saw, packer]}, top: {route: [saw, packer], priority: 2}}
+CARDS
+"""
+    for cards in ("", "cards: {loop: {n: 1, from: packer}}"):
+        log = ran(tmp_path, text.replace("CARDS", cards), "0,low 4,top")
+        assert spans(log, "work", "saw") == [("low", 0, 4), ("top", 4, 14), ("low", 44, 50)]
+        assert spans(log, "held", cause="place") == [("low", 14, 44)]
+
+
+def test_a_team_that_was_called_before_does_not_come_to_the_set_up(tmp_path):
+    text = """
+tasks: {lift: {fixed: 10 s, team: 2}}
+stations: {saw: {at: hall, tasks: [lift], servers: 2, preempt: resume, setup: {otherwise: 3 s}}}
+products: {low: {route: [saw]}, mid: {route: [saw], priority: 1}, top: {route: [saw], priority: 2}}
+workers: {ana: {skills: {saw: 1}}, ben: {skills: {saw: 1}}}
+"""
+    log = ran(tmp_path, text, "0,mid 1,low 2,top")
+    assert spans(log, "setup") == [("low", 10, 13), ("top", 10, 13)]
+    jobs = log.where(log["job"] >= 0)
+    assert spans(jobs, "work") == [("mid", 0, 10), ("top", 13, 23), ("low", 23, 33)]

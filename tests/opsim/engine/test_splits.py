@@ -1,5 +1,6 @@
 """Disassembly: known answers by hand, the luck of pieces, and the laws."""
 
+import made_shops
 import numpy as np
 import pytest
 from plans import plan
@@ -161,3 +162,19 @@ def test_the_order_of_declaration_decides_nothing(edit):
     one, other = ran(("fixed: 40 s", "fixed: 10 s")), ran(("fixed: 40 s", "fixed: 10 s"), edit)
     assert one.names == other.names
     assert all(np.array_equal(one[c], other[c], equal_nan=True) for c in one.columns)
+
+
+def test_the_server_of_a_job_that_was_split_stays_set_up_as_it_is(tmp_path):
+    """The other server, still set up for b, does the second b without a set-up while the boards stand on the first."""
+    text = """
+tasks: {cut: {fixed: 10 s, automatic: true}, slow: {fixed: 30 s, automatic: true}}
+stations:
+  saw: {at: hall, tasks: [cut], servers: 2, setup: {by: family, otherwise: 5 s, attended: false}}
+  packer: {at: hall, tasks: [slow], buffer: 0}
+products:
+  a: {route: [saw], family: f, split: {saw: {board: 2}}}
+  b: {route: [saw], family: g}
+  board: {route: [packer, saw], family: g}
+"""
+    log = made_shops.ran(tmp_path, text, "0,b 0,a 20,b")
+    assert [row for row in made_shops.spans(log, "work", "saw") if row[0] == "b"] == [("b", 0, 10), ("b", 20, 30)]
