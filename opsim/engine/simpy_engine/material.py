@@ -5,7 +5,7 @@ from bisect import insort
 from opsim.engine.rules import shortest_queue, source_in_turn
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Ahead, Claim, Gate, Job, Source, Station, claim_of
-from opsim.engine.simpy_engine.station import fill_servers, proceed
+from opsim.engine.simpy_engine.station import fill_servers, proceed, seat
 from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import BAD, BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, NO_CARD, QUEUE
@@ -16,7 +16,9 @@ def create(floor: Floor, source: Source) -> Job:
     """The next job of a source, standing at the gate of its first station."""
     job = new_job(floor, source, source.product(source.n_released))
     source.next_gate = None
-    want_in(floor, job)
+    gate = job.gate  # NOTE: ``want_in`` written out, once for each job
+    insort(gate.claims, (-job.priority, floor.now, job.number, job))
+    floor.stirred.add(gate)
     return job
 
 
@@ -27,13 +29,17 @@ def new_job(floor: Floor, source: Source, rank: int, n: int | None = None, stati
     """
     n = source.n_released if n is None else n
     product = floor.plan.products[rank]
-    step = _first_step(floor, source.rank, n, product)
+    start = product.start
+    step = start[0][1] if len(start) == 1 else _first_step(floor, source.rank, n, product)
     number = n * len(floor.sources) + source.rank
     job = Job(number, rank, product, step, *floor.steps[rank][step], HELD, GATE, floor.now, source.rank, n)
     job.lot, job.priority, job.due_s = product.lot, product.priority, floor.now + product.due_s
     source.n_released = n + 1
     floor.jobs[number] = job
-    floor.log_instant(CREATE, job, 0, station, other)
+    if station < 0 and other < 0:
+        floor.log_instant(CREATE, job)
+    else:
+        floor.log_instant(CREATE, job, 0, station, other)
     if floor.created:
         for told in floor.created:
             told(floor, job)
@@ -290,7 +296,11 @@ def leave_station(floor: Floor, job: Job) -> None:
         leave_server(floor, station, job)
     else:  # NOTE: leave_server written out, once for each operation
         station.free_servers += 1
-        if station.queue:
+        if not station.queue:
+            pass
+        elif station.serve is None and station.order is None:
+            seat(floor, station, station.queue.popleft())
+        else:
             fill_servers(floor, station)
     for gate in station.wanted_by:
         if gate.claims:

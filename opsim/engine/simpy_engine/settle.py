@@ -20,7 +20,7 @@ def dispatch(floor: Floor) -> None:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)
-        changed = bool(floor.dispatchers) and _give_out(floor)
+        changed = _give_out(floor) if floor.dispatchers else False
         if floor.free:
             send_workers(floor)
         if not floor.stirred and not changed:

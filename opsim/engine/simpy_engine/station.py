@@ -207,8 +207,13 @@ def run_automatic(floor: Floor, station: Station, job: Job) -> None:
     task = station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
     if job.rest_s and job.worker < 0:
         duration_s, k = job.rest_s, job.k
-    else:
-        duration_s, k = drawn_run_s(floor, station, task)
+    else:  # NOTE: ``drawn_run_s`` written out, once for each run
+        luck = station.luck.get(task)
+        if luck is None:
+            luck = station.luck[task] = floor.draws.automatic_runs(task, station.rank)
+        k = station.next_k.get(task, 0)
+        station.next_k[task] = k + 1
+        duration_s = on_grid(next(luck))
     begin(floor, job, -1, task, k, duration_s)
     rank = len(floor.workers) + station.rank
     over = job.over = floor.at_end_of(duration_s, simpy.Event(floor.env))
