@@ -34,6 +34,8 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
     products = with_detours(scenario, ranks, plan_products(scenario, ranks.stations))
     assembly = plan_assembly(scenario, ranks, plan_sources(loaded, ranks, model_of))
     queues = plan_queues(scenario, ranks, has_priorities(products, assembly.sources))
+    looked_at = looks_ahead(queues, scenario.flow.routing)
+    together = {batch.station for batch in assembly.batches}
     return Plan(
         name=scenario.name,
         seed=scenario.run.seed if seed is None else seed,
@@ -62,7 +64,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         queues=queues,
         routing=scenario.flow.routing,
         setups=plan_setups(scenario, ranks, tasks),
-        ahead=work_ahead(stations, products, tasks) if looks_ahead(queues, scenario.flow.routing) else None,
+        ahead=work_ahead(stations, products, tasks, together) if looked_at else None,
         breakdowns=plan_breakdowns(scenario, ranks, model_of),
         maintenance=plan_maintenance(scenario, ranks),
         repair_teams=plan_repair_teams(scenario),

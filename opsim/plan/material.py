@@ -5,6 +5,7 @@ from functools import lru_cache
 from itertools import accumulate
 from math import inf
 
+from opsim.clock import on_grid
 from opsim.names import natural_key
 
 
@@ -59,7 +60,7 @@ def plan_products(scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]
         replace(
             _product(name, product, product.share / total, stations),
             priority=product.priority,
-            due_s=inf if product.due_s is None else product.due_s,
+            due_s=inf if product.due_s is None else on_grid(product.due_s),
             lot=product.lot,
             mass_kg=product.mass_kg,
         )

@@ -6,6 +6,8 @@ from itertools import accumulate
 from math import inf
 from typing import Any
 
+from opsim.clock import on_grid
+
 ANY = -1
 """The product of an order that does not say one: drawn from the mix of its source."""
 
@@ -41,7 +43,7 @@ def plan_orders(loaded: Any, release: Any, products: dict[str, int]) -> tuple[tu
             first,
             order.quantity,
             ANY if order.product is None else products[order.product],
-            order.due_s,
+            on_grid(order.due_s) if order.due_s < inf else inf,
             order.priority,
         )
         for order, first in zip(in_time, firsts)

@@ -1,6 +1,6 @@
 """In which order waiting jobs go on, and what the rules look at to find it."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from opsim.plan.material import ProductPlan, onward_probabilities
@@ -42,6 +42,11 @@ class WorkAhead:
     left_steps: tuple[tuple[float, ...], ...]
 
 
+def _at_s(station: StationPlan, tasks: Sequence[TaskPlan], lot: int) -> float:
+    """Mean time of an operation on a lot."""
+    return sum(tasks[rank].mean_s() * (1 if tasks[rank].per_lot else lot) for rank in station.tasks)
+
+
 def has_priorities(products: Sequence[ProductPlan], sources: Sequence[SourcePlan]) -> bool:
     """Whether some jobs go before others: of products, or of a list of orders."""
     return len({product.priority for product in products}) > 1 or any(one.kind == "schedule" for one in sources)
@@ -64,12 +69,14 @@ def plan_queues(scenario, ranks: Ranks, has_priorities: bool) -> tuple[QueuePlan
 
 
 def work_ahead(
-    stations: Sequence[StationPlan], products: Sequence[ProductPlan], tasks: Sequence[TaskPlan]
+    stations: Sequence[StationPlan],
+    products: Sequence[ProductPlan],
+    tasks: Sequence[TaskPlan],
+    together: Collection[int] = (),
 ) -> WorkAhead:
-    """What rules know of the work that lies ahead."""
-    mean_s = [task.mean_s() for task in tasks]
+    """What rules know of the work that lies ahead; stations ``together`` do each task once for all of a batch."""
     at_s = tuple(
-        tuple(sum(mean_s[rank] * (1 if tasks[rank].per_lot else product.lot) for rank in one.tasks) for one in stations)
+        tuple(_at_s(one, tasks, 1 if rank in together else product.lot) for rank, one in enumerate(stations))
         for product in products
     )
     work_s = tuple(

@@ -17,7 +17,7 @@ MOST_OUTSIDE_95 = 4 / 46
 
 
 def main() -> int:
-    """0 where theory holds: none outside the 99.9 % interval, at most 4 of every 46 outside the 95 %, all precise enough."""
+    """0 where theory holds: none outside the 99.9 % interval, at most 4 of 46 outside the 95 %, all precise enough."""
     if not (data_folder() / "reference" / "known_answers.json").exists():
         print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
         return 2

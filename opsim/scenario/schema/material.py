@@ -65,7 +65,9 @@ class Station(Block):
         None, alias="yield", description="share of jobs that the work here leaves without a defect; absent: all"
     )
     scrap_share: LessThanAll | None = Field(
-        None, alias="scrap", description="share of jobs that the work here spoils, each seen at once and scrapped"
+        None,
+        alias="scrap",
+        description="share of jobs that the work here spoils; they, and those that came with a defect, are scrapped",
     )
     inspect: Inspect | None = Field(
         None, description="a look at each job when its work here is done", examples=["{finds: 0.98, then: scrap}"]

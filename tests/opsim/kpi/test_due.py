@@ -22,6 +22,16 @@ def told(folder, orders):
     return {(figure.kpi, figure.subject): figure.value for figure in due_dates(run_plan(made), made)}
 
 
+def test_a_job_that_is_done_on_its_due_date_is_not_late_by_a_tick():
+    text = HEAD.replace("{kind: schedule, file: orders.csv}", "{kind: renewal, every: {fixed: 9 s}}") + SHOP
+    made = plan(
+        text.replace("fixed: 10 s", "fixed: 6.3 s").replace(
+            ", due: 15 s}, b: {", ", due: 6.3 s, share: 0.5}, b: {share: 0.5, "
+        )
+    )
+    assert [figure.value for figure in due_dates(run_plan(made), made) if figure.kpi == "late_share"] == [0, 0]
+
+
 def test_late_jobs_and_how_late_they_are(tmp_path):
     """Finished at 10, 20 and 30 s, due at 15 s each."""
     figures = told(tmp_path, "time,product 0,a 0,a 0,a")

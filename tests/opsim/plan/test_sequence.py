@@ -34,6 +34,13 @@ def test_a_lot_takes_its_units_except_for_what_is_done_once():
     assert ahead_of("{route: [s1, s2, s3], lot: 5}").at_s == ((50, 4, 54),)
 
 
+def test_a_batch_station_does_each_task_once_for_a_lot():
+    text = HEAD + STATIONS.replace("tasks: [cut]}", "tasks: [cut], batch: {size: 2}}", 1)
+    assert plan(text + "products: {a: {route: [s1, s2, s3], lot: 5}}\nflow: {dispatch: spt}\n").ahead.at_s == (
+        (10, 4, 54),
+    )
+
+
 def test_ways_that_lead_back_are_passed_as_often_as_the_traffic_equations_say():
     """s1 until it is good, with probability 1/4 again: 4/3 visits; then s2."""
     ahead = ahead_of("{routing: {start: s1, s1: {s1: 1/4, s2: 3/4}, s2: out}}")
