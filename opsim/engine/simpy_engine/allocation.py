@@ -10,8 +10,8 @@ def send_workers(floor: Floor) -> None:
     """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
     idle = floor.plan.idle
     while True:
-        while floor.free and floor.calling and (pair := _best_pair(floor, idle == "patrol")) is not None:
-            _send(floor, *pair)
+        while floor.free and floor.calling and _serve_best(floor, idle == "patrol"):
+            pass
         if idle == "stay" or not floor.free:
             return
         if idle == "home":
@@ -21,22 +21,42 @@ def send_workers(floor: Floor) -> None:
             return
 
 
-def _best_pair(floor: Floor, patrols: bool) -> tuple[Worker, Station] | None:
+def _serve_best(floor: Floor, patrols: bool) -> bool:
+    """The worker of the best pair is sent, where there is one; True where there may be another pair."""
     best = best_key = None
-    calling, calls = floor.calling.items(), floor.calls
+    calling, calls = floor.calling, floor.calls
     for worker in floor.free.values():
-        if not worker.skills & calls:
-            continue
-        ratings = worker.rating
-        for rank, station in calling:
-            if ratings[rank] > 0 and (not patrols or _on_round(worker, station)):
-                if best is None:
-                    best = worker, station  # NOTE: most often the only pair, and its key is never asked for
-                    continue
-                best_key = best_key or _key(floor, *best)
-                key = _key(floor, worker, station)
-                if key < best_key:
-                    best, best_key = (worker, station), key
+        able = worker.skills & calls
+        while able:  # NOTE: only stations he can serve are looked at, by the bits of their ranks
+            station = calling[(able & -able).bit_length() - 1]
+            able &= able - 1
+            if patrols and not _on_round(worker, station):
+                continue
+            if best is None:
+                best = worker, station  # NOTE: most often the only pair, and its key is never asked for
+                continue
+            best_key = best_key or _key(floor, *best)
+            key = _key(floor, worker, station)
+            if key < best_key:
+                best, best_key = (worker, station), key
+    if best is None:
+        return False
+    n_free = len(floor.free)
+    if best[1].calling[0][3].with_tools:
+        best = _who_waits_longest(floor, best, patrols)
+    _send(floor, *best)
+    # NOTE: it was the only pair, and nobody has come free or has called since: there is none, and no need to look
+    return best_key is not None or len(floor.free) >= n_free or floor.calls & ~calls != 0
+
+
+def _who_waits_longest(floor: Floor, best: tuple[Worker, Station], patrols: bool) -> tuple[Worker, Station]:
+    """The pair, or that of who has waited longer for the same tools, where somebody is free for him too."""
+    station = best[1]
+    for other in station.before(floor, station.calling[0][3]):  # type: ignore[misc]
+        able = [worker for worker in floor.free.values() if worker.rating[other.rank] > 0]
+        able = [worker for worker in able if not patrols or _on_round(worker, other)]
+        if able:
+            return min(able, key=lambda worker: _key(floor, worker, other)), other
     return best
 
 

@@ -25,9 +25,9 @@ class Oven:
         self.overdue = False
 
     def serve(self, floor: Floor, station: Station) -> None:
-        """Begin batches as long as there are servers and jobs for them; the others wait on."""
+        """Begin batches as long as there are servers and jobs for them, and the station is up; the others wait on."""
         self._welcome(floor)
-        while station.free_servers and (together := self._next(floor)):
+        while station.free_servers and not station.down and (together := self._next(floor)):
             self._begin(floor, together)
         cause = BATCH if station.free_servers else 0
         for job in station.queue:

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from opsim.engine.simpy_engine.card_lines import Lines, Want, is_outside, want_of
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Claim, Gate, Job
 from opsim.log import BLOCKED, GATE, HELD, NO_CARD, NO_CAUSE
 from opsim.plan.cards import CardPlan
-from opsim.plan.release import INSIDE
-
-Want = tuple[int, int]
-"""(product rank, step of its route)"""
 
 
 @dataclass(slots=True, eq=False)
@@ -31,17 +28,12 @@ class Loop:
 
 
 class Guard:
-    """Stands at a gate: who may come in, and why the others wait.
+    """Stands at a gate: who may come in, and why the others wait."""
 
-    lines : whether every job comes here once, without cards, and from elsewhere; n_wants : products and steps there are
-    """
+    __slots__ = ("floor", "gate", "lines", "needs")
 
-    __slots__ = ("floor", "gate", "lines", "n_wants", "needs")
-
-    def __init__(self, floor: Floor, gate: Gate, wants: list[Want], needs: dict[Want, tuple[Loop, ...]]):
-        self.floor, self.gate, self.needs, self.n_wants = floor, gate, needs, len(wants)
-        keeps_places = any(station.place_first for station in floor.plan.stations)
-        self.lines = not keeps_places and all(_comes_once(floor, *want) for want in wants)
+    def __init__(self, floor: Floor, gate: Gate, needs: dict[Want, tuple[Loop, ...]]):
+        self.floor, self.gate, self.needs, self.lines = floor, gate, needs, Lines()
 
     def lets(self, product: int, step: int) -> bool:
         """Whether a job that is still to be made would find its cards."""
@@ -50,14 +42,14 @@ class Guard:
     def allows(self, job: Job) -> bool:
         """Whether the job has, or finds, all the cards it needs here: all of them at once, or none is taken."""
         held = job.cards or ()
-        return all(loop.free or loop in held for loop in self.needs.get(_want(job), ()))
+        return all(loop.free or loop in held for loop in self.needs.get(want_of(job), ()))
 
     def entered(self, _floor: Floor, job: Job) -> None:
         """Take the cards; who has one keeps it. One that leaving the station here would give back stands twice."""
         cards = job.cards = [] if job.cards is None else job.cards
         taken: list[Loop] = [] if job.ahead is None else job.ahead.cards
         leaves = -1 if job.station is None else job.station.rank
-        for loop in self.needs.get(_want(job), ()):
+        for loop in self.needs.get(want_of(job), ()):
             if loop not in cards:
                 loop.free -= 1
                 taken.append(loop)
@@ -73,39 +65,30 @@ class Guard:
             loop.take_back(floor, job)
 
     def pick(self) -> Claim | None:
-        """The first claim that can be met; jobs that are passed over are marked with what they wait for.
-
-        Where nobody comes twice, those of one product wait in one line: when the first of each waits, the rest do.
-        NOTE: with 5,000 jobs outside, going through all of them took 100 times as long as the rest of the run.
-        """
-        gate, room = self.gate, self.gate.has_room
-        in_lines = self.lines and bool(gate.claims) and gate.claims[0][0] == gate.claims[-1][0]
+        """The first claim that can be met; jobs that are passed over are marked with what they wait for."""
+        gate = self.gate
+        if not gate.claims:
+            return None
+        room = gate.has_room
         lacking: set[Want] = set()
-        stuck: set[Want] = set()
-        for claim in gate.claims:
+        for claim in self.lines.first(gate.claims, self.floor.now):
             job = claim[3]
             if job.ahead is not None and job.ahead.station is not None:
                 return claim
-            want = _want(job)
-            if (want in lacking and not job.cards) or not self.allows(job):
-                lacking.add(want)
-                self._mark(job, True)
-            elif room or (job.station in gate.stations and job.keeps_place):
+            lacks_card = not self.allows(job)
+            if not lacks_card and (room or (job.station in gate.stations and job.keeps_place)):
                 return claim
-            else:
-                self._mark(job, False)
-            stuck.add(want)
-            if in_lines and len(stuck) == self.n_wants:
-                self._mark_new(lacking)
-                break
+            self._mark(job, lacks_card)
+            if lacks_card and is_outside(job):
+                lacking.add(want_of(job))
+        self._mark_new(lacking)
         return None
 
     def _mark_new(self, lacking: set[Want]) -> None:
-        """Mark those who came just now: they stand at the end of the line."""
-        for claim in reversed(self.gate.claims):
-            if claim[1] < self.floor.now:
-                return
-            self._mark(claim[3], _want(claim[3]) in lacking)
+        """Mark those who came just now: they stand in lines whose first waits."""
+        for claim in self.lines.newest(self.gate.claims):
+            if is_outside(claim[3]):
+                self._mark(claim[3], want_of(claim[3]) in lacking)
 
     def _mark(self, job: Job, lacks_card: bool) -> None:
         """A job outside, or blocked where it is, waits for a card or for room."""
@@ -117,15 +100,3 @@ class Guard:
             return
         if job.cause != cause:
             self.floor.job_now(job, job.kind, cause)
-
-
-def _comes_once(floor: Floor, product: int, step: int) -> bool:
-    """Whether a job that comes to a step has no card and no place yet: it is the first, and no way leads back to it."""
-    onward = floor.plan.products[product].onward
-    inside = any(source.kind == INSIDE and product in dict(source.mix) for source in floor.plan.sources)
-    sure = floor.plan.products[product].start == ((1.0, step),) and not inside
-    return sure and not any(step == to for way in onward for _, to in way)
-
-
-def _want(job: Job) -> Want:
-    return job.product, job.step if job.ahead is None else job.ahead.step

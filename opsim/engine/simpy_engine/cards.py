@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from opsim.engine.simpy_engine.card_gates import Guard, Loop, Want
+from opsim.engine.simpy_engine.card_gates import Guard, Loop
+from opsim.engine.simpy_engine.card_lines import Want
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Gate, Job, Station
 
@@ -16,12 +17,13 @@ def install(floor: Floor) -> None:
         wants = _wants(floor, gate)
         needs = {want: found for want in wants if (found := _needed(loops, want))}
         if needs:
-            guard = Guard(floor, gate, wants, needs)
+            guard = Guard(floor, gate, needs)
             gate.allows, gate.entered, gate.given_up = guard.allows, guard.entered, guard.given_up
             gate.pick, gate.lets = guard.pick, guard.lets
             for loop in {id(loop): loop for found in needs.values() for loop in found}.values():
                 loop.gates.append(gate)
-    floor.left_station.append(_left_station)
+    if any(card.back for card in floor.plan.cards):
+        floor.left_station.append(_left_station)
     floor.left_floor.append(_left_floor)
     for job in sorted(floor.jobs.values(), key=lambda job: job.number):
         _give_at_start(job, loops)
@@ -43,7 +45,7 @@ def _needed(loops: list[Loop], want: Want) -> tuple[Loop, ...]:
 
 
 def _left_station(floor: Floor, job: Job, station: Station) -> None:
-    for loop in dict.fromkeys(job.cards or ()):
+    for loop in dict.fromkeys(job.cards) if job.cards else ():
         if station.rank in loop.plan.back:
             loop.take_back(floor, job)
 

@@ -1,6 +1,7 @@
 """The crib: where tools are taken from and given back to, and who waits for which."""
 
 from bisect import insort
+from dataclasses import replace
 
 from opsim.engine.rules.tools import enough
 from opsim.engine.simpy_engine.floor import Floor
@@ -18,6 +19,7 @@ class Crib:
     """The tools of a floor: how many of each are free, what each job has, and who waits.
 
     since_s : by job and purpose, since when they are wanted; calling : jobs that call for a worker with tools
+    known   : jobs that had, wanted or called for some at the station where they are
     """
 
     def __init__(self, floor: Floor):
@@ -27,6 +29,7 @@ class Crib:
         self.since_s: dict[tuple[int, int], float] = {}
         self.waiting: list[tuple[Claim, Want]] = []
         self.calling: dict[int, tuple[Job, Want]] = {}
+        self.known: set[int] = set()
         self.changed = False
 
     def has(self, job: Job, purpose: int) -> bool:
@@ -35,7 +38,11 @@ class Crib:
 
     def is_free(self, needs: Needs) -> bool:
         """Whether all that is needed is there."""
-        return all(enough(self.free[tool], n) for tool, n in needs)
+        free = self.free
+        for tool, n in needs:  # noqa: SIM110  NOTE: asked often, of one or two tools; ``all`` takes three times as long
+            if not enough(free[tool], n):
+                return False
+        return True
 
     def take(self, job: Job, want: Want) -> bool:
         """The job takes all the tools it wants; False where it has to wait for them, all together."""
@@ -54,7 +61,27 @@ class Crib:
     def call(self, job: Job, want: Want) -> None:
         """The job calls for a worker, with tools that are free now; somebody else may have them before he sets out."""
         job.with_tools = True
+        self.known.add(job.number)
+        self.since_s.setdefault((job.number, want.purpose), self.floor.now)
         self.calling[job.number] = job, want
+
+    def before(self, _floor: Floor, job: Job) -> list[Station]:
+        """Stations whose first call has waited longer for tools that a job calls for too, the longest wait first."""
+        _, mine = self.calling[job.number]
+        claim = self._claim(job, mine)
+        wanted = dict(mine.needs)
+        found = []
+        for other, want in self.calling.values():
+            station: Station = other.station  # type: ignore[assignment]
+            short = any(tool in wanted and self.free[tool] < wanted[tool] + n for tool, n in want.needs)
+            if (
+                short
+                and station.calling
+                and station.calling[0][3] is other
+                and self._claim(other, want)[:2] < claim[:2]
+            ):
+                found.append((self._claim(other, want), station))
+        return [station for _, station in sorted(found, key=lambda pair: pair[0])]
 
     def sent(self, _floor: Floor, job: Job) -> None:
         """A worker sets out, and the tools with him."""
@@ -68,6 +95,7 @@ class Crib:
             self.free[tool] -= n
         station: Station = job.station  # type: ignore[assignment]
         grip = Grip(want.needs, want.task, self.floor.now, station.rank, job.operation_rank)
+        self.known.add(job.number)
         self.grips.setdefault(job.number, {})[want.purpose] = grip
         self.since_s.pop((job.number, want.purpose), None)
         for other, unmet in [pair for pair in self.calling.values() if not self.is_free(pair[1].needs)]:
@@ -95,8 +123,20 @@ class Crib:
         self.put_back_tasks(job)
         self.put_back(job, IN_HAND)
 
+    def call_off(self, floor: Floor, job: Job) -> bool:
+        """The job, which may not begin yet, waits for the tools of its task no more; True where it did."""
+        mine = [pair for pair in self.waiting if pair[0][3] is job and pair[1].purpose >= 0]
+        for pair in mine:
+            self.waiting.remove(pair)
+            del self.since_s[job.number, pair[1].purpose]
+            log_wait(floor, job, pair[1].task)
+        return bool(mine)
+
     def leave(self, _floor: Floor, job: Job, _station: Station) -> None:
         """The job leaves its station, or loses its server: it has nothing any more, and waits for nothing."""
+        if job.number not in self.known:
+            return
+        self.known.remove(job.number)
         self.waiting = [pair for pair in self.waiting if pair[0][3] is not job]
         self.calling.pop(job.number, None)
         job.with_tools = False
@@ -104,6 +144,14 @@ class Crib:
             self.put_back(job, purpose)
         self.grips.pop(job.number, None)
         self.since_s = {key: since_s for key, since_s in self.since_s.items() if key[0] != job.number}
+
+    def pass_on(self, floor: Floor, job: Job, other: Job) -> None:
+        """What the station needs is another job's from now on."""
+        grip = self.grips[job.number].pop(AT_STATION)
+        log_grip(floor, job, grip)
+        self.known.add(other.number)
+        passed = replace(grip, since_s=floor.now, operation=other.operation_rank)
+        self.grips.setdefault(other.number, {})[AT_STATION] = passed
 
     def give_out(self, _floor: Floor) -> bool:
         """What was given back goes to who waits: the first that can have all he wants. True where somebody got it."""
@@ -134,9 +182,12 @@ class Crib:
         self.changed = True
         self.floor.wake()
 
+    def _claim(self, job: Job, want: Want) -> Claim:
+        return claim_of(job, self.since_s.get((job.number, want.purpose), self.floor.now))
+
     def _first_is_another(self, job: Job, want: Want) -> bool:
         """Whether one of these tools goes to somebody who waits, and is to have it in this instant."""
-        mine = claim_of(job, self.since_s.get((job.number, want.purpose), self.floor.now))
+        mine = self._claim(job, want)
         tools = {tool for tool, _ in want.needs}
         return any(
             claim < mine and self.is_free(other.needs) and any(tool in tools for tool, _ in other.needs)
@@ -145,6 +196,7 @@ class Crib:
 
     def _wait(self, job: Job, want: Want) -> None:
         self.floor.job_now(job, HELD, NO_TOOL)
+        self.known.add(job.number)
         since_s = self.since_s.setdefault((job.number, want.purpose), self.floor.now)
         insort(self.waiting, (claim_of(job, since_s), want), key=lambda pair: pair[0])
 

@@ -93,7 +93,7 @@ class Failing:
         stop.begin(floor)
 
     def _call_off(self, floor: Floor) -> None:
-        """Nobody is called for a job that was not begun."""
+        """No worker, team or tool is waited for by a job that was not begun."""
         station = self.station
         for claim in list(station.calling):
             job = claim[3]
@@ -102,6 +102,12 @@ class Failing:
                 job.stage = station.stages.index(self.may_begin)
                 self._hold(floor, job)
         quiet(floor, station)
+        for job in list(station.seated or ()) if floor.call_off else ():
+            ready = job.stage == len(station.stages) and job.setup_task < 0 and not _is_begun(job)
+            waited = [ask(floor, job) for ask in floor.call_off] if ready else []
+            if any(waited):
+                job.stage = station.stages.index(self.may_begin)
+                self._hold(floor, job)
 
     def _hold(self, floor: Floor, job: Job) -> None:
         floor.job_now(job, HELD, IS_DOWN)

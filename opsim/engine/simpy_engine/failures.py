@@ -33,7 +33,7 @@ def install(floor: Floor) -> None:
         _add(floor, failing[one.station], Stop(one, rank, floor.stations[one.station], team, repairs))
     for station in failing.values():
         _open(floor, station)
-    floor.dispatchers.append(_Dispatcher(pending, teams))
+    floor.dispatchers.append(partial(_dispatch, pending, teams))
     floor.closing.append(partial(_close, [*failing.values()]))
 
 
@@ -74,20 +74,16 @@ def _open(floor: Floor, failing: Failing) -> None:
     wear.go_on(floor)
 
 
-class _Dispatcher:
-    """Stops that are due begin, and teams go where they are waited for."""
-
-    def __init__(self, pending: dict[int, Failing], teams: list[Team]):
-        self.pending, self.teams = pending, teams
-
-    def __call__(self, floor: Floor) -> bool:
-        changed = False
-        for rank in sorted(self.pending):
-            changed |= self.pending[rank].strike(floor)
-        for team in self.teams:
-            if team.waiting:
-                changed |= team.send(floor)
-        return changed
+def _dispatch(pending: dict[int, Failing], teams: list[Team], floor: Floor) -> bool:
+    """Stops that are due begin, and teams go where they are waited for; True where something was done."""
+    changed = False
+    if pending:
+        for rank in sorted(pending):
+            changed |= pending[rank].strike(floor)
+    for team in teams:
+        if team.waiting:
+            changed |= team.send(floor)
+    return changed
 
 
 def _worn_out(_floor: Floor, countdown: Countdown) -> None:

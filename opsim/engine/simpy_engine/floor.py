@@ -34,6 +34,7 @@ class Floor:
     created      : told of each job that comes into being
     left_station : told of each job that gives its place at a station back; left_floor : of each that leaves
     broken_off   : told of each job whose performance is broken off
+    call_off     : asked of a job that may not begin yet; True where it waited for a tool of its task, or for a team
     lost_server  : told of each job that loses its server to another one and stays at the station
     closing      : asked for their open rows at the horizon, before those of workers and jobs are written
     stock, kits  : what lies in the stores, and who waits for parts, where there are some
@@ -68,6 +69,7 @@ class Floor:
         self.dispatchers: list[Callable[[Floor], bool]] = []
         self.left_station: list[Callable[[Floor, Job, Station], None]] = []
         self.broken_off: list[Callable[[Floor, Job], None]] = []
+        self.call_off: list[Callable[[Floor, Job], bool]] = []
         self.lost_server: list[Callable[[Floor, Job, Station], None]] = []
         self.created: list[Callable[[Floor, Job], None]] = []
         self.left_floor: list[Callable[[Floor, Job], None]] = []

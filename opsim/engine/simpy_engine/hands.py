@@ -83,7 +83,7 @@ def _hang(hands: Hands, floor: Floor, station: Station) -> None:
     if any(_asks(task) for task in here):
         station.act, station.acted = hands.act, hands.acted
     if hands.crib is not None:
-        station.sent = hands.crib.sent
+        station.sent, station.before = hands.crib.sent, hands.crib.before
 
 
 def _asks(task: TaskPlan) -> bool:

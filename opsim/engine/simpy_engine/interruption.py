@@ -33,6 +33,8 @@ def start_station(floor: Floor, station: Station) -> None:
     standing, station.standing = station.standing, []
     for job in sorted(standing, key=lambda job: job.number):
         go_on(floor, job)
+    if station.serve is not None:
+        station.serve(floor, station)
 
 
 def interrupt(floor: Floor, job: Job, cause: int) -> None:

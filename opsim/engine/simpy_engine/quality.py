@@ -27,14 +27,17 @@ class _Counted:
     """How often each job on the floor was through an operation, and reworked from a station."""
 
     def __init__(self) -> None:
-        self.passes: dict[int, Counter[int]] = {}
+        self.passes: dict[int, dict[int, int]] = {}
         self.reworks: dict[int, Counter[int]] = {}
 
     def visit(self, job: Job) -> int:
         """How often the job was through its operation before."""
-        passes = self.passes.setdefault(job.number, Counter())
-        passes[job.operation_rank] += 1
-        return passes[job.operation_rank] - 1
+        passes = self.passes.get(job.number)
+        if passes is None:
+            passes = self.passes[job.number] = {}
+        before = passes.get(job.operation_rank, 0)
+        passes[job.operation_rank] = before + 1
+        return before
 
     def forget(self, _floor: Floor, job: Job) -> None:
         self.passes.pop(job.number, None)

@@ -12,7 +12,7 @@ class EndlessInstant(RuntimeError):
 
 
 def dispatch(floor: Floor) -> None:
-    """Move jobs, give out what jobs wait for, then send workers, until nothing changes."""
+    """Move jobs, give out tools, parts, vehicles and what else they wait for, send workers, until nothing changes."""
     for _ in range(MOST_ROUNDS):
         if floor.stirred:
             admit(floor)
@@ -20,18 +20,13 @@ def dispatch(floor: Floor) -> None:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)
-        changed = _give_out(floor) if floor.dispatchers else False
+        changed = False
+        for given_out in floor.dispatchers:
+            if given_out(floor):
+                changed = True
         if floor.free:
             send_workers(floor)
         if not floor.stirred and not changed:
             return
     names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)
     raise EndlessInstant(f"t = {floor.now} s: over {MOST_ROUNDS} rounds in one instant; still moving at: {names}")
-
-
-def _give_out(floor: Floor) -> bool:
-    """Tools, parts, vehicles and whatever else jobs wait for; True where somebody got something."""
-    changed = False
-    for given_out in floor.dispatchers:
-        changed |= given_out(floor)
-    return changed

@@ -29,8 +29,11 @@ class Servers(list[Job]):
         """The job takes the free server with the shortest set-up."""
         super().append(job)
         if _key(job) not in self.of:
-            last = min(self.free, key=lambda last: (self.plan.needed(last, job.product)[1], last))
-            self.free.remove(last)
+            free = self.free
+            last = free[0]
+            if len(free) > 1:
+                last = min(free, key=lambda last: (self.plan.needed(last, job.product)[1], last))
+            free.remove(last)
             self.of[_key(job)] = last
 
     def remove(self, job: Job) -> None:

@@ -163,6 +163,7 @@ class Station:
     stages  : preparations of a seated job, in their order
     ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``
     sent    : told of a job with ``with_tools`` that a worker is sent to
+    before  : of such a job, the stations whose first call has waited longer for the same tools
     act, acted : another way to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
     after   : asked when an operation is done, in their order
     order   : key by which the next job of the queue is chosen; None: first come, first served
@@ -193,6 +194,7 @@ class Station:
     stages: tuple[Stage, ...] = ()
     ready: Callable[[Floor, Job], bool] | None = None
     sent: Callable[[Floor, Job], None] | None = None
+    before: Callable[[Floor, Job], list[Station]] | None = None
     act: Callable[[Floor, Job, Worker], bool] | None = None
     acted: Callable[[Floor, Job, Worker], bool] | None = None
     after: tuple[Hook, ...] = ()

@@ -32,11 +32,19 @@ class Teams:
         self.of: dict[int, Progress] = {}
         floor.dispatchers.append(self.gather)
         floor.left_floor.append(self.forget)
+        floor.call_off.append(self.call_off)
 
     def call(self, floor: Floor, job: Job) -> None:
         """The job waits until as many workers are free as its task takes."""
         floor.job_now(job, HELD, NO_WORKER)
         insort(self.gathering, claim_of(job, floor.now))
+
+    def call_off(self, _floor: Floor, job: Job) -> bool:
+        """The job, which may not begin yet, calls for a team no more; True where it did."""
+        mine = [claim for claim in self.gathering if claim[3] is job]
+        for claim in mine:
+            self.gathering.remove(claim)
+        return bool(mine) and _calls(job)
 
     def forget(self, _floor: Floor, job: Job) -> None:
         """The job is on the floor no more."""

@@ -18,20 +18,33 @@ def install(floor: Floor) -> Crib | None:
         return None
     crib = Crib(floor)
     floor.dispatchers.append(crib.give_out)
-    floor.left_station.append(crib.leave)
+    floor.left_station.append(partial(_left_station, crib))
     floor.lost_server.append(crib.leave)
     floor.broken_off.append(crib.break_off)
+    floor.call_off.append(crib.call_off)
     floor.closing.append(crib.close)
     for station in floor.stations:
         if station.plan.needs:
             station.add_stage(STAGE, partial(_for_station, crib))
+            station.seated = [] if station.seated is None else station.seated
     return crib
 
 
 def _for_station(crib: Crib, floor: Floor, job: Job) -> bool:
-    """The tools that stay with the job until it leaves its station."""
+    """The tools that stay with the job until it leaves its station; with a batch, until the last of it does."""
     needs = job.station.plan.needs  # type: ignore[union-attr]
     return crib.take(job, Want(AT_STATION, needs, -1, lambda: proceed(floor, job)))
+
+
+def _left_station(crib: Crib, floor: Floor, job: Job, station: Station) -> None:
+    """What the station needs goes on to another one of the job's batch that is there yet; the rest is given back."""
+    if job.number not in crib.known:
+        return
+    if job.seat is not None and crib.has(job, AT_STATION):
+        other = next((one for one in station.seated or () if one is not job and one.seat is job.seat), None)
+        if other is not None:
+            crib.pass_on(floor, job, other)
+    crib.leave(floor, job, station)
 
 
 def for_task(crib: Crib, floor: Floor, job: Job) -> bool:

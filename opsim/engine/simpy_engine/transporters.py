@@ -1,5 +1,7 @@
 """Jobs brought by vehicles: called, loaded, driven, unloaded."""
 
+from functools import partial
+
 from opsim.engine.rules import COMPLETION, nearest_stop, soonest_there
 from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.material import leave_station
@@ -30,13 +32,14 @@ def install(floor: Floor) -> None:
     for plan in floor.plan.transporters:
         pool = Pool(plan, {(leg.before, leg.after): leg for leg in plan.legs})
         pool.vehicles = [Vehicle(number + i, pool, plan.place, plan.place) for i in range(plan.n)]
+        pool.n_free = plan.n
         number += plan.n
         pools.append(pool)
         for leg in pool.legs:
             floor.legs[leg] = _caller(pool)
     if pools:
-        floor.dispatchers.append(lambda floor: _dispatch(floor, pools))
-        floor.closing.append(lambda floor: _close(floor, pools))
+        floor.dispatchers.append(partial(_dispatch, pools))
+        floor.closing.append(partial(_close, pools))
 
 
 def _caller(pool: Pool):
@@ -51,11 +54,11 @@ def _caller(pool: Pool):
     return call
 
 
-def _dispatch(floor: Floor, pools: list[Pool]) -> bool:
+def _dispatch(pools: list[Pool], floor: Floor) -> bool:
     """Vehicles that are ready do their next step, and free ones are sent; True where something was done."""
     changed = False
     for pool in pools:
-        while pool.ready or (pool.calls and any(vehicle.doing == FREE for vehicle in pool.vehicles)):
+        while pool.ready or (pool.calls and pool.n_free):
             ready, pool.ready = sorted(pool.ready, key=lambda vehicle: vehicle.number), []
             for vehicle in ready:
                 _next_step(floor, vehicle)
@@ -156,7 +159,7 @@ def _be_free(floor: Floor, vehicle: Vehicle) -> None:
     now_does(floor, vehicle, FREE, vehicle.place)
 
 
-def _close(floor: Floor, pools: list[Pool]) -> None:
+def _close(pools: list[Pool], floor: Floor) -> None:
     for pool in pools:
         for vehicle in pool.vehicles:
             log_vehicle(floor, vehicle)

@@ -49,7 +49,7 @@ class Vehicle:
 class Pool:
     """The vehicles of a transporter. calls : the first is served first; ready : vehicles that can do their next step
 
-    legs : by (station, station)
+    legs : by (station, station); n_free : vehicles that do nothing
     """
 
     plan: TransporterPlan
@@ -57,6 +57,7 @@ class Pool:
     vehicles: list[Vehicle] = field(default_factory=list)
     calls: list[Call] = field(default_factory=list)
     ready: list[Vehicle] = field(default_factory=list)
+    n_free: int = 0
 
     def take_call(self, job: Job, station: Station, now: float) -> None:
         """A job calls, to be brought to a station."""
@@ -74,6 +75,7 @@ class Pool:
 def now_does(floor: Floor, vehicle: Vehicle, doing: int, place: int) -> None:
     """The vehicle does something else from now on, at a place or on its way to it; what it did is written."""
     log_vehicle(floor, vehicle)
+    vehicle.pool.n_free += (doing == FREE) - (vehicle.doing == FREE)
     vehicle.came_from, vehicle.place, vehicle.doing, vehicle.since_s = vehicle.place, place, doing, floor.now
 
 
