@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from opsim.kpi.waits.bringing import outside_at_end
 from opsim.kpi.waits.graph import Pool, circles
 from opsim.kpi.waits.inside import Inside, inside_at_end
 from opsim.kpi.waits.parts import Waits, add_parts
@@ -33,8 +34,9 @@ def locked(log: EventLog, plan: Plan) -> Locked | None:
 
     Jobs wait for a place (those that are blocked name the operation they want), a server, a worker, tools, cards or
     parts, and what they have is free again once they can move on. A job that wants back into its own station never is
-    stuck, since it may take its own place again; repairs, set-ups, transport and whatever time alone ends neither. The
-    stuck jobs are the largest set in which everybody lacks something that only others of the set have.
+    stuck, since it may take its own place again; repairs, set-ups, transport and whatever time alone ends neither, and
+    a source of a time of its own may bring more after the horizon. The stuck jobs are the largest set in which
+    everybody lacks something that only others of the set have.
     Source: Coffman, Elphick & Shoshani 1971, System deadlocks, Computing Surveys 3(2) (circular wait).
     """
     inside = inside_at_end(log, plan)
@@ -44,11 +46,12 @@ def locked(log: EventLog, plan: Plan) -> Locked | None:
         ways = ways_of(one, plan, inside, pools)
         if ways is not None:
             waits[one.name] = ways
-    words = {one.name: one.words(plan) for one in inside} | add_parts(pools, waits, plan, inside)
+    words = {one.name: one.words(plan) for one in inside} | add_parts(pools, waits, plan, inside, outside_at_end(log))
     by_name = {one.name: one for one in inside}
     found = [
         _told([by_name[name] for name in sorted(ring) if name in by_name], circle, pools, words, plan)
         for ring, circle in circles(waits, pools)
+        if not ring.isdisjoint(by_name)
     ]
     return min(found, key=lambda ring: (ring.since_s, ring.stations), default=None)
 

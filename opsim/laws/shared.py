@@ -65,5 +65,5 @@ def _most_cards(rows: EventLog, plan: Plan, card: CardPlan) -> int:
     has = np.zeros(here.size, dtype=bool)
     for first, last in zip(firsts, [*firsts[1:], here.size]):
         product = int(rows["product"][here[first]])
-        has[first:last] = has_card(card, product, plan.products[product], rows["station"][here[first:last]].tolist())
+        has[first:last] = has_card(card, product, plan, rows["station"][here[first:last]].tolist())
     return peak(rows.where(here[has]))

@@ -18,7 +18,4 @@ def card_holders(log: EventLog, plan: Plan, jobs: list[int]) -> list[set[int]]:
     for job, product, station in zip(*(log[column][rows].tolist() for column in ("job", "product", "station"))):
         ways.setdefault(job, []).append(station)
         products[job] = product
-    return [
-        {job for job, way in ways.items() if has_card(card, products[job], plan.products[products[job]], way)[-1]}
-        for card in plan.cards
-    ]
+    return [{job for job, way in ways.items() if has_card(card, products[job], plan, way)[-1]} for card in plan.cards]

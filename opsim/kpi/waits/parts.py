@@ -8,11 +8,12 @@ way to a store, and stock is taken by those on their way to a station where it g
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from opsim.kpi.waits.bringing import NOBODY, add_sources, bringing, cards_before
+from opsim.kpi.waits.fills import TO_FILL, endless, fillers, filling, spaces_of
 from opsim.kpi.waits.graph import Pool, Way
 from opsim.kpi.waits.inside import Inside
 from opsim.log import BATCH, HELD, NO_PARTS, QUEUE, STOCK
 from opsim.plan import Plan
-from opsim.plan.release import INSIDE
 from opsim.plan.station import STORE
 
 Waits = dict[str, tuple[Way, ...]]
@@ -22,54 +23,69 @@ END = -1
 
 @dataclass(frozen=True, slots=True)
 class Coming:
-    """Jobs of a product on their way to a station, or to the ``END`` of their way."""
+    """Jobs of a product on their way to a server of a station, or to the ``END`` of their way.
+
+    queues : to the queue of a station of batches
+    """
 
     product: int
     target: int = END
+    queues: bool = False
 
     @property
     def pool(self) -> str:
-        return f"coming {self.product} {self.target}"
+        return filling(self.product, self.target) if self.queues else f"coming {self.product} {self.target}"
 
     def passing(self, step: int) -> str:
         """The pool of a free way from a step on."""
-        return f"way {self.product} {self.target} {step}"
+        return f"way to {self.pool} {step}"
 
 
 def missing_parts(one: Inside, plan: Plan, inside: Sequence[Inside]) -> list[str]:
-    """Pools of the products of which there are fewer in the stores than a job waits for at its station."""
+    """Pools of the products of which there are fewer in the stores than a job waits for at its station.
+
+    Where there are enough of all in whole lots, those of which one lot, begun, may be too little: rows do not tell.
+    """
     kits = [kit for kit in plan.kits if (kit.product, kit.station) == (one.product, one.station)]
     others = sum(other.station == one.station and other.waits(HELD, BATCH) for other in inside)
     firsts = sum(other.station == one.station and other.seated for other in inside) - others
     units = plan.products[one.product].lot * (1 + -(-others // max(firsts, 1)))
-    return [Coming(part).pool for kit in kits for part, n in kit.parts if _in_stock(part, plan, inside) < n * units]
+    spare = [(part, _in_stock(part, plan, inside) - n * units) for kit in kits for part, n in kit.parts]
+    missing = [part for part, left in spare if left < 0]
+    begun = (part for part, left in spare if left < plan.products[part].lot - 1)
+    return [Coming(part).pool for part in missing or begun]
 
 
 def _in_stock(part: int, plan: Plan, inside: Sequence[Inside]) -> int:
     return sum(one.n for one in inside if one.product == part and one.waits(QUEUE, STOCK)) * plan.products[part].lot
 
 
-def add_parts(pools: dict[str, Pool], waits: Waits, plan: Plan, inside: Sequence[Inside]) -> dict[str, str]:
+def add_parts(
+    pools: dict[str, Pool], waits: Waits, plan: Plan, inside: Sequence[Inside], outside: frozenset[int]
+) -> dict[str, str]:
     """Add pools of what is coming, and of takers, and those who stand for them; returns these, each in words."""
     words: dict[str, str] = {}
-    if not any(place.kind == STORE for place in plan.stations):
+    stores = any(place.kind == STORE for place in plan.stations)
+    if not stores and not endless(plan):
         return words
+    pools |= spaces_of(plan, inside)
     pools |= {f"who {one.name}": Pool("the same job", 0, {one.name: 1}) for one in inside}
     wanted = _wanted(plan)
     for coming in wanted:
         name = plan.products[coming.product].name
-        pools[coming.pool] = Pool(f"a {name}" if coming.target == END else f"a {name} to come and take it")
+        what = f"a {name}" if coming.target == END else f"a {name} to come and take it"
+        pools[coming.pool] = Pool(TO_FILL if coming.queues else what)
         for step in range(len(plan.products[coming.product].route)):
             pools[coming.passing(step)] = Pool(f"a way for {name}")
     for coming in wanted:
-        for number, (pool, ways) in enumerate(_flows(plan, coming, inside)):
+        for number, (pool, ways) in enumerate(_flows(plan, coming, inside, outside)):
             flow = f"~{coming.pool} {number:06d}"
             waits[flow], words[flow] = ways, f"{plan.products[coming.product].name} on its way"
             pools[pool].give_to(flow)
     for product in range(len(plan.products)):
         for flow, ways in _takers(pools, plan, product, inside):
             waits[flow], words[flow] = ways, plan.products[product].name
-    return words
+    return words | (add_sources(pools, waits, plan, outside) if stores else {})
 
 
 def _takers(
@@ -78,7 +94,7 @@ def _takers(
     """Add the pool of those who could take a part: who waits for parts where it goes in, and who is coming there."""
     kits = [kit for kit in plan.kits if any(part == one for one, _ in kit.parts)]
     names = " or ".join(sorted({plan.stations[kit.station].name for kit in kits}))
-    pool = pools[f"taker {part}"] = Pool(f"somebody at {names or 'a station'} to take it")
+    pool = pools[f"taker {part}"] = Pool(f"somebody at {names} to take it" if names else NOBODY)
     for kit in kits:
         for one in inside:
             if (one.product, one.station) == (kit.product, kit.station) and one.waits(HELD, NO_PARTS):
@@ -89,9 +105,10 @@ def _takers(
 
 
 def _wanted(plan: Plan) -> list[Coming]:
-    """Parts and those who take them, and all products that are split into any of these."""
+    """Parts and those who take them, who fills batches, and all products that are split into any of these."""
     found = {Coming(part) for kit in plan.kits for part, _ in kit.parts}
     found |= {Coming(kit.product, kit.station) for kit in plan.kits}
+    found |= {Coming(product, batch.station, True) for batch in endless(plan) for product in fillers(plan, batch)}
     todo = list(found)
     while todo:
         piece = todo.pop()
@@ -99,29 +116,31 @@ def _wanted(plan: Plan) -> list[Coming]:
         parents = {Coming(split.product, split.station) for split in of_it} - found
         found |= parents
         todo += parents
-    return sorted(found, key=lambda coming: (coming.product, coming.target))
+    return sorted(found, key=lambda coming: (coming.product, coming.target, coming.queues))
 
 
-def _flows(plan: Plan, coming: Coming, inside: Sequence[Inside]) -> Iterator[tuple[str, tuple[Way, ...]]]:
+def _flows(
+    plan: Plan, coming: Coming, inside: Sequence[Inside], outside: frozenset[int]
+) -> Iterator[tuple[str, tuple[Way, ...]]]:
     """(pool that it fills, ways) of all that brings a product nearer: free steps, jobs, sources, parents."""
     product, made = coming.product, plan.products[coming.product]
     steps = range(len(made.route))
     for at in steps:
         yield coming.passing(at), _passes(plan, coming, at)
+    here = [one for one in inside if coming.queues and one.station == coming.target and one.waits(QUEUE, BATCH)]
     for one in inside:
-        if one.product == product and not one.waits(QUEUE, STOCK):
+        if one.product == product and not one.waits(QUEUE, STOCK) and one not in here:
             for at in (at for at in steps if made.route[at].name == one.operation):
                 yield coming.pool, ((("who " + one.name, 1), (coming.passing(at), 1)),)
-    starts: list[Way] = []
-    for _, at in made.start:
-        cards = tuple((f"card {rank}", 1) for rank, card in enumerate(plan.cards) if at in card.steps[product])
-        starts.append(((coming.passing(at), 1), *cards))
-    if any(source.kind != INSIDE and any(product == of for of, _ in source.mix) for source in plan.sources):
-        yield coming.pool, tuple(starts)
+    starts: list[Way] = [((coming.passing(at), 1), *cards_before(plan, product, at)) for _, at in made.start]
+    for _, ways in bringing(plan, product, starts, outside):
+        yield coming.pool, ways
     for split in plan.splits:
         if any(product == piece for piece, _ in split.pieces):
             parent = Coming(split.product, split.station).pool, 1
             yield coming.pool, tuple((parent, *start) for start in starts)
+    for one in here:  # they wait for each other, where nobody else comes
+        yield coming.pool, ((("who " + one.name, 1),),)
 
 
 def _passes(plan: Plan, coming: Coming, at: int) -> tuple[Way, ...]:
@@ -132,6 +151,6 @@ def _passes(plan: Plan, coming: Coming, at: int) -> tuple[Way, ...]:
         point = f"{'room' if plan.stations[rank].kind == STORE else 'server'} {rank}", 1
         onward = {to for _, to in made.onward[at]}
         if rank == coming.target or (coming.target == END and -1 in onward):
-            ways.append((point,))
+            ways.append(() if coming.queues else (point,))
         ways += [(point, (coming.passing(to), 1)) for to in sorted(onward) if to >= 0]
     return tuple(ways)

@@ -1,9 +1,9 @@
 """What each job that waits could go on with: the ways out of its waiting."""
 
 from collections.abc import Mapping, Sequence
-from math import inf
 
 from opsim import log as states
+from opsim.kpi.waits.fills import ways_to_fill
 from opsim.kpi.waits.graph import Pool, Way
 from opsim.kpi.waits.inside import Inside
 from opsim.kpi.waits.parts import missing_parts
@@ -25,8 +25,7 @@ def ways_of(one: Inside, plan: Plan, inside: Sequence[Inside], pools: Mapping[st
     if one.waits(QUEUE, states.STOCK):
         return (((f"taker {one.product}", 1),),)
     if one.waits(QUEUE, states.BATCH):
-        waits_for_ever = any(b.station == one.station and b.most_wait_s == inf for b in plan.batches)
-        return (((f"room {one.station}", 1),),) if waits_for_ever else None
+        return ways_to_fill(one, plan, inside)
     if one.kind == QUEUE and one.cause != states.PICKUP:
         return (((f"server {one.station}", 1),),)
     return None

@@ -1,0 +1,72 @@
+"""Sources: which of them may still bring something, and those that wait for what lies in a store for good."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from opsim.kpi.waits.graph import Pool, Way
+from opsim.log import JOB_KINDS, EventLog
+from opsim.plan import Plan, SourcePlan
+from opsim.plan.release import BASE_STOCK, INSIDE, SCHEDULE
+
+NOBODY = "somebody to take it, and nothing does"
+
+
+def outside_at_end(log: EventLog) -> frozenset[int]:
+    """The products of which jobs wait outside when the run ends."""
+    rows = np.isin(log["kind"], JOB_KINDS) & (log["job"] >= 0) & (log["station"] < 0) & (log["end_s"] == log.horizon_s)
+    return frozenset(log["product"][rows].tolist())
+
+
+def bringing(
+    plan: Plan, product: int, starts: Sequence[Way], outside: frozenset[int]
+) -> Iterator[tuple[SourcePlan, tuple[Way, ...]]]:
+    """Each source that may bring more of a product, with the ways by which it comes in, given its starts.
+
+    One of a time of its own may do so at any time, a schedule while it has orders, and a store that is kept filled asks
+    for more once somebody takes a piece. Jobs that wait outside were brought already.
+    """
+    for source in plan.sources:
+        if source.kind == INSIDE or all(product != made for made, _ in source.mix):
+            continue
+        if source.kind == BASE_STOCK and product not in outside:
+            yield source, tuple(((f"taker {product}", 1), *start) for start in starts)
+        elif source.kind != SCHEDULE or source.n_late or product in outside:
+            yield source, tuple(starts)
+
+
+def cards_before(plan: Plan, product: int, step: int) -> Way:
+    """The cards that a job takes before a step."""
+    return tuple((f"card {rank}", 1) for rank, card in enumerate(plan.cards) if step in card.steps[product])
+
+
+def add_sources(
+    pools: dict[str, Pool], waits: dict[str, tuple[Way, ...]], plan: Plan, outside: frozenset[int]
+) -> dict[str, str]:
+    """Add the sources that have something to bring in as those who wait for room and cards; returns them in words.
+
+    What lies in a store from which nothing takes stays there whatever happens. That is as it should be, but where the
+    source can bring nothing more because of it: so the source stands for who would take it.
+    """
+    words: dict[str, str] = {}
+    taken = {part for kit in plan.kits for part, _ in kit.parts}
+    dead_ends = [product for product in range(len(plan.products)) if product not in taken]
+    for rank, source in enumerate(plan.sources):
+        made = [product for product, _ in source.mix]
+        asked_for = source.kind in (BASE_STOCK, SCHEDULE)
+        if source.kind == INSIDE or (asked_for and not source.n_late and outside.isdisjoint(made)):
+            continue
+        name = f"~source {rank}"
+        words[name], waits[name] = f"source {source.name}", tuple(_entries(pools, plan, made))
+        for product in dead_ends:
+            pools[f"taker {product}"].give_to(name)
+    return words
+
+
+def _entries(pools: dict[str, Pool], plan: Plan, products: Sequence[int]) -> Iterator[Way]:
+    """A place at a first station, where somebody has those there are, and the cards that are taken before it."""
+    for product in products:
+        for _, step in plan.products[product].start:
+            for station in plan.products[product].route[step].stations:
+                room = f"room {station}"
+                yield (*(((room, 1),) if pools[room].holders else ()), *cards_before(plan, product, step))
