@@ -2,10 +2,12 @@
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 _DIGITS = re.compile(r"(\d+)")
 
 
+@lru_cache(maxsize=8192)
 def natural_key(name: str) -> tuple:
     """Sort key of a name with its numbers read as numbers; the name itself breaks ties such as ``w1`` and ``w01``."""
     parts = _DIGITS.split(name)

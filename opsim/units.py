@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise
 
 from opsim.problems import nearest, shown
@@ -84,9 +85,15 @@ def parse(value: object, kind: str) -> float:
         raise UnitError(f"expected a {kind}, found {value}", f"write a finite number with its unit: '{EXAMPLES[kind]}'")
     if not isinstance(value, str):
         raise _bare(shown(value), kind)
-    if kind == "time" and ":" in value:
-        return _clock_s(value.strip())
-    return _sum(_pieces(value, kind), value, kind)
+    return _read(value, kind)
+
+
+@lru_cache(maxsize=8192)
+def _read(text: str, kind: str) -> float:
+    """Variants and stations say the same quantities again and again: each is read once."""
+    if kind == "time" and ":" in text:
+        return _clock_s(text.strip())
+    return _sum(_pieces(text, kind), text, kind)
 
 
 def pattern(kind: str) -> str:

@@ -18,8 +18,9 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     shared. Exit code 2 where something is wrong."""
     from opsim.cli.check_tables import print_loads
     from opsim.cli.console import print_json
+    from opsim.collecting import without_collecting
 
-    with mistakes():
+    with mistakes(), without_collecting():
         variants, warnings = _checked(file, names)
     if as_json:
         print_json({"file": file, **_plain(variants), "warnings": warnings})

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 MOST_ROWS = 60
-MOST_SKILLS = 20
+MOST_STATIONS, MOST_SKILLS = 30, 20
 """Rows, where there are more than ``MOST_ROWS``."""
 NEXT = 2
 """Of what limits the floor after the bottleneck, so many are named."""
@@ -35,11 +35,11 @@ def _print_stations(variant: str, loads: list[Any]) -> None:
     setups, stops = any(load.setup_s for load in loads), any(load.up < 1 for load in loads)
     more = (*(("set-up",) if setups else ()), *(("up",) if stops else ()))
     columns = ("station", "servers", "work a visit", *more, "visits a job", "most per h", "arrivals per h", "load")
-    shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_ROWS]
+    shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_STATIONS]
     rows = [_cells(load, setups, stops) for load in shown]
     print_table(f"{variant}: load of the stations, from mean times", columns, rows)
     if len(loads) > MOST_ROWS:
-        click.echo(f"{variant}: the {MOST_ROWS} busiest of {len(loads)} stations are shown; --json has them all\n")
+        click.echo(f"{variant}: the {MOST_STATIONS} busiest of {len(loads)} stations are shown; --json has them all\n")
 
 
 def _spare(load: Any) -> float:

@@ -23,6 +23,12 @@ def plain_error(message: str, hint: str = "", *, on: str | int | None = None) ->
     return PydanticCustomError("plain", "{message}", {"message": message, "hint": hint, "on": on})
 
 
+def to_sum_to_1(total: float) -> str:
+    """What to do about shares, or probabilities, whose sum is another."""
+    one = f"take {total - 1:g} from" if total > 1 else f"add {1 - total:g} to"
+    return f"{one} one of them, or divide each by {total:g}" if total else "give one of them 1"
+
+
 def _quantity(
     kind: str,
     *,

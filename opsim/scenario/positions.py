@@ -57,10 +57,12 @@ class Node:
 def child(node: Node | None, *path: Part) -> Node | None:
     """The node at a path, or None where the path does not lead."""
     for part in path:
-        if node is None or not isinstance(node.value, dict | list):
+        if node is None:
             return None
-        inside = node.value if isinstance(node.value, dict) else dict(enumerate(node.value))
-        node = inside.get(part)
+        inside: Any = node.value
+        if isinstance(inside, list):
+            inside = dict(enumerate(inside))
+        node = inside.get(part) if isinstance(inside, dict) else None
     return node
 
 
@@ -82,12 +84,15 @@ def text(node: Node | None, *path: Part) -> str | None:
     return found.value if found is not None and isinstance(found.value, str) else None
 
 
-def written_paths(node: Node, inside: tuple[str, ...] = ()) -> Iterator[str]:
-    """Every dotted path of the keys that stand in the tree, e.g. "run", "run.horizon"."""
-    if isinstance(node.value, dict):
-        for key, below in node.value.items():
-            yield ".".join((*inside, key))
-            yield from written_paths(below, (*inside, key))
+def written_paths(node: Node) -> Iterator[str]:
+    """Every dotted path of the keys that stand in the tree, e.g. "run", "run.horizon"; in no order."""
+    blocks = [("", node)]
+    while blocks:
+        before, block = blocks.pop()
+        if isinstance(block.value, dict):
+            for key, below in block.value.items():
+                yield before + key
+                blocks.append((f"{before}{key}.", below))
 
 
 def dotted(path: Iterable[Part]) -> str:

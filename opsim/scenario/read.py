@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain, islice
@@ -13,6 +11,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from opsim.collecting import without_collecting
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.checks import check_problems
 from opsim.scenario.include import with_includes
@@ -58,21 +57,7 @@ def read_scenarios(
     return scenarios_in(read_bytes(file), file, names, changes)
 
 
-@contextmanager
-def _without_collecting() -> Iterator[None]:
-    """Reading makes many small things and no cycles: to look for some meanwhile costs a fifth of the time, and more
-    in a process that holds much else.
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
-@_without_collecting()
+@without_collecting()
 def scenarios_in(
     raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
 ) -> dict[str, Loaded]:

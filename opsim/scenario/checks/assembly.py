@@ -73,7 +73,8 @@ def _circles(products: dict[str, Node], key: str, what: str, verb: str) -> Itera
         while (after := min(graph[way[-1]] & ring, key=lambda one: (one in way, natural_key(one)))) not in way:
             way.append(after)
         round_trip = f" {verb} ".join([*way[way.index(after) :], after])
-        yield problem(entries(products[first])[key].name_place, ("products", first, key), f"{what}: {round_trip}")
+        hint = f"take {after} out of 'products.{way[-1]}.{key}', or break the circle elsewhere"
+        yield problem(entries(products[first])[key].name_place, ("products", first, key), f"{what}: {round_trip}", hint)
 
 
 def _pieces(product: Node, key: str) -> set[str]:

@@ -22,8 +22,9 @@ def failure_problems(tree: Node) -> Iterator[Problem]:
         for kind in KINDS:
             for stop, node in entries(station, kind).items():
                 yield from _team(tree, node, (*path, kind, stop))
-        yield from _one_name(station, path)
-        yield from _time_left(tree, station, path)
+        if child(station, "maintenance") is not None:
+            yield from _one_name(station, path)
+            yield from _time_left(tree, station, path)
 
 
 def stop_times(tree: Node) -> Iterator[tuple[tuple[Part, ...], Node]]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from opsim.problems import Problem
 from opsim.scenario.checks.releases import releases, says_products
+from opsim.scenario.fields import to_sum_to_1
 from opsim.scenario.positions import Node, child, entries, problem, text
 
 
@@ -24,7 +25,7 @@ def material_problems(tree: Node) -> Iterator[Problem]:
     total = math.fsum(shares)
     if abs(total - 1.0) > 1e-6:
         unsaid = [name for name, node in zip(products, nodes) if node is None]
-        hint = f"{unsaid[0]} has no share, which counts as 1" if unsaid and len(products) > 1 else ""
+        hint = f"{unsaid[0]} has no share, which counts as 1" if unsaid and len(products) > 1 else to_sum_to_1(total)
         place = tree.value["products"].name_place
         yield problem(place, ("products",), f"the shares sum to {total:g}; they must sum to 1", hint)
 

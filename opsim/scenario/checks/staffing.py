@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from opsim.problems import Problem, shown
 from opsim.scenario.checks.sequence import setup_times
 from opsim.scenario.checks.ways import visited
-from opsim.scenario.positions import Node, Place, child, entries, items, problem, text
+from opsim.scenario.positions import Node, child, entries, items, problem, text
 
 
 def staffing_problems(tree: Node) -> Iterator[Problem]:
@@ -53,10 +53,11 @@ def patrol_problems(tree: Node) -> Iterator[Problem]:
 
 def _blocks(tree: Node) -> dict[str, Node]:
     """Workers, but one of those that a workforce makes, which all stand at one place."""
-    first: dict[Place, str] = {}
+    first: dict[tuple[str, int, int], str] = {}
     workers = entries(tree, "workers")
     for name, worker in workers.items():
-        first.setdefault(worker.name_place, name)
+        source, line, column = worker.name_place
+        first.setdefault((source.file, line, column), name)
     return {name: workers[name] for name in first.values()}
 
 

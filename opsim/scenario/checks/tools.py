@@ -24,7 +24,8 @@ def tool_problems(tree: Node, folder: Path) -> Iterator[Problem]:
     for name, task in entries(tree, "tasks").items():
         yield from named(child(task, "hold", "tool"), tools, "tool", ("tasks", name, "hold", "tool"))
         yield from _marks(tree, task, ("tasks", name, "hold"), folder)
-    yield from _too_few(tree)
+    if tools:
+        yield from _too_few(tree)
     yield from _set_ups(tree)
 
 

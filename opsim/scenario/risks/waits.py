@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import chain, permutations
+from math import gcd
 
 from opsim.scenario.risks.room import finite, keeps_place, needs_card
 from opsim.scenario.risks.ways import Ways, between, first_of, last_of, points_of, way_of, ways
@@ -34,12 +35,18 @@ def waits_of(scenario: Scenario) -> Waits:
 
 
 def never_together(scenario: Scenario) -> dict[str, str]:
-    """Stock of a part, and waiting for it: not at once, unless one job takes more pieces than a loop has cards."""
+    """Stock of a part, and waiting for it: not at once, unless one job takes more pieces than can be there.
+
+    Of a lot that is begun some pieces may be left, and it keeps its card and its place until the last of them is taken.
+    """
     pairs: dict[str, str] = {}
     for part, made in scenario.products.items():
-        most = max((n for n in _taken_at_once(part, scenario)), default=0)
-        loops = [card for card in scenario.cards.values() if card.end and set(card.end) & set(last_of(made))]
-        if all(most <= card.n * made.lot for card in loops):
+        taken = list(_taken_at_once(part, scenario))
+        ends = set(last_of(made))
+        limits = [card.n for card in scenario.cards.values() if card.end and set(card.end) & ends]
+        limits += [one.capacity for name, one in scenario.stores.items() if name in ends and one.capacity is not None]
+        fewest_left = gcd(made.lot, *taken)
+        if all(max(taken, default=0) <= (lots - 1) * made.lot + fewest_left for lots in limits):
             pairs |= {f"part {part}": f"stock {part}", f"stock {part}": f"part {part}"}
     return pairs
 

@@ -6,4 +6,5 @@ from pydantic import BaseModel, ConfigDict
 class Block(BaseModel):
     """Nothing changes after reading, no unknown key, no silent conversion."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    # NOTE: validators are built when first used: once for the whole scenario, in place of once a block at import
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False, defer_build=True)

@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from opsim.problems import shown
-from opsim.scenario.fields import plain_error
+from opsim.scenario.fields import plain_error, to_sum_to_1
 from opsim.scenario.schema.routing import Probability
 
 LONGEST_SEQUENCE = 100_000
@@ -32,7 +32,7 @@ def _sum_to_1(shares: dict[str, float]) -> dict[str, float]:
     """The same without products that are never made, and with a sum of 1 to the last bits."""
     total = math.fsum(shares.values())
     if abs(total - 1) > 1e-6:
-        raise plain_error(f"the shares sum to {total:g}; they must sum to 1")
+        raise plain_error(f"the shares sum to {total:g}; they must sum to 1", to_sum_to_1(total))
     return {name: share / total for name, share in shares.items() if share > 0}
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from opsim.problems import shown
-from opsim.scenario.fields import plain_error
+from opsim.scenario.fields import plain_error, to_sum_to_1
 
 START, OUT = "start", "out"
 _FRACTION = re.compile(r"\s*([0-9]{1,9})\s*/\s*([1-9][0-9]{0,8})\s*")
@@ -40,7 +40,7 @@ def _sums_to_1(ways: dict[str, float]) -> dict[str, float]:
     """The same without ways that are never taken, and with a sum of 1 to the last bits."""
     total = math.fsum(ways.values())
     if abs(total - 1) > 1e-6:
-        raise plain_error(f"the probabilities sum to {total:g}; they must sum to 1")
+        raise plain_error(f"the probabilities sum to {total:g}; they must sum to 1", to_sum_to_1(total))
     return {name: p / total for name, p in ways.items() if p > 0}
 
 

@@ -86,7 +86,11 @@ class Scenario(Block):
         {}, description="loops of cards (CONWIP, kanban, POLCA) by name", examples=["{conwip: {n: 8}}"]
     )
     tools: dict[Name, Tool] = Field(
-        {}, description="tools and fixtures that stations and tasks share, by name", examples=["{torque_gun: {n: 2}}"]
+        {},
+        description="tools and fixtures that stations and tasks share, by name; one that is given back goes to the job "
+        "of the highest priority, of these to the one that has waited longest for it, else as workers are sent, "
+        "where all the tools it wants are there, and somebody who takes them",
+        examples=["{torque_gun: {n: 2}}"],
     )
     repair_teams: dict[Name, RepairTeam] = Field(
         {}, description="teams that repair and maintain stations, by name", examples=["{mechanics: {n: 1}}"]
