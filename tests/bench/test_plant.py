@@ -8,7 +8,7 @@ from opsim.engine.simpy_engine import run_plan
 
 N_STATIONS, N_WORKERS, N_SKILLS = 50, 30, 4
 LEAST = 0.6
-"""Of the plain line's rows a second."""
+"""Of the plain line's rows a second. With blocks 0.60 to 0.64, and 0.54 beside other work: only printed."""
 SETUP = "setup: {otherwise: 20 s}"
 JAM = "breakdowns: {jam: {every: {dist: exponential, mean: 1 h}, repair: {fixed: 2 min}, team: mechanics}}"
 
@@ -63,7 +63,6 @@ def test_rows_a_second_of_a_plant(blocks):
     seconds = best_s(*(lambda one=one: run_plan(one) for one in plans), rounds=3)
     by_line, by_plant = (n / s for n, s in zip(rows, seconds))
     share = by_plant / by_line
-    target = "no target" if blocks else f"target {LEAST}"
-    print(f"\n{by_plant:,.0f} rows a CPU second, the plain line {by_line:,.0f}: {share:.2f} ({target})")
+    print(f"\n{by_plant:,.0f} rows a CPU second, the plain line {by_line:,.0f}: {share:.2f} (target {LEAST})")
     assert rows[1] > 20_000
     assert blocks or share >= LEAST

@@ -73,7 +73,7 @@ def test_a_file_of_4000_lines_is_checked_before_it_costs_much(tmp_path):
 
 def test_of_many_stations_the_busiest_are_shown(tmp_path):
     _, shown, _ = opsim("check", line(tmp_path, many_stations(80)))
-    assert "the 60 busiest of 80 stations are shown" in shown
+    assert "the 30 busiest of 80 stations are shown" in shown
     assert " s19 " in shown and " s20 " not in shown
 
 

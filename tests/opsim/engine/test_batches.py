@@ -98,6 +98,12 @@ def test_a_longest_wait_between_two_ticks_ends_at_one_of_them(wait_s):
     assert baked(log)[:2] == [(70 + on_grid(wait_s), 1), (140 + on_grid(wait_s), 1)]
 
 
+def test_an_oven_that_is_down_takes_whoever_is_there_when_it_goes_on():
+    """It is down from 15 s to 60 s; at 20 s and at 40 s somebody has waited long enough."""
+    jam = "batch: {size: 5, most_wait: 10 s}, breakdowns: {jam: {every: {fixed: 15 s}, repair: {fixed: 45 s}}}"
+    assert baked(ran(("batch: {size: 4}", jam)))[0] == (60.0, 5)
+
+
 def test_the_buffer_limits_who_waits_and_not_who_bakes():
     """Eight places in the oven and the buffer: what comes while four bake and four wait is lost."""
     log = ran(
@@ -211,3 +217,20 @@ def test_who_comes_back_to_the_oven_waits_for_a_place_in_its_buffer():
     assert risk.startswith("jobs that share a server of oven come back to it at once: when its buffer is full")
     free = ran(("batch: {size: 4}", "batch: {size: 4}"), twice[1])
     assert len(free.of(kinds.FINISH)) > 20
+
+
+def test_a_tool_of_the_oven_stays_until_the_last_of_the_batch_has_left():
+    """Two bake from 20 to 70 s; they are packed one by one, so the second leaves at 75 s, and the tray with it."""
+    log = ran(
+        ("stations: {", "tools: {tray: {n: 1}}\nstations: {pack: {at: here, tasks: [pack], buffer: 0}, "),
+        ("tasks: {", "tasks: {pack: {fixed: 5 s, automatic: true}, "),
+        ("{size: 4}", "{size: 2}, needs: {tray: 1}, servers: 2"),
+        ("a: {route: [oven]}, b: {route: [oven]}", "a: {route: [oven, pack]}, b: {route: [oven, pack]}"),
+    )
+    tray = log.of(kinds.TOOL)
+    assert list(zip(tray["start_s"].tolist(), tray["end_s"].tolist()))[:3] == [
+        (20.0, 70.0),
+        (70.0, 75.0),
+        (75.0, 125.0),
+    ]
+    assert tray["job"][:3].tolist() == [0, 1, 2]

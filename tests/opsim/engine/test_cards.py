@@ -5,8 +5,10 @@ import pytest
 from plans import plan
 
 from opsim.engine.simpy_engine import run_plan
+from opsim.engine.simpy_engine.card_gates import Guard
 from opsim.laws import audit
-from opsim.log import BLOCKED, CREATE, FINISH, HELD, LOST, NO_CARD, WORK
+from opsim.log import BLOCKED, CREATE, FINISH, HELD, LOST, NO_CARD, REWORK, WORK
+from tests.opsim.kpi.locking import LOOPS
 
 HEAD = """
 opsim: 1
@@ -192,3 +194,60 @@ def test_a_kanban_makes_a_piece_when_one_is_taken_and_pieces_at_the_start_hold_c
     work = log.of(WORK)
     assert work["start_s"].tolist() == [20.0, 40.0, 60.0, 80.0]
     assert log.of(FINISH)["end_s"].tolist() == [20.0, 40.0, 60.0, 80.0]
+
+
+def test_who_goes_back_for_rework_passes_those_outside_since_he_has_a_card():
+    """The first way through s1 fails and is repeated: the job has the only card, and others wait before it."""
+    text = """
+tasks: {t: {fixed: 1 s, automatic: true}}
+stations:
+  s1: {at: hall, tasks: [t], yield: 0.5}
+  s2: {at: hall, tasks: [t], inspect: {then: {rework: s1}}}
+products: {p: {route: [s1, s2]}}
+release: {kind: poisson, every: 2 s}
+cards: {conwip: {n: 1}}
+"""
+    log, _ = run(text)
+    assert len(log.of(REWORK)) > 5
+    assert log.of(FINISH)["end_s"].max() > 90
+
+
+def test_jobs_outside_with_priorities_are_asked_in_their_order_each_time():
+    """From 2 s on both wait for the card of job 0: the urgent one, which came last, has it first."""
+    text = """
+tasks: {t: {fixed: 10 s, automatic: true}}
+stations: {s1: {at: hall, tasks: [t], servers: 9}}
+products: {a: {route: [s1]}, urgent: {route: [s1], priority: 1}}
+release: {kind: renewal, every: {fixed: 1 s}, sequence: [a, a, a, urgent]}
+cards: {few: {n: 1}}
+"""
+    work = run(text)[0].of(WORK)
+    assert work["job"][np.argsort(work["start_s"])][:4].tolist() == [0, 3, 7, 11]
+
+
+def test_jobs_outside_are_not_all_looked_at_each_time_something_changes(monkeypatch):
+    """A floor that stands still, and 2,400 jobs outside: each is told what it waits for a few times at most."""
+    told, mark = [], Guard._mark
+    monkeypatch.setattr(Guard, "_mark", lambda guard, job, lacks: (told.append(job.number), mark(guard, job, lacks)))
+    log = run_plan(plan(LOOPS.replace("{n: 2,", "{n: 50,").replace("run: {horizon: 2 h}", "run: {horizon: 10 h}")))
+    outside = np.sum((log["kind"] == HELD) & (log["station"] < 0) & (log["end_s"] == 36_000))
+    assert outside > 2000
+    assert len(told) < 5 * outside
+
+
+def test_rework_from_a_passed_end_of_a_loop_to_before_it_gives_the_card_back():
+    """Nothing is seen of x0 and s0, which are only passed: the law that counts cards knows it (``run`` audits)."""
+    text = """
+tasks: {m: {fixed: 2 s, automatic: true}}
+stations:
+  s0: {at: hall, tasks: [], yield: 0.5}
+  s1: {at: hall, tasks: [m]}
+  x0: {at: hall, tasks: [], inspect: {then: {rework: s0}}}
+products: {q: {route: [s0, s1, x0]}}
+cards: {loop: {n: 2, from: s1, to: x0}}
+release: {kind: poisson, every: 2 s}
+"""
+    log, _ = run(text)
+    assert len(log.of(REWORK)) > 10
+    outside = log.where((log["cause"] == NO_CARD) & (log["kind"] == BLOCKED))
+    assert np.isin(outside["job"], log.of(REWORK)["job"]).any()

@@ -5,7 +5,7 @@ from plans import plan
 
 from opsim.engine.simpy_engine import run_plan
 from opsim.laws import audit
-from opsim.log import BREAKDOWN, DOWN, FINISH, HELD, IS_DOWN, MAINTENANCE, NO_WORKER, REPAIR, SCRAP, WAIT, WORK
+from opsim.log import BREAKDOWN, DOWN, FINISH, HELD, IS_DOWN, MAINTENANCE, NO_TOOL, NO_WORKER, REPAIR, SCRAP, WAIT, WORK
 
 ONE = """
 opsim: 1
@@ -209,3 +209,26 @@ def test_before_maintenance_jobs_that_were_begun_are_finished_and_nobody_is_call
     assert spans(log, WORK)[:2] == [(10, 20), (25, 35)]
     other = log.of(HELD).where(log.of(HELD)["job"] == 1)
     assert list(zip(other["start_s"], other["end_s"], other["cause"])) == [(10, 12, NO_WORKER), (12, 25, IS_DOWN)]
+
+
+@pytest.mark.parametrize(
+    ("needs", "cause"), [("needs: {gun: 1}, automatic: true", NO_TOOL), ("team: 2", NO_WORKER)], ids=["tool", "team"]
+)
+def test_who_waits_for_a_tool_or_a_team_does_not_begin_once_maintenance_is_due(needs, cause):
+    """The second sewing at m could begin at 15 s, when the ironing at n is done; the oiling has been due since 12 s."""
+    changes = (
+        ("{sew: {fixed: 10 s}, iron: {fixed: 20 s}}", f"{{sew: {{fixed: 10 s, {needs}}}, iron: {{fixed: 5 s, {needs}}}}}"),  # noqa: E501
+        ("stations:", "tools: {gun: {n: 2}}\nstations:"),
+        ("[sew], ", "[sew], servers: 2, "),
+        ("{kind: renewal, every: {fixed: 10 s}, sequence: [a, b]}", "{kind: renewal, every: {fixed: 10 s}, at_once: 3, "
+         "sequence: [b, a, a]}"),
+        ("60 s", "36 s"),
+        ("  eva: {skills: {m: 2.0}, home: door, walk: 1 m/s}\n", "".join(
+            f"  w{n}: {{skills: {{m: 1.0, n: 1.0}}, home: hall}}\n" for n in range(3)
+        )),
+        ("STOPS", "maintenance: {oil: {every: 40 s, first: 12 s, lasts: 5 s}}"),
+    )  # fmt: skip
+    log = ran(BENCH, *changes)
+    assert spans(log, REPAIR) == [(20, 25)]
+    second = log.of(HELD).where(log.of(HELD)["job"] == 2)
+    assert list(zip(second["start_s"], second["end_s"], second["cause"]))[:2] == [(10, 12, cause), (12, 25, IS_DOWN)]

@@ -154,3 +154,39 @@ def test_work_that_is_broken_off_lets_the_tool_of_its_task_go():
     jam = "breakdowns: {jam: {every: {fixed: 3 s}, by: busy, repair: {fixed: 9 s}, job: resume}},"
     log, _ = ran(("one: {fixed: 4 s}", "one: {fixed: 4 s, needs: {jig: 1}}"), ("s1: {at: a,", f"s1: {{at: a, {jam}"))
     assert spans(log, TOOL)[:3] == [(0, 3), (3, 7), (12, 13)]
+
+
+SHARED = """
+opsim: 1
+name: shared gun
+run: {horizon: 1 h, seed: 1}
+layout: {places: {here: [0 m, 0 m]}}
+tools: {gun: {n: 1}}
+tasks: {x: {fixed: 60 s, needs: {gun: 1}}}
+defaults: {stations: {at: here, tasks: [x], buffer: 1}}
+stations: {a: {}, b: {}, c: {}}
+products: {a: {route: [[a, b, c]]}}
+release: {kind: saturated}
+workers: {u: {skills: {a: 1}}, v: {skills: {b: 1}}, w: {skills: {c: 1}}}
+allocation: {rule: nearest}
+"""
+
+
+@pytest.mark.parametrize("rule", ["nearest", "oldest_job"])
+def test_a_tool_goes_to_who_has_waited_longest_and_not_always_to_the_same_station(rule):
+    p = plan(SHARED.replace("nearest", rule))
+    log = run_plan(p)
+    audit(log, p)
+    assert [len(spans(log, WORK, station)) for station in "abc"] == [20, 20, 20]
+    assert spans(log, TOOL, "b")[:2] == [(60, 120), (240, 300)]
+
+
+def test_a_tool_is_not_kept_for_who_has_waited_longest_while_nobody_is_free_for_him():
+    """The worker of b and c is one: while she is at c without a gun, a takes it again and again."""
+    text = SHARED.replace("c: {}}", "c: {tasks: [long]}}").replace("tasks: {x", "tasks: {long: {fixed: 10 min}, x")
+    text = text.replace("v: {skills: {b: 1}}, w: {skills: {c: 1}}", "v: {skills: {b: 1, c: 1}}")
+    log = run_plan(p := plan(text))
+    audit(log, p)
+    (first, last), *_ = spans(log, WORK, "c")
+    between = [start for start, _ in spans(log, TOOL, "a") if first + 60 <= start < last - 60]
+    assert len(between) == 8

@@ -89,6 +89,7 @@ def test_a_bill_of_material_in_a_circle_is_refused_once_with_the_circle():
     )
     assert answer.count("goes round in a circle") == 1
     assert "the bill of material goes round in a circle: bike needs frame needs bike" in answer
+    assert "take bike out of 'products.frame.parts', or break the circle elsewhere" in answer
 
 
 @pytest.mark.parametrize(("edit", "words"), [

@@ -162,3 +162,16 @@ def test_a_saturated_source_that_makes_its_parts_in_turn_may_keep_the_wanted_one
         "  a: {kind: saturated, products: [wheel]}\n  b: {kind: saturated, products: [frame]}",
     )
     assert risks(KIT, *edits, each) == []
+
+
+@pytest.mark.parametrize(("pieces", "locks"), [(1, False), (2, True), (3, False)])
+def test_a_lot_that_is_begun_keeps_its_only_card(pieces, locks):
+    """Of a lot of 3, 1 is left when a job took 2: the next job waits for another, which has no card."""
+    text = BASE.replace("products: {part: {route: [cut, drill]}}", "stores: {bin: {at: here}}\nproducts:")
+    made = "  bolt: {share: 0.5, lot: 3, route: [cut, bin]}\n  part: {share: 0.5, route: [drill], PARTS}\n"
+    text = text.replace("release:", made + "release:")
+    text = text.replace("PARTS", f"parts: {{drill: {{bolt: {pieces}}}}}")
+    text += "cards: {loop: {n: 1, from: cut, to: bin, products: [bolt]}}\n"
+    assert any("bolt waits for a card of loop" in risk for risk in risks(text)) == locks
+    full = text.replace("bin: {at: here}", "bin: {at: here, capacity: 1}").replace("cards: {loop", "#")
+    assert any("bin is full" in risk for risk in risks(full)) == locks
