@@ -16,6 +16,12 @@ from opsim.recorded import RecordedError, rows_of
 MOST_OF_AN_ORDER = 100_000
 MOST_JOBS = 10_000_000
 MOST_PRIORITY = 1_000_000
+_TIME = ("a time in seconds or as h:mm:ss", "from 0 on, such as 90 or 0:01:30")
+_NUMBER = (f"a whole number from 1 to {MOST_OF_AN_ORDER:,}", "such as 1")
+_PRIORITY = ("a whole number", "such as 2")
+_PRODUCT = ("", "")
+_IN_TIME = "put the lines in the order of their times"
+_FEWER = "remove lines, or write smaller quantities"
 _CLOCK = re.compile(r"([0-9]{1,7}):([0-5][0-9])(?::([0-5][0-9](?:\.[0-9]+)?))?")
 
 
@@ -33,42 +39,54 @@ class Order:
     priority: int | None = None
 
 
-def read_orders(path: Path, products: Collection[str]) -> tuple[list[Order], list[str]]:
-    """The orders of a file by time (those of one time in the file's order), and its mistakes, a sentence each.
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """What is wrong with a row. line : counted from 1; cell : which one of the row, counted from 0"""
+
+    line: int
+    cell: int
+    message: str
+    hint: str = ""
+
+
+def read_orders(path: Path, products: Collection[str]) -> tuple[list[Order], list[Mistake]]:
+    """The orders of a file, and its mistakes, of which one is that times go backwards.
 
     Columns, in any order: time (seconds, or h:mm or h:mm:ss since the start), and where wanted product, quantity, due
     and priority. Raises RecordedError where there is no table.
     """
     names, rows = _table(path, ("time",), ("product", "quantity", "due", "priority"))
-    mistakes: list[str] = []
-    orders = []
+    mistakes: list[Mistake] = []
+    orders: list[Order] = []
     for line, row in rows:
-        read = _Row(row, f"{shown(path.name)} line {line}", mistakes)
-        time_s = read.cell("time", _time_s, "a time in seconds or as h:mm:ss")
-        product = read.cell("product", lambda cell: _known(cell, products), "") if "product" in names else None
-        quantity = read.cell("quantity", _quantity, f"a whole number from 1 to {MOST_OF_AN_ORDER:,}", 1)
-        due_s = read.cell("due", _time_s, "a time in seconds or as h:mm:ss", math.inf)
-        priority = read.cell("priority", _priority, "a whole number", None)
+        read = _Row(row, line, mistakes)
+        time_s = read.cell("time", _time_s, _TIME)
+        if time_s is not None and orders and time_s < orders[-1].time_s:
+            read.wrong("time", f"time {shown(row['time'])} is before that of the order above", _IN_TIME)
+        product = read.cell("product", lambda cell: _known(cell, products), _PRODUCT) if "product" in names else None
+        quantity = read.cell("quantity", _quantity, _NUMBER, 1)
+        due_s = read.cell("due", _time_s, _TIME, math.inf)
+        priority = read.cell("priority", _priority, _PRIORITY, None)
         orders.append(Order(time_s or 0.0, product, quantity or 1, math.inf if due_s is None else due_s, priority))
     if sum(order.quantity for order in orders) > MOST_JOBS:
-        mistakes.append(f"{shown(path.name)} orders more than {MOST_JOBS:,} jobs")
-    return sorted(orders, key=lambda order: order.time_s), mistakes
+        mistakes.append(Mistake(rows[-1][0], 0, f"up to here more than {MOST_JOBS:,} jobs are ordered", _FEWER))
+    return orders, mistakes
 
 
-def read_sequence(path: Path, products: Collection[str]) -> tuple[list[str], list[str]]:
+def read_sequence(path: Path, products: Collection[str]) -> tuple[list[str], list[Mistake]]:
     """The products of a file in its order, each as often as its quantity says, and the file's mistakes.
 
     Columns: product, and where wanted quantity. Raises RecordedError where there is no table.
     """
     _, rows = _table(path, ("product",), ("quantity",))
-    mistakes: list[str] = []
+    mistakes: list[Mistake] = []
     sequence: list[str] = []
     for line, row in rows:
-        read = _Row(row, f"{shown(path.name)} line {line}", mistakes)
-        product = read.cell("product", lambda cell: _known(cell, products), "")
-        quantity = read.cell("quantity", _quantity, f"a whole number from 1 to {MOST_OF_AN_ORDER:,}", 1)
+        read = _Row(row, line, mistakes)
+        product = read.cell("product", lambda cell: _known(cell, products), _PRODUCT)
+        quantity = read.cell("quantity", _quantity, _NUMBER, 1)
         if len(sequence) + (quantity or 1) > MOST_JOBS:
-            return sequence, [*mistakes, f"{shown(path.name)} holds more than {MOST_JOBS:,} jobs"]
+            return sequence, [*mistakes, Mistake(line, 0, f"up to here there are more than {MOST_JOBS:,} jobs", _FEWER)]
         sequence += [product or ""] * (quantity or 1)
     return sequence, mistakes
 
@@ -91,7 +109,7 @@ def _table(path: Path, needed: tuple[str, ...], wanted: tuple[str, ...]) -> Tabl
         if names.count(name) > 1:
             raise RecordedError(f"{where} has two columns {shown(name)}", "keep one of them")
     if not rows:
-        raise RecordedError(f"{where} has no rows below its heading")
+        raise RecordedError(f"{where} has no rows below its heading", "add a line for each order or product")
     return names, [(line, dict(zip(names, (cell.strip() for cell in cells)))) for line, cells in rows]
 
 
@@ -104,20 +122,32 @@ class _Row:
     """One row being read; what is wrong with its cells is added to ``mistakes``."""
 
     cells: dict[str, str]
-    where: str
-    mistakes: list[str]
+    line: int
+    mistakes: list[Mistake]
 
-    def cell(self, name: str, read: Callable[[str], Any], expected: str, otherwise: Any = ...) -> Any:
-        """The value of a cell; ``otherwise`` where it is empty and may be, None where it is wrong."""
+    def wrong(self, name: str, message: str, hint: str) -> None:
+        """One more mistake, in the cell of this name."""
+        number = list(self.cells).index(name) if name in self.cells else 0
+        self.mistakes.append(Mistake(self.line, number, message, hint))
+
+    def cell(self, name: str, read: Callable[[str], Any], expected: tuple[str, str], otherwise: Any = ...) -> Any:
+        """The value of a cell; ``otherwise`` where it is empty and may be, None where it is wrong.
+
+        expected : what it should be, and an example; of a product, whose readers know better, neither
+        """
         text = self.cells.get(name, "")
         if not text and otherwise is not ...:
             return otherwise
         try:
             return read(text)
         except ValueError as error:
-            hint = f"; {error}" if isinstance(error, _NoValue) and str(error) else ""
-            found = f"{name} {shown(text)} is not {expected}" if expected else f"no {name} {shown(text)}{hint}"
-            self.mistakes.append(f"{self.where}: {found}" if text else f"{self.where}: there is no {name}")
+            what, example = expected
+            if not text:
+                self.wrong(name, f"there is no {name}", "fill the cell, or remove the line")
+            elif isinstance(error, _NoValue):
+                self.wrong(name, f"no {name} {shown(text)}", str(error))
+            else:
+                self.wrong(name, f"{name} {shown(text)} is not {what}", example)
             return None
 
 

@@ -84,7 +84,7 @@ def rows_of(path: Path) -> list[tuple[int, list[str]]]:
     except csv.Error as error:
         raise RecordedError(f"{shown(path.name)} is not a CSV file: {error}") from None
     if not rows:
-        raise RecordedError(f"{shown(path.name)} is empty")
+        raise RecordedError(f"{shown(path.name)} is empty", "fill it, or name another file")
     return rows
 
 

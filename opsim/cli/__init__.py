@@ -25,5 +25,5 @@ from opsim.cli.verbs import Verbs
 def main() -> None:
     """Simulate production whose work is done by people.
 
-    A scenario is a YAML file, or the name of a shipped one: repack_cell, pump_assembly, serial_line, queue.
+    A scenario is a YAML file, or the name of a shipped one, such as repack_cell; `opsim init --list` names them all.
     """

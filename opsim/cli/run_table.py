@@ -2,31 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-_PARTS = ("", "work", "blocked", "loaded", "down", "repair")
-"""Of figures that have parts, what is shown; the report has all."""
+_ALWAYS = ("work", "blocked", "loaded")
+_WHERE_LARGE = {
+    "station_states": ("setup", "down", "repair", "parts", "tool", "place", "pickup", "waiting"),
+    "worker_states": ("setup", "walk", "held", "team", "tool"),
+}
+"""States beside those of ``_ALWAYS``, shown where some variant has more of them than ``_LARGE``; the report has all."""
+_LARGE = 0.05
 _BY_STOP = ("stops_per_h", "down_s", "wait_for_repair_s", "stop_share")
+Cells = dict[str, dict[str, Any]]
 
 
 def print_results(title: str, results: dict[str, Any]) -> None:
-    """One row a figure, one column a variant; of states what stands in ``_PARTS``."""
+    """One row a figure, one column a variant; of states those that matter (``_ALWAYS``, ``_WHERE_LARGE``)."""
     from opsim.cli.console import print_table
     from opsim.report.words import kpi_name, largest_mean, plus_minus
 
-    found: dict[str, dict[tuple[str, str], dict[str, Any]]] = {}
+    found: dict[str, dict[tuple[str, str], Cells]] = {}
     for name, result in results.items():
         for row in result.summary["kpis"]:
-            if row["headline"] and (row["part"] in _PARTS or row["kpi"] in _BY_STOP):
+            if row["headline"]:
                 found.setdefault(row["kpi"], {}).setdefault((row["subject"], row["part"]), {})[name] = row
     rows = []
     for kpi, by_subject in found.items():
-        largest = largest_mean(row for cells in by_subject.values() for row in cells.values())
-        for of, cells in by_subject.items():
+        kept = {of: cells for of, cells in by_subject.items() if matters(kpi, of[1], cells)}
+        largest = largest_mean(row for cells in kept.values() for row in cells.values())
+        for of, cells in kept.items():
             texts = [plus_minus(cells[name], largest) if name in cells else "" for name in results]
             rows.append((kpi_name(kpi), " ".join(filter(None, of)), *texts))
     heading = _heading(title, [result.summary for result in results.values()])
     print_table(heading, ("figure", "of", *results), without_repeats(rows), words=2)
+
+
+def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool:
+    """Whether a row is shown. cells : by variant, the row of its summary."""
+    if not part or part in _ALWAYS or kpi in _BY_STOP:
+        return True
+    return part in _WHERE_LARGE.get(kpi, ()) and any((row["mean"] or 0) > _LARGE for row in cells.values())
 
 
 def without_repeats(rows: list[tuple[str, ...]]) -> list[tuple[str, ...]]:

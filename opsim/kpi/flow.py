@@ -23,8 +23,9 @@ from opsim.plan.endings import finishes
 def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Good units finished in the window per hour, in all and by product; a lot counts as its units.
 
-    A job that leaves with a defect is not good. What ends in a store is no output until it goes out as a part of
-    something. No calendar closes release or stations yet, so scheduled open hours and calendar hours are the same.
+    A job that leaves with a defect is not good, though nobody found the defect (``defects_out_share``). What ends in
+    a store is no output until it goes out as a part of something. No calendar closes release or stations yet, so
+    scheduled open hours and calendar hours are the same.
     """
     hours = window_length_s(plan) / SECONDS_PER_HOUR
     done = _ended(log, plan, FINISH)

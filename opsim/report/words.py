@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 NAMES = {
-    "throughput_per_h": "Throughput",
-    "throughput_per_calendar_h": "Throughput per calendar hour",
+    "throughput_per_h": "Throughput (good units)",
+    "throughput_per_calendar_h": "Throughput (good units) per calendar hour",
     "lost_per_h": "Jobs turned away",
     "lost_share": "Share of jobs turned away",
     "time_in_system_s": "Time in system",

@@ -38,7 +38,7 @@ def _quantity(
     why: str = "",
 ) -> BeforeValidator:
     """Reads a quantity of a kind; bounds in SI, and why they are there."""
-    unit = units.SI[kind]
+    unit, example = units.SI[kind], f"'{units.EXAMPLES[kind]}'"
 
     def read(value: object) -> float:
         try:
@@ -46,9 +46,12 @@ def _quantity(
         except units.UnitError as error:
             raise plain_error(error.message, error.hint) from None
         if above is not None and not number > above:
-            raise plain_error(f"must be more than {above:g} {unit}, found {shown(value)}")
+            raise plain_error(f"must be more than {above:g} {unit}, found {shown(value)}", f"such as {example}")
         if at_least is not None and number < at_least:
-            raise plain_error(f"must be at least {at_least:g} {unit}, found {shown(value)}", why)
+            raise plain_error(
+                f"must be at least {at_least:g} {unit}, found {shown(value)}",
+                why if number >= 0 else f"such as {example}",
+            )
         if at_most is not None and number > at_most:
             raise plain_error(f"must be at most {at_most:.10g} {unit}, found {shown(value)}", why)
         return number

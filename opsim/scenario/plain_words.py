@@ -75,7 +75,7 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         return f"expected {_TYPES[kind]}, {found}", _type_hint(kind, value)
     if kind in _BOUNDS:
         words, bound = _BOUNDS[kind]
-        return f"must be {words} {ctx[bound]:g}, {found}", ""
+        return f"must be {words} {ctx[bound]:g}, {found}", _bound_hint(bound, ctx[bound], value)
     if kind == "literal_error":
         known = [word.strip("' ") for word in ctx["expected"].replace(" or ", ",").split(",")]
         return f"expected {_either(known)}, {found}", _near(value, known)
@@ -87,6 +87,14 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         words = "at least one character" if kind == "string_too_short" else f"at most {ctx['max_length']} characters"
         return f"expected {words}, {found}", ""
     return f"cannot be read, {found}", ""
+
+
+def _bound_hint(bound: str, limit: float, value: object) -> str:
+    if bound in ("gt", "lt"):
+        return f"write a number {'above' if bound == 'gt' else 'below'} {limit:g}"
+    if isinstance(value, int | float) and value < 0 <= limit <= -value:
+        return f"write {shown(-value)}, without the minus"
+    return f"write {limit:g} or {'more' if bound == 'ge' else 'less'}"
 
 
 def _wrong_number(kind: str, ctx: dict[str, Any]) -> str:

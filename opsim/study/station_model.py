@@ -48,10 +48,11 @@ def _setups(plan: Plan) -> Iterator[Line]:
 
 
 def _queues(plan: Plan) -> Iterator[Line]:
+    for rule in dict.fromkeys(queue.rule for queue in plan.queues if queue.rule != FIFO):
+        where = listed([plan.stations[queue.station].name for queue in plan.queues if queue.rule == rule])
+        yield "sequence", f"{where}: waiting jobs go by {rule.replace('_', ' ')}, higher priorities before it"
     for queue in plan.queues:
         name = plan.stations[queue.station].name
-        if queue.rule != FIFO:
-            yield "sequence", f"{name}: waiting jobs go by {queue.rule.replace('_', ' ')}, higher priorities before it"
         if queue.preempt != FINISH_FIRST:
             then = "goes on where it was" if queue.preempt == "resume" else "begins its task anew"
             yield "sequence", f"{name}: a job of higher priority takes the server of a lower one, which {then} later"
@@ -60,6 +61,10 @@ def _queues(plan: Plan) -> Iterator[Line]:
     due = [product.name for product in plan.products if product.due_s < inf]
     if due:
         yield "sequence", f"{listed(due)}: due so long after they come in; a job that is late is made all the same"
+    dated = [source.name for source in plan.sources if any(order.due_s < inf for order in source.orders)]
+    if dated:
+        instead = ", whatever their product's own due date" if due else ""
+        yield "sequence", f"{listed(dated)}: orders are due when their file says, counted from the start{instead}"
 
 
 def _rooms(plan: Plan) -> Iterator[Line]:
@@ -88,7 +93,9 @@ def _assembly(plan: Plan) -> Iterator[Line]:
 def _batches(plan: Plan) -> Iterator[Line]:
     for batch in plan.batches:
         name = plan.stations[batch.station].name
-        wait = "and waits until it is full" if batch.most_wait_s == inf else f"at most {batch.most_wait_s:g} s"
+        wait = (
+            "and waits until it is full" if batch.most_wait_s == inf else f"and waits at most {batch.most_wait_s:g} s"
+        )
         yield "batches", f"{name}: {batch.size} jobs at once, {wait}; the time is that of one, however many there are"
 
 
@@ -109,6 +116,8 @@ def _quality(plan: Plan) -> Iterator[Line]:
     unseen = not any(one.inspects for one in plan.quality)
     if plan.quality and unseen:
         yield "quality", "nobody inspects: jobs with a defect go on and out, and are not counted as good"
+    elif any(one.yield_share < 1 for one in plan.quality):
+        yield "quality", "throughput counts good jobs only: one that leaves with a defect nobody found is not in it"
 
 
 def _tools(plan: Plan) -> Iterator[Line]:

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from opsim.orders import MOST_OF_AN_ORDER, Order, read_orders, read_sequence
+from opsim.orders import MOST_OF_AN_ORDER, Mistake, Order, read_orders, read_sequence
 from opsim.recorded import RecordedError
 
 PRODUCTS = ("a", "b", "board")
@@ -17,15 +17,23 @@ def written(folder, text, name="orders.csv"):
 
 
 def test_times_are_seconds_or_hours_and_minutes_and_stand_on_the_grid(tmp_path):
-    text = "time,product\n0,a\n1:00,a\n0:00:30.5,b\n12.3,b\n"
+    text = "time,product\n0,a\n12.3,b\n0:00:30.5,b\n1:00,a\n"
     orders, wrong = read_orders(written(tmp_path, text), PRODUCTS)
     assert not wrong
     assert [order.time_s for order in orders] == [0.0, round(12.3 * 2**20) / 2**20, 30.5, 3600.0]
 
 
 def test_orders_of_one_time_keep_the_order_of_the_file(tmp_path):
-    orders, _ = read_orders(written(tmp_path, "product;time\nb;5\na;5\nb;1\n"), PRODUCTS)
+    orders, _ = read_orders(written(tmp_path, "product;time\nb;1\nb;5\na;5\n"), PRODUCTS)
     assert [order.product for order in orders] == ["b", "b", "a"]
+
+
+def test_times_that_go_backwards_are_told_where_they_do(tmp_path):
+    _, wrong = read_orders(written(tmp_path, "product,time\na,10\na,5\na,7\na,0:00:06\n"), PRODUCTS)
+    assert [(one.line, one.cell, one.message) for one in wrong] == [
+        (3, 1, "time '5' is before that of the order above"),
+        (5, 1, "time '0:00:06' is before that of the order above"),
+    ]
 
 
 def test_what_is_not_said_of_an_order_is_left_to_others(tmp_path):
@@ -38,14 +46,15 @@ def test_what_is_not_said_of_an_order_is_left_to_others(tmp_path):
 def test_every_mistake_of_a_file_is_told_with_its_line(tmp_path):
     text = "time,product,quantity,due,priority\n-1,a,1,,\nx,bord,0,9:99,high\n3,,2,,\n"
     _, wrong = read_orders(written(tmp_path, text), PRODUCTS)
+    time = "from 0 on, such as 90 or 0:01:30"
     assert wrong == [
-        "'orders.csv' line 2: time '-1' is not a time in seconds or as h:mm:ss",
-        "'orders.csv' line 3: time 'x' is not a time in seconds or as h:mm:ss",
-        "'orders.csv' line 3: no product 'bord'; did you mean 'board'?",
-        f"'orders.csv' line 3: quantity '0' is not a whole number from 1 to {MOST_OF_AN_ORDER:,}",
-        "'orders.csv' line 3: due '9:99' is not a time in seconds or as h:mm:ss",
-        "'orders.csv' line 3: priority 'high' is not a whole number",
-        "'orders.csv' line 4: there is no product",
+        Mistake(2, 0, "time '-1' is not a time in seconds or as h:mm:ss", time),
+        Mistake(3, 0, "time 'x' is not a time in seconds or as h:mm:ss", time),
+        Mistake(3, 1, "no product 'bord'", "did you mean 'board'?"),
+        Mistake(3, 2, f"quantity '0' is not a whole number from 1 to {MOST_OF_AN_ORDER:,}", "such as 1"),
+        Mistake(3, 3, "due '9:99' is not a time in seconds or as h:mm:ss", time),
+        Mistake(3, 4, "priority 'high' is not a whole number", "such as 2"),
+        Mistake(4, 1, "there is no product", "fill the cell, or remove the line"),
     ]
 
 
@@ -75,4 +84,4 @@ def test_a_sequence_holds_each_product_as_often_as_its_quantity_says(tmp_path):
 
 def test_a_sequence_tells_products_that_are_not_there(tmp_path):
     _, wrong = read_sequence(written(tmp_path, "product\na\nc\n"), PRODUCTS)
-    assert wrong == ["'orders.csv' line 3: no product 'c'; products: a, b, board"]
+    assert wrong == [Mistake(3, 0, "no product 'c'", "products: a, b, board")]

@@ -77,8 +77,10 @@ def test_a_plug_in_is_found_by_name_and_imported_only_when_it_is_asked_for(insta
         found["part"]
 
 
-def test_groups_for_later_are_there_and_empty():
-    assert len(plugins("opsim.routing")) == len(plugins("opsim.human")) == len(plugins("opsim.stations")) == 0
+def test_our_own_rules_come_in_by_the_same_door_and_groups_for_later_are_there_and_empty():
+    assert {"shortest_queue", "least_loaded", "first_free", "in_order"} <= set(plugins("opsim.routing"))
+    assert {"fifo", "spt", "edd", "critical_ratio", "least_setup"} <= set(plugins("opsim.sequencing"))
+    assert len(plugins("opsim.human")) == len(plugins("opsim.stations")) == 0
     with pytest.raises(ValueError, match=r"no group 'opsim.dispach'; did you mean 'opsim.dispatch'\?"):
         plugins("opsim.dispach")
 

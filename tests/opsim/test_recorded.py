@@ -27,7 +27,7 @@ def test_a_column_is_read_in_its_order(tmp_path, text, column, expected):
 @pytest.mark.parametrize(
     ("text", "column", "said"),
     [
-        ("", None, "'times.csv' is empty"),
+        ("", None, "'times.csv' is empty; fill it, or name another file"),
         ("duration_s\n", None, "'times.csv' holds no times"),
         ("t\n3\n-1\n", None, "'times.csv' line 3: '-1' is not a positive number of seconds"),
         ("t\n3\n\n3 s\n", None, "'times.csv' line 4: '3 s' is not a positive number of seconds"),

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from opsim.orders import read_orders, read_sequence
+from opsim.orders import Mistake, read_orders, read_sequence
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.recorded import RecordedError, resolve_times
 from opsim.scenario.checks import releases as found
 from opsim.scenario.checks.ways import stations_of
-from opsim.scenario.positions import Node, Place, child, entries, items, problem, text
+from opsim.scenario.positions import Node, Part, Place, Source, child, entries, items, problem, text
 from opsim.scenario.schema import Scenario
 
 
@@ -63,14 +63,25 @@ def _files(tree: Node, release: Node, path: found.Path, folder: Path) -> Iterato
         except RecordedError as error:
             yield problem(place, (*path, key), error.message, error.hint)
             continue
-        for mistake in mistakes:
-            yield problem(place, (*path, key), mistake)
+        yield from _in_the_file(folder / name, (*path, key), mistakes)
         if key == "file" and says and found.says_products(release):
             hint = "remove the column, or products and sequence"
             yield problem(place, (*path, key), f"the products come from {shown(name)} and from the source", hint)
 
 
-def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[str], bool]:
+def _in_the_file(file: Path, path: tuple[Part, ...], mistakes: list[Mistake]) -> Iterator[Problem]:
+    """Mistakes at their places in a CSV file; in a line with quotes at its beginning."""
+    lines = file.read_text(encoding="utf-8-sig").splitlines() if mistakes else []
+    mark = next((mark for mark in (",", ";", "\t") if lines and mark in lines[0]), ",")
+    source = Source(str(file), tuple(lines))
+    for one in mistakes:
+        line = lines[one.line - 1]
+        before = [] if '"' in line else line.split(mark)[: one.cell]
+        column = sum(len(cell) + 1 for cell in before)
+        yield problem(Place(source, one.line - 1, column), path, one.message, one.hint)
+
+
+def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[Mistake], bool]:
     """The mistakes of a file, and whether it says products. Raises RecordedError where it is no table."""
     file, products = resolve_times(name, folder), entries(tree, "products")
     if key == "sequence":

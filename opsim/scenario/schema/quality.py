@@ -27,13 +27,13 @@ _THEN = {
 
 def _some(value: float) -> float:
     if value == 0:
-        raise plain_error("a yield must be more than 0: nothing good would ever come out")
+        raise plain_error("a yield must be more than 0: nothing good would ever come out", "such as 0.97")
     return value
 
 
 def _not_all(value: float) -> float:
     if value == 1:
-        raise plain_error("this must be less than 1: nothing would ever pass")
+        raise plain_error("this must be less than 1: nothing would ever pass", "such as 0.02")
     return value
 
 

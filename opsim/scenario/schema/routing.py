@@ -22,8 +22,13 @@ def _probability(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise plain_error(f"expected a probability, found {shown(value)}", "such as 0.3 or 1/3")
     if not 0 <= value <= 1:
-        raise plain_error(f"a probability lies between 0 and 1, found {shown(value)}")
+        raise plain_error(f"a probability lies between 0 and 1, found {shown(value)}", _as_share(value))
     return float(value)
+
+
+def _as_share(value: float) -> str:
+    """What was probably meant: per cent, or an example."""
+    return f"if it is per cent, write {value / 100:g}" if 1.5 < value <= 100 else "such as 0.3 or 1/3"
 
 
 def _sure(value: object) -> object:

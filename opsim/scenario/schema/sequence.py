@@ -26,7 +26,9 @@ def _time_or_task(value: object) -> object:
     except units.UnitError as error:
         raise plain_error(error.message, error.hint or "a time such as 5 min, or the name of a task") from None
     if not 0 <= seconds <= LONGEST_S:
-        raise plain_error(f"must be from 0 s to {LONGEST_S:.10g} s, found {shown(value)}")
+        raise plain_error(
+            f"must be from 0 s to {LONGEST_S:.10g} s, found {shown(value)}", "such as '5 min', or 0 s for none"
+        )
     return seconds
 
 

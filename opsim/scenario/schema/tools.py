@@ -26,7 +26,9 @@ def _mark(value: object) -> object:
     if isinstance(value, str):
         return value
     if not 0 <= value <= 1:
-        raise plain_error(f"a share of the performance lies between 0 and 1, found {shown(value)}")
+        raise plain_error(
+            f"a share of the performance lies between 0 and 1, found {shown(value)}", "such as 0.25, or a mark"
+        )
     return float(value)
 
 
@@ -53,14 +55,17 @@ class Hold(Block):
         if self.start == self.end or (
             isinstance(self.start, float) and isinstance(self.end, float) and self.start > self.end
         ):
-            raise plain_error(f"from ({self.start}) must come before to ({self.end})", on="to")
+            hint = (
+                "write a later mark or share" if self.start == self.end else f"write from: {self.end}, to: {self.start}"
+            )
+            raise plain_error(f"from ({self.start}) must come before to ({self.end})", hint, on="to")
         return self
 
 
 def _automatic(value: object) -> object:
     if isinstance(value, bool) or value == ATTENDED:
         return value
-    raise plain_error(f"expected true, false or {ATTENDED}, found {shown(value)}")
+    raise plain_error(f"expected true, false or {ATTENDED}, found {shown(value)}", f"such as {ATTENDED}")
 
 
 Automatic = Annotated[bool | Literal["attended"], BeforeValidator(_automatic)]

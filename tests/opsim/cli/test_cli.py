@@ -88,3 +88,8 @@ def test_a_reader_that_leaves_early_gets_no_traceback():
     command = f"{sys.executable} -c 'from opsim.cli import main; main()' check serial_line --json | head -c 1"
     result = subprocess.run(command, shell=True, capture_output=True, text=True, cwd=ROOT)
     assert "Traceback" not in result.stderr and "Exception ignored" not in result.stderr
+
+
+def test_help_says_where_the_shipped_scenarios_are_named():
+    _, shown, _ = opsim("--help")
+    assert "opsim init --list" in shown and opsim("init", "--list")[0] == 0

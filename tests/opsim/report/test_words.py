@@ -4,6 +4,10 @@ from opsim.report.words import clock, digits, interval_cells, kpi_name, listing,
 from tests.made_result import kpi
 
 
+def test_throughput_says_of_what():
+    assert kpi_name("throughput_per_h") == "Throughput (good units)"
+
+
 @pytest.mark.parametrize(
     "value, half_width, said",
     [

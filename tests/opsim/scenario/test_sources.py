@@ -22,6 +22,12 @@ def read(text, folder):
     return scenarios_in(text.encode(), folder / "two.yaml")["base"]
 
 
+def printed(release, folder):
+    with pytest.raises(ScenarioError) as caught:
+        read(TEXT.replace(RELEASE, release), folder)
+    return str(caught.value)
+
+
 def said(release, folder):
     with pytest.raises(ScenarioError) as caught:
         read(TEXT.replace(RELEASE, release), folder)
@@ -75,10 +81,22 @@ def test_what_is_wrong_with_a_source_is_told_at_its_place(release, expected, tmp
 
 
 def test_all_mistakes_of_an_order_list_are_told_at_once(tmp_path):
-    (tmp_path / "orders.csv").write_text("time,product\n-1,a\n2,c\n")
-    found = said("release: {kind: schedule, file: orders.csv}", tmp_path)
-    assert "line 2: time '-1' is not" in found
-    assert "line 3: no product 'c'" in found
+    (tmp_path / "orders.csv").write_text("time,product\n-1,a\n2,c\n1,a\n")
+    found = printed("release: {kind: schedule, file: orders.csv}", tmp_path)
+    assert "orders.csv:2:1: release.file: time '-1' is not" in found
+    assert "orders.csv:3:3: release.file: no product 'c'\n     3 | 2,c\n       |   ^ products: a, b" in found
+    assert "orders.csv:4:1: release.file: time '1' is before that of the order above" in found
+
+
+@pytest.mark.parametrize(("text", "remedy"), [
+    ("", "^ fill it, or name another file"),
+    ("time,product\n", "^ add a line for each order or product"),
+    ("product\na\n", "^ its first line must name the columns: time"),
+    ('time,product\n"-1","a"\n', "^ from 0 on, such as 90"),
+])  # fmt: skip
+def test_an_order_list_that_cannot_be_used_gets_a_remedy(text, remedy, tmp_path):
+    (tmp_path / "orders.csv").write_text(text)
+    assert remedy in printed("release: {kind: schedule, file: orders.csv}", tmp_path)
 
 
 def test_products_come_from_the_file_or_from_the_source_but_not_from_both(tmp_path):

@@ -77,7 +77,11 @@ CASES = [
     ("turned", [("from: start, to: stop", "from: stop, to: start")], ["tasks.make.hold.to: start comes before stop"]),
     ("one of many", [("reach.touch", "fasten.start")], ["no mark 'fasten.start'", "did you mean 'fasten.2.start'?"]),
     ("no body", [("emulator: work/fasten, hold", "fixed: 5 s, hold")], ["this task has no marks", "such as 0.25"]),
-    ("shares", [("from: start, to: stop", "from: 0.5, to: 0.2")], ["hold.to: from (0.5) must come before to (0.2)"]),
+    (
+        "shares",
+        [("from: start, to: stop", "from: 0.5, to: 0.2")],
+        ["hold.to: from (0.5) must come before to (0.2)", "from: 0.2, to: 0.5"],
+    ),
     ("beyond", [("from: start, to: stop", "to: 1.5")], ["a share of the performance lies between 0 and 1, found 1.5"]),
     ("alone", [("team: 2", "team: 2, automatic: true")], ["tasks.look.team: nobody is needed", "automatic: attended"]),
     ("no hands", [("work/fasten, hold", "work/fasten, automatic: true, hold")], ["hold: nobody holds a tool where"]),

@@ -74,7 +74,7 @@ def test_belts_that_cannot_be(old, new, answer, tmp_path):
     ("[[drill, pack]]", "[]",
      "9: transporters.truck.legs: expected at least one entry, found none | "),
     ("[[drill, pack]]", "[[drill, pack]], capacity: 0",
-     "9: transporters.truck.capacity: must be at least 1, found 0 | "),
+     "9: transporters.truck.capacity: must be at least 1, found 0 | write 1 or more"),
     ("[[drill, pack]]", "[[drill, pack]], roads: [[door, b]]",
      "9: transporters.truck.roads: no road leads from 'b' to 'c', and truck has to drive there | add e.g. [c, ...]\n"
      "9: transporters.truck.roads: no road leads from 'c' to 'b', and truck has to drive there | add e.g. [c, ...]"),
@@ -106,7 +106,7 @@ def test_vehicles_without_roads_of_their_own_need_the_paths_of_the_layout(tmp_pa
      "12: workers.ana.most_load: ana may have to carry 'x' (8 kg) on from 'saw', and cannot lift it | let a "
      "transporter bring it, or somebody stronger work there"),
     ([("most_load: 9 kg", "most_load: 0 kg")],
-     "12: workers.ana.most_load: must be more than 0 kg, found '0 kg' | "),
+     "12: workers.ana.most_load: must be more than 0 kg, found '0 kg' | such as '6 kg'"),
     ([("mass: 8 kg", "mass: 8 m")],
      "10: products.x.mass: '8 m' is a length; expected a mass | such as '6 kg'"),
 ])  # fmt: skip

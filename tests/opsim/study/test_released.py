@@ -7,6 +7,7 @@ from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
 from opsim.study.folder import OtherRun
 from opsim.study.released import released
+from opsim.study.station_model import station_model
 
 TEXT = """
 opsim: 1
@@ -63,3 +64,9 @@ def test_the_assumption_sheet_says_how_jobs_come_in_and_what_holds_them_back(fil
     assert lines[0].startswith(
         "mixed: jobs come with gaps of their own distribution (renewal), one every 15 s on average"
     )
+
+
+def test_due_dates_of_a_file_are_said_to_be_counted_from_the_start(file, tmp_path):
+    (tmp_path / "lists" / "orders.csv").write_text("time,product,due\n5,a,60\n200,b,\n")
+    lines = [line for _, line in station_model(compile_plan(read_scenarios(file)["base"]))]
+    assert "plan: orders are due when their file says, counted from the start" in lines

@@ -28,6 +28,7 @@ workers: {v: {skills: {cut: 1.0}}, w: {skills: {cut: 1.0, look: 1.0}}}
         "look: 0.8 of bad jobs is found to be bad, and 0.02 of good ones is held to be bad",
         "look: a job is reworked at most 3 times, then it is scrap; it is good then until an operation leaves a defect "
         "anew",
+        "throughput counts good jobs only: one that leaves with a defect nobody found is not in it",
         "tools of a task are taken as its worker sets out, and put back when the work is broken off",
         "run: takes the station's time, whoever attends it and whatever his skill",
         "lift: nobody comes before all can, and the slowest ends it; each has his own time",

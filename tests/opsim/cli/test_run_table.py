@@ -1,0 +1,46 @@
+"""Which rows of a run the console shows."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from opsim.cli.run_table import matters, print_results
+from tests.made_result import kpi
+
+
+@dataclass
+class Made:
+    summary: dict
+
+
+def result(*rows):
+    return Made({"kpis": list(rows), "replications": 2, "seed": 1, "confidence": 0.95})
+
+
+def states(figure, subject, **shares):
+    return [kpi(figure, subject, part, "share", share, 0.01, headline=True) for part, share in shares.items()]
+
+
+def test_every_state_that_takes_more_than_a_twentieth_somewhere_is_shown(capsys):
+    base = states("station_states", "press", work=0.2, blocked=0.0, setup=0.6, pickup=0.01, starved=0.19)
+    wide = states("station_states", "press", work=0.2, blocked=0.0, setup=0.01, pickup=0.07, starved=0.72)
+    print_results("made", {"base": result(*base), "wide": result(*wide)})
+    shown = capsys.readouterr().out
+    assert all(f"press {state}" in shown for state in ("work", "blocked", "setup", "pickup"))
+    assert "starved" not in shown and "60.0 ± 1.0 %" in shown
+
+
+def test_a_state_that_takes_little_everywhere_is_left_to_the_report(capsys):
+    print_results("made", {"base": result(*states("station_states", "press", work=0.9, setup=0.05, down=0.01))})
+    shown = capsys.readouterr().out
+    assert "press work" in shown and "setup" not in shown and "down" not in shown
+
+
+@pytest.mark.parametrize("part", ["setup", "walk", "held", "team", "tool"])
+def test_of_workers_too(part):
+    assert matters("worker_states", part, {"base": {"mean": 0.3}})
+    assert not matters("worker_states", part, {"base": {"mean": 0.01}, "wide": {"mean": None}})
+
+
+def test_idle_workers_are_what_the_shown_states_leave():
+    assert not matters("worker_states", "wait", {"base": {"mean": 0.9}})
