@@ -10,7 +10,7 @@ _TWO = "two-station line, exponential, equal rates"
 
 def _stay(variant: str, product: str, expected: tuple[str, ...] | float, work_s: float = 0.0) -> Case:
     """The stay of a class: the expected wait and its mean work."""
-    return Case("priorities", variant, f"stay_of_{product}_s", expected, shift=work_s, most_half_width=0.02, few=10)
+    return Case("priorities", variant, f"stay_of_{product}_s", expected, shift=work_s, most_half_width=0.02, few=16)
 
 
 def interrupted_s(arrivals: tuple[float, ...], level: int) -> float:
