@@ -1,13 +1,13 @@
 """Automatic tasks that somebody attends: the station's time, and a worker who stays."""
 
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.state import Job, Worker
 from opsim.engine.simpy_engine.station import begin, drawn_run_s
 
 
 def attend(floor: Floor, job: Job, worker: Worker) -> bool:
     """The worker stays by the run, or by the rest of one that somebody else may have begun; False where it is down."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.down:
         return False
     task = station.tasks[job.task_position]

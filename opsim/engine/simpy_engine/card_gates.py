@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from opsim.engine.simpy_engine.card_lines import Lines, Want, is_outside, want_of
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Claim, Gate, Job
+from opsim.engine.simpy_engine.state import OUTSIDE, Claim, Gate, Job
 from opsim.log import BLOCKED, GATE, HELD, NO_CARD, NO_CAUSE
 from opsim.plan.cards import CardPlan
 
@@ -48,7 +48,7 @@ class Guard:
         """Take the cards; who has one keeps it. One that leaving the station here would give back stands twice."""
         cards = job.cards = [] if job.cards is None else job.cards
         taken: list[Loop] = [] if job.ahead is None else job.ahead.cards
-        leaves = -1 if job.station is None else job.station.rank
+        leaves = job.station.rank
         for loop in self.needs.get(want_of(job), ()):
             if loop not in cards:
                 loop.free -= 1
@@ -92,7 +92,7 @@ class Guard:
 
     def _mark(self, job: Job, lacks_card: bool) -> None:
         """A job outside, or blocked where it is, waits for a card or for room."""
-        if job.kind == HELD and job.station is None:
+        if job.kind == HELD and job.station is OUTSIDE:
             cause = NO_CARD if lacks_card else GATE
         elif job.kind == BLOCKED:
             cause = NO_CARD if lacks_card else NO_CAUSE

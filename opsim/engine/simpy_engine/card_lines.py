@@ -6,7 +6,7 @@ from bisect import bisect_left, insort
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from opsim.engine.simpy_engine.state import Claim, Job
+from opsim.engine.simpy_engine.state import OUTSIDE, Claim, Job
 
 Want = tuple[int, int]
 """(product rank, step of its route)"""
@@ -19,7 +19,7 @@ def want_of(job: Job) -> Want:
 
 def is_outside(job: Job) -> bool:
     """Whether a job has neither a place nor a card yet: in this all who want the same are alike, but for their time."""
-    return job.station is None and job.ahead is None and not job.cards
+    return job.station is OUTSIDE and job.ahead is None and not job.cards
 
 
 @dataclass(slots=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from opsim.engine.simpy_engine.card_gates import Guard, Loop
 from opsim.engine.simpy_engine.card_lines import Want
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Gate, Job, Station
+from opsim.engine.simpy_engine.state import OUTSIDE, Gate, Job, Station
 
 
 def install(floor: Floor) -> None:
@@ -58,7 +58,7 @@ def _left_floor(floor: Floor, job: Job) -> None:
 def _give_at_start(job: Job, loops: list[Loop]) -> None:
     """A piece that lies at the end of a loop, or in one that ends on the way out, has its card."""
     for loop in loops:
-        inside = job.station is not None and (not loop.plan.back or job.station.rank in loop.plan.back)
+        inside = job.station is not OUTSIDE and (not loop.plan.back or job.station.rank in loop.plan.back)
         if inside and loop.free and loop.plan.steps[job.product]:
             loop.free -= 1
             job.cards = [*(job.cards or ()), loop]

@@ -27,13 +27,13 @@ def _stretch_done(floor: Floor, worker: Worker) -> None:
         log_worker(floor, worker)
         worker.since_s = floor.now
         perform(floor, job, worker)
-    elif job.station.acted is None or not job.station.acted(floor, job, worker):  # type: ignore[union-attr]
+    elif job.station.acted is None or not job.station.acted(floor, job, worker):
         performed(floor, job, worker)
 
 
 def performed(floor: Floor, job: Job, worker: Worker) -> None:
     """A worker has come to the end of a performance."""
-    if job.rest_s or job.station.meter is not None:  # type: ignore[union-attr]
+    if job.rest_s or job.station.meter is not None:
         ended(floor, job)
     if job.kind == SETUP:
         _set_up(floor, job, worker)
@@ -50,7 +50,7 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
 def _stays(floor: Floor, job: Job) -> bool:
     """Whether the job waits at the station for room downstream: on its server, or put away with who will carry it."""
     if floor.legs and floor.plan.when_blocked != "held":  # no need to stay with what a vehicle will fetch
-        ways = [(job.station.rank, station.rank) for station in job.gate.stations]  # type: ignore[union-attr]
+        ways = [(job.station.rank, station.rank) for station in job.gate.stations]
         if all(way in floor.legs for way in ways):
             return False
     return job.kind == BLOCKED or (job.plan.carried and job.cause == AFTER)
@@ -63,7 +63,7 @@ def _set_up(floor: Floor, job: Job, worker: Worker | None) -> None:
 
 def _automatic_done(floor: Floor, job: Job) -> None:
     job.over = None
-    if job.rest_s or job.station.meter is not None:  # type: ignore[union-attr]
+    if job.rest_s or job.station.meter is not None:
         ended(floor, job)
     if job.kind == SETUP:
         _set_up(floor, job, None)

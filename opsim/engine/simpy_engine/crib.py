@@ -72,7 +72,7 @@ class Crib:
         wanted = dict(mine.needs)
         found = []
         for other, want in self.calling.values():
-            station: Station = other.station  # type: ignore[assignment]
+            station: Station = other.station
             short = any(tool in wanted and self.free[tool] < wanted[tool] + n for tool, n in want.needs)
             if (
                 short
@@ -93,7 +93,7 @@ class Crib:
         """The tools are the job's; whoever calls for a worker with them calls no more, and waits."""
         for tool, n in want.needs:
             self.free[tool] -= n
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         grip = Grip(want.needs, want.task, self.floor.now, station.rank, job.operation_rank)
         self.known.add(job.number)
         self.grips.setdefault(job.number, {})[want.purpose] = grip
@@ -203,7 +203,7 @@ class Crib:
     def _call_off(self, job: Job, want: Want) -> None:
         del self.calling[job.number]
         job.with_tools = False
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if any(claim[3] is job for claim in station.calling):
             station.calling = [claim for claim in station.calling if claim[3] is not job]
             quiet(self.floor, station)

@@ -118,7 +118,7 @@ def _is_begun(job: Job) -> bool:
     """Whether something was done of the operation of a job on its server, and something is left."""
     if job.kind == WORK or job.kind == SETUP:
         return True
-    n_tasks = len(job.station.tasks)  # type: ignore[union-attr]
+    n_tasks = len(job.station.tasks)
     return job.kind == HELD and (job.rest_s > 0 or job.repeats_done > 0 or 0 < job.task_position < n_tasks)
 
 

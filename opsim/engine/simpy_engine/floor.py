@@ -109,7 +109,7 @@ class Floor:
     def alarm(self, delay_s: float, kind: int, rank: int, number: int, what: str, subject: Any) -> simpy.Event:
         """A report after a delay, which is rounded to the grid. ``cancel`` makes it nothing."""
         event = self.at_end_of(on_grid(delay_s), simpy.Event(self.env))
-        event.callbacks.append(lambda _: self.report(kind, rank, number, what, subject))  # type: ignore[union-attr]
+        event.callbacks.append(lambda _: self.report(kind, rank, number, what, subject))
         return event
 
     def stir(self, station: Station) -> None:
@@ -126,7 +126,7 @@ class Floor:
         """
         event._ok, event._value = True, None
         env = self.env
-        heappush(env._queue, (env._now + delay_s, priority, next(env._eid), event))  # type: ignore[misc, arg-type]
+        heappush(env._queue, (env._now + delay_s, priority, next(env._eid), event))  # type: ignore[misc]
         return event
 
     def _settle(self, _event: simpy.Event | None = None) -> None:
@@ -145,7 +145,7 @@ class Floor:
         start_s, now = job.since_s, self.now
         if now <= start_s:
             return
-        station = -1 if job.station is None else job.station.rank
+        station = job.station.rank
         number, product, operation = job.number, job.product, job.operation_rank
         kind = job.kind
         if kind == WORK or kind == SETUP:  # noqa: SIM109  NOTE: twice as fast as a tuple

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import nan
 
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Job
+from opsim.engine.simpy_engine.state import OUTSIDE, Job
 from opsim.log import HELD, NO_TOOL, TOOL, pack_row
 from opsim.plan.tools import Needs
 
@@ -49,7 +49,7 @@ def log_grip(floor: Floor, job: Job, grip: Grip) -> None:
 
 def log_wait(floor: Floor, job: Job, task: int) -> None:
     """Write a job's wait for tools until now, with the task whose tools were missing."""
-    if floor.now > job.since_s and job.station is not None:
+    if floor.now > job.since_s and job.station is not OUTSIDE:
         floor.write(pack_row(
             HELD, job.since_s, floor.now, -1, job.station.rank, -1, -1, job.source, job.number, job.product,
             job.operation_rank, task, -1, -1, nan, nan, nan, NO_TOOL,

@@ -49,7 +49,7 @@ class Hands:
 
     def _with_tools(self, floor: Floor, job: Job, crib: Crib) -> bool:
         """Whether somebody who is there can begin with his tools; where the station stands still, they go back."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if station.down and job.team is None:
             crib.break_off(floor, job)
             return False
@@ -91,4 +91,4 @@ def _asks(task: TaskPlan) -> bool:
 
 
 def _task(floor: Floor, job: Job) -> TaskPlan:
-    return floor.plan.tasks[job.station.tasks[job.task_position]]  # type: ignore[union-attr]
+    return floor.plan.tasks[job.station.tasks[job.task_position]]

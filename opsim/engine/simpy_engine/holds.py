@@ -52,7 +52,7 @@ class Holds:
 
     def act(self, floor: Floor, job: Job, worker: Worker) -> bool:
         """The worker begins, or goes on with what was broken off; False where the station stands still."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if station.down:
             return False
         doing = self.doing.get(job.number)
@@ -115,13 +115,13 @@ class Holds:
         if doing.at_work:
             doing.at_work = False
             job.rest_s, job.progress_from = doing.left_s, done
-            if job.station.meter is not None:  # type: ignore[union-attr]
-                job.station.meter.end(floor)  # type: ignore[union-attr]
+            if job.station.meter is not None:
+                job.station.meter.end(floor)
         wait_by(floor, doing.worker, NO_TOOL)
 
     def _given(self, floor: Floor, job: Job, doing: Doing) -> None:
         """The tool that was waited for is there."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if station.down:
             self.crib.put_back(job, IN_HAND)
             set_free(floor, doing.worker)
@@ -132,7 +132,7 @@ class Holds:
 
     def _drawn(self, floor: Floor, job: Job, worker: Worker) -> Doing:
         """The worker's next performance, or what is left of the job's task at his own pace; all on the grid."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         task = station.tasks[job.task_position]
         plan = floor.plan.tasks[task]
         if plan.attended:

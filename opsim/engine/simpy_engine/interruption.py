@@ -46,7 +46,7 @@ def interrupt(floor: Floor, job: Job, cause: int) -> None:
     done = progress(job, floor.now)
     floor.job_now(job, HELD, cause)
     job.rest_s, job.progress_from = rest_s, done
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.meter is not None:
         station.meter.end(floor)
     if job.over is not None:

@@ -38,7 +38,7 @@ class Kits:
 
     def wanted(self, job: Job) -> Counter[int]:
         """Pieces by product that a job, with those of its batch, still needs at its station."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         wanted: Counter[int] = Counter()
         for one in (job, *job.members):
             for product, pieces in self._parts(station, one):
@@ -68,7 +68,7 @@ class Kits:
         self.claims.remove(claim)
         if not waits:  # it was taken off its server meanwhile, and will ask again
             return False
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         for one in (job, *job.members):
             for product, pieces in sorted(self._parts(station, one)):
                 take(floor, product, pieces, station, one)

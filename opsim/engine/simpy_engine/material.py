@@ -4,7 +4,7 @@ from bisect import insort
 
 from opsim.engine.rules import shortest_queue, source_in_turn
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Ahead, Claim, Gate, Job, Source, Station, claim_of
+from opsim.engine.simpy_engine.state import OUTSIDE, Ahead, Claim, Gate, Job, Source, Station, claim_of
 from opsim.engine.simpy_engine.station import fill_servers, proceed, seat
 from opsim.engine.simpy_engine.transport import bring
 from opsim.engine.simpy_engine.worker import set_free
@@ -48,7 +48,7 @@ def new_job(floor: Floor, source: Source, rank: int, n: int | None = None, stati
 
 def operation_done(floor: Floor, job: Job) -> None:
     """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.meter is not None:
         station.meter.cycle(floor)
     if station.after:
@@ -62,7 +62,7 @@ def operation_done(floor: Floor, job: Job) -> None:
 
 def ask_after(floor: Floor, job: Job) -> None:
     """What is asked when an operation is done; where nothing else becomes of it, the job moves on."""
-    for hook in job.station.after:  # type: ignore[union-attr]
+    for hook in job.station.after:
         if not hook(floor, job):
             return
     move_on(floor, job)
@@ -92,7 +92,7 @@ def go_to(floor: Floor, job: Job, step: int) -> None:
     job.gate = gate
     insort(gate.claims, (-job.priority, now, job.number, job))
     floor.stirred.add(gate)
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.clear is not None:
         station.clear(floor, station, job)
 
@@ -155,7 +155,7 @@ def release_saturated(floor: Floor) -> None:
 def turn_away(floor: Floor) -> None:
     """Jobs still outside are lost where their source does not wait."""
     for gate in floor.gates.values():
-        lost = [claim for claim in gate.claims if claim[3].station is None and claim[3].source in floor.losing]
+        lost = [claim for claim in gate.claims if claim[3].station is OUTSIDE and claim[3].source in floor.losing]
         for claim in lost:
             gate.claims.remove(claim)
             leave_floor(floor, claim[3], LOST, NO_CARD if claim[3].cause == NO_CARD else FULL)
@@ -258,14 +258,14 @@ def _keep_place(floor: Floor, job: Job, gate: Gate) -> None:
 def depart_for(floor: Floor, job: Job, station: Station) -> None:
     """The job, whose place at a station is sure, leaves where it is; or waits for who is to fetch it."""
     before = job.station
-    if floor.legs and before is not None and (leg := floor.legs.get((before.rank, station.rank))) is not None:
+    if floor.legs and before is not OUTSIDE and (leg := floor.legs.get((before.rank, station.rank))) is not None:
         leg(floor, job, station)
         return
     if floor.now > job.since_s:
         floor.log_job(job)
     job.kind, job.cause, job.since_s = QUEUE, 0, floor.now
     carrier = None
-    if before is not None:
+    if before is not OUTSIDE:
         if job.plan.carried:
             carrier, job.held_by = job.held_by, None
         leave_station(floor, job)
@@ -282,7 +282,7 @@ def _chosen(gate: Gate, job: Job) -> Station:
 
 def leave_station(floor: Floor, job: Job) -> None:
     """The job gives its place back; whoever waits behind moves up, and whoever wants in may."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     station.n_inside -= 1
     if job.held_by is not None:
         worker, job.held_by = job.held_by, None

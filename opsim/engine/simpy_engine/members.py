@@ -34,6 +34,6 @@ def disband(floor: Floor, job: Job) -> None:
 
 def comes_again(job: Job) -> bool:
     """Whether the performance that ends now is followed by another one of the same task."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     times = station.repeats[job.task_position] * (1 if job.lot == 1 else units(job))
     return job.repeats_done + 1 < times

@@ -5,7 +5,7 @@ from collections import Counter
 from opsim.engine.rules.quality import leaves_defect, reworked, turned_down
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.material import go_to, leave_floor, leave_station, withdraw
-from opsim.engine.simpy_engine.state import Job, Station
+from opsim.engine.simpy_engine.state import Job
 from opsim.log import BAD, FALSE_ALARM, REWORK, SCRAP
 from opsim.plan.quality import NOWHERE, QualityPlan
 
@@ -65,7 +65,7 @@ class _Gauge:
 
     def turn_down(self, floor: Floor, job: Job, cause: int) -> None:
         """The job goes back, or is scrapped."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if job.ahead is not None:
             withdraw(floor, job)
         back = self.plan.back[job.product][job.step] if self.plan.back else NOWHERE

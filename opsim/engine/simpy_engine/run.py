@@ -38,7 +38,7 @@ def _run(env: simpy.Environment, until_s: float) -> None:
         for callback in callbacks:
             callback(event)
         if not event._ok and not hasattr(event, "_defused"):
-            raise event._value  # type: ignore[misc]
+            raise event._value
 
 
 def _open(plan: Plan, replication: int) -> Floor:

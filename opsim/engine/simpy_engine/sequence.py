@@ -5,7 +5,7 @@ from collections.abc import Callable
 from opsim.engine.rules.sequencing import queue_key
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.setup import setup_s
-from opsim.engine.simpy_engine.state import GOES_ON, Gate, Job, Station
+from opsim.engine.simpy_engine.state import GOES_ON, OUTSIDE, Gate, Job, Station
 from opsim.plan import Plan
 from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan
 from opsim.plugins import rule_of
@@ -51,7 +51,7 @@ def _choice(floor: Floor, gate: Gate) -> Callable[[list[Station], Job], Station]
     def key(station: Station, job: Job) -> tuple[float, ...]:
         step = job.step if job.ahead is None else job.ahead.step
         listed = floor.steps[job.product][step][0].listed
-        metres = 0.0 if job.station is None else floor.plan.distance_m[job.station.place][station.place]
+        metres = 0.0 if job.station is OUTSIDE else floor.plan.distance_m[job.station.place][station.place]
         return rule(
             station.n_inside - len(station.put_away),
             station.plan.servers,

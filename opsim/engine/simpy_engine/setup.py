@@ -68,7 +68,7 @@ def setup_s(station: Station, job: Job) -> float:
 
 def _set_up(floor: Floor, job: Job) -> bool:
     """Set the job's server up, as often as the task is repeated; True where the server is as the job needs it."""
-    servers: Servers = job.station.setups  # type: ignore[union-attr, assignment]
+    servers: Servers = job.station.setups  # type: ignore[assignment]
     task, _ = servers.plan.needed(servers.of[_key(job)], job.product)
     left = servers.left.get(job)
     if left is None:

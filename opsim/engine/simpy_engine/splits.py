@@ -25,7 +25,7 @@ def _stays_whole(here: dict[int, SplitPlan], floor: Floor, job: Job) -> bool:
     split = here.get(job.product)
     if split is None:
         return True
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if job.held_by is not None:
         worker, job.held_by = job.held_by, None
         set_free(floor, worker)
@@ -43,7 +43,7 @@ def _pieces(floor: Floor, split: SplitPlan, job: Job, product: int, n: int) -> l
     """The jobs of a product that a job becomes: whole lots, and what is left over."""
     source, most = next((s, most) for of, made, s, most in split.sources if (of, made) == (job.source, product))
     pieces: list[Job] = []
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     units = n * job.lot
     while units:
         number = job.n * most + len(pieces)

@@ -62,70 +62,7 @@ class Ahead:
     cards: list[Any] = field(default_factory=list)
 
 
-@dataclass(slots=True, eq=False)
-class Job:
-    """One unit of a product, or a lot.
-
-    number          : n * sources + source, so that no two jobs have the same; n : its number in its source
-    kind, since_s   : the state it is in, and since when
-    step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
-                      ``gate`` is in front of the operation
-    task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
-    worker .. duration_s : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
-    progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
-    over            : the end of an automatic run under way
-    stage           : how many of the station's preparations are done
-    setup_task      : the set-up under way or called for; -1: none
-    with_tools      : whether it calls for a worker who takes tools with him; team : who has come, or is on his way
-    visits          : how often each step was passed, where the way on is drawn
-    due_s           : when it should be done; bad : whether a defect is in it
-    """
-
-    number: int
-    product: int
-    plan: ProductPlan
-    step: int
-    operation: Operation
-    operation_rank: int
-    gate: Gate
-    kind: int
-    cause: int
-    since_s: float
-    source: int = 0
-    n: int = 0
-    station: Station | None = None
-    task_position: int = 0
-    repeats_done: int = 0
-    worker: int = -1
-    task: int = -1
-    performance_id: int = -1
-    k: int = -1
-    duration_s: float = 0.0
-    held_by: Worker | None = None
-    visits: dict[int, int] | None = None
-    progress_from: float = 0.0
-    rest_s: float = 0.0
-    over: simpy.Event | None = None
-    stage: int = 0
-    setup_task: int = -1
-    with_tools: bool = False
-    team: list[Worker] | None = None
-    seat: Seat | None = None
-    members: tuple[Job, ...] = ()
-    ahead: Ahead | None = None
-    cards: list[Any] | None = None
-    priority: float = 0.0
-    due_s: float = inf
-    lot: int = 1
-    bad: bool = False
-
-    @property
-    def keeps_place(self) -> bool:
-        """Whether it needs no other place where it is: who is behind the servers, or shares one, would need one."""
-        return (self.ahead is None or self.ahead.station is None) and self.seat is None and self.cause != AFTER
-
-
-Claim = tuple[float, float, int, Job]
+Claim = tuple[float, float, int, "Job"]
 """(-priority, since_s, job number, job): claims are served in this order."""
 
 
@@ -134,10 +71,10 @@ def claim_of(job: Job, since_s: float) -> Claim:
     return -job.priority, since_s, job.number, job
 
 
-Stage = Callable[["Floor", Job], bool]
+Stage = Callable[["Floor", "Job"], bool]
 """A preparation of a job that has its server: True where it is done; False where the job waits for something. Who ends
 the wait calls ``proceed``, which asks again."""
-Hook = Callable[["Floor", Job], bool]
+Hook = Callable[["Floor", "Job"], bool]
 """Asked when a job's operation is done; False where the job is gone, or sent elsewhere."""
 
 
@@ -220,6 +157,73 @@ class Station:
         """One more question when an operation is done; they come in the order of their numbers."""
         self.ordered_hooks.append((order, hook))
         self.after = tuple(found for _, found in sorted(self.ordered_hooks, key=lambda pair: pair[0]))
+
+
+OUTSIDE = Station(StationPlan("", -1, 0, 0, ()), -1, -1, 0, (), (), (), 0)
+"""Where a job is that has come in and has no place yet: at no station, of rank -1. Nothing about it ever changes."""
+
+
+@dataclass(slots=True, eq=False)
+class Job:
+    """One unit of a product, or a lot.
+
+    number          : n * sources + source, so that no two jobs have the same; n : its number in its source
+    kind, since_s   : the state it is in, and since when
+    step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
+                      ``gate`` is in front of the operation
+    task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
+    worker .. duration_s : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
+    progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
+    over            : the end of an automatic run under way
+    stage           : how many of the station's preparations are done
+    setup_task      : the set-up under way or called for; -1: none
+    with_tools      : whether it calls for a worker who takes tools with him; team : who has come, or is on his way
+    visits          : how often each step was passed, where the way on is drawn
+    due_s           : when it should be done; bad : whether a defect is in it
+    """
+
+    number: int
+    product: int
+    plan: ProductPlan
+    step: int
+    operation: Operation
+    operation_rank: int
+    gate: Gate
+    kind: int
+    cause: int
+    since_s: float
+    source: int = 0
+    n: int = 0
+    station: Station = OUTSIDE
+    task_position: int = 0
+    repeats_done: int = 0
+    worker: int = -1
+    task: int = -1
+    performance_id: int = -1
+    k: int = -1
+    duration_s: float = 0.0
+    held_by: Worker | None = None
+    visits: dict[int, int] | None = None
+    progress_from: float = 0.0
+    rest_s: float = 0.0
+    over: simpy.Event | None = None
+    stage: int = 0
+    setup_task: int = -1
+    with_tools: bool = False
+    team: list[Worker] | None = None
+    seat: Seat | None = None
+    members: tuple[Job, ...] = ()
+    ahead: Ahead | None = None
+    cards: list[Any] | None = None
+    priority: float = 0.0
+    due_s: float = inf
+    lot: int = 1
+    bad: bool = False
+
+    @property
+    def keeps_place(self) -> bool:
+        """Whether it needs no other place where it is: who is behind the servers, or shares one, would need one."""
+        return (self.ahead is None or self.ahead.station is None) and self.seat is None and self.cause != AFTER
 
 
 @dataclass(slots=True, eq=False)

@@ -62,7 +62,7 @@ def seat(floor: Floor, station: Station, job: Job) -> None:
 
 def proceed(floor: Floor, job: Job, worker: Worker | None = None) -> None:
     """The preparations that are left, then the tasks; a worker at hand is free where the job has to wait."""
-    stages = job.station.stages  # type: ignore[union-attr]
+    stages = job.station.stages
     while job.stage < len(stages):
         if not stages[job.stage](floor, job):
             if worker is not None:
@@ -74,7 +74,7 @@ def proceed(floor: Floor, job: Job, worker: Worker | None = None) -> None:
 
 def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
     """Begin the task the job has come to: automatically, by the worker at hand, or by calling for one."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.down or not station.tasks or (station.ready is not None and not station.ready(floor, job)):
         _not_yet(floor, station, job, worker)
     elif station.automatic[job.task_position]:
@@ -126,7 +126,7 @@ def quiet(floor: Floor, station: Station) -> None:
 
 def begin_setup(floor: Floor, job: Job, task: int) -> None:
     """Set the server up for the job: a performance of a task of its own, after which the preparations go on."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     job.setup_task = task
     if station.down:
         stand_still(floor, station, job)
@@ -146,7 +146,7 @@ def go_on(floor: Floor, job: Job) -> None:
 
 def task_done(job: Job) -> bool:
     """Count one performance; True where all tasks of the station are done."""
-    repeats = job.station.repeats  # type: ignore[union-attr]
+    repeats = job.station.repeats
     job.repeats_done += 1
     if job.repeats_done == repeats[job.task_position] * (1 if job.lot == 1 else units(job)):
         job.repeats_done = 0
@@ -156,13 +156,13 @@ def task_done(job: Job) -> bool:
 
 def units(job: Job) -> int:
     """How many units of a lot the job's task is done for, each by itself."""
-    per_lot = job.station.per_lot  # type: ignore[union-attr]
+    per_lot = job.station.per_lot
     return 1 if per_lot[job.task_position] else job.lot
 
 
 def perform(floor: Floor, job: Job, worker: Worker) -> None:
     """The worker's next performance of the job's task begins now, or the rest of one that was interrupted."""
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.act is not None and station.act(floor, job, worker):
         return
     if station.down:
@@ -188,7 +188,7 @@ def _rest(floor: Floor, job: Job, worker: Worker, task: int) -> tuple[float, int
     """What is left of a performance that was broken off: for him who began it, or by somebody else's own next time."""
     if job.worker == worker.rank:
         return job.rest_s, job.k
-    duration_s, k = drawn_s(floor, job.station, worker, task)  # type: ignore[arg-type]
+    duration_s, k = drawn_s(floor, job.station, worker, task)
     return on_grid(duration_s * (1.0 - job.progress_from)), k
 
 
@@ -240,7 +240,7 @@ def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: fl
         job.performance_id = floor.n_performances
         floor.n_performances += 1
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.meter is not None:
         station.meter.begin(floor)
 
@@ -251,6 +251,6 @@ def ended(floor: Floor, job: Job) -> None:
         floor.log_job(job)  # the last piece, while it is known where it began
         job.since_s = floor.now
         job.progress_from = job.rest_s = 0.0
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     if station.meter is not None:
         station.meter.end(floor)

@@ -8,7 +8,7 @@ from opsim.engine.simpy_engine.crib import Crib
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.grips import Want
 from opsim.engine.simpy_engine.members import chosen, comes_again, disband
-from opsim.engine.simpy_engine.state import Claim, Job, Station, Worker, claim_of
+from opsim.engine.simpy_engine.state import OUTSIDE, Claim, Job, Station, Worker, claim_of
 from opsim.engine.simpy_engine.station import begin, drawn_run_s, drawn_s, ended, perform, stand_still, task_done
 from opsim.engine.simpy_engine.stints import Stint
 from opsim.engine.simpy_engine.worker import log_worker, set_free, wait_by, walk
@@ -55,7 +55,7 @@ class Teams:
         sent = False
         for claim in list(self.gathering) if len(floor.free) > 1 else ():
             job, station = claim[3], claim[3].station
-            if not _calls(job) or station is None or job.number not in floor.jobs:
+            if not _calls(job) or station is OUTSIDE or job.number not in floor.jobs:
                 self.gathering.remove(claim)  # its server was taken, or it is gone
             elif not station.down:
                 team = self._team(floor, job, station)
@@ -91,7 +91,7 @@ class Teams:
 
     def act(self, floor: Floor, job: Job, worker: Worker) -> bool:
         """Somebody has come: the last one begins with the others, who waited for him."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         if job.team is None or worker not in job.team:  # NOTE: the team was given up while he was on his way
             set_free(floor, worker)
             return True
@@ -132,7 +132,7 @@ class Teams:
 
     def _begin(self, floor: Floor, job: Job, team: list[Worker]) -> None:
         """All begin now, each with his own next time, or all with the station's."""
-        station: Station = job.station  # type: ignore[assignment]
+        station = job.station
         task = station.tasks[job.task_position]
         share, start = (1.0 - job.progress_from, job.progress_from) if job.rest_s else (1.0, 0.0)
         run = drawn_run_s(floor, station, task) if floor.plan.tasks[task].attended else None

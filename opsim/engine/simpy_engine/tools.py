@@ -32,7 +32,7 @@ def install(floor: Floor) -> Crib | None:
 
 def _for_station(crib: Crib, floor: Floor, job: Job) -> bool:
     """The tools that stay with the job until it leaves its station; with a batch, until the last of it does."""
-    needs = job.station.plan.needs  # type: ignore[union-attr]
+    needs = job.station.plan.needs
     return crib.take(job, Want(AT_STATION, needs, -1, lambda: proceed(floor, job)))
 
 
@@ -52,7 +52,7 @@ def for_task(crib: Crib, floor: Floor, job: Job) -> bool:
 
     An automatic run takes them at once, a worker when he sets out, a team when all of it does.
     """
-    station: Station = job.station  # type: ignore[assignment]
+    station = job.station
     position = job.task_position
     crib.put_back_tasks(job, keep=position)
     task = station.tasks[position]

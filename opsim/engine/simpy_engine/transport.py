@@ -31,9 +31,9 @@ def put_down(floor: Floor, job: Job, carrier: Worker) -> None:
         _go_again(floor, carrier)
         return
     floor.job_now(job, QUEUE)
-    _stand_at(carrier, job.station)  # type: ignore[arg-type]
+    _stand_at(carrier, job.station)
     set_free(floor, carrier)
-    arrive(floor, job.station, job)  # type: ignore[arg-type]
+    arrive(floor, job.station, job)
 
 
 def _go_again(floor: Floor, carrier: Worker) -> None:

@@ -148,11 +148,11 @@ def _unloaded(floor: Floor, vehicle: Vehicle) -> None:
     job = next(job for job in vehicle.aboard if _goal(job) == vehicle.place)
     vehicle.aboard.remove(job)
     floor.job_now(job, QUEUE)
-    arrive(floor, job.station, job)  # type: ignore[arg-type]
+    arrive(floor, job.station, job)
 
 
 def _goal(job: Job) -> int:
-    return job.station.place  # type: ignore[union-attr]
+    return job.station.place
 
 
 def _be_free(floor: Floor, vehicle: Vehicle) -> None:

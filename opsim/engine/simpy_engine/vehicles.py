@@ -61,7 +61,7 @@ class Pool:
 
     def take_call(self, job: Job, station: Station, now: float) -> None:
         """A job calls, to be brought to a station."""
-        leg = self.legs[job.station.rank, station.rank]  # type: ignore[union-attr]
+        leg = self.legs[job.station.rank, station.rank]
         insort(self.calls, Call(*claim_of(job, now), station, leg))
 
     def next_call_at(self, place: int) -> Call | None:
