@@ -12,13 +12,13 @@ KINDS = (
     *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
     *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool"),
 )
-WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
+WORK, WALK, WAIT, BREAK, OFF, ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
 REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST, REWORK, TOOL = range(12, 22)
-WORKER_KINDS = (WORK, WALK, WAIT, _BREAK, _OFF, _ABSENT, SETUP, REPAIR)
+WORKER_KINDS = (WORK, WALK, WAIT, BREAK, OFF, ABSENT, SETUP, REPAIR)
 """Kinds that are states of a worker, where the row names one."""
 JOB_KINDS = (QUEUE, WORK, SETUP, TRANSPORT, BLOCKED, HELD)
 """Kinds that are states of a job, where the row names one."""
-STATION_KINDS = (DOWN, REPAIR)
+STATION_KINDS = (DOWN, REPAIR, OFF)
 """Kinds that are states of a station, in rows that name neither worker nor job."""
 LEAVING_KINDS = (FINISH, SCRAP, JOIN, SPLIT, LOST)
 """Kinds by which a job leaves the floor, each an instant."""
@@ -26,10 +26,11 @@ LEAVING_KINDS = (FINISH, SCRAP, JOIN, SPLIT, LOST)
 CAUSES = (
     *("", "idle", "blocked", "gate", "worker", "full", "down", "parts", "tool", "team", "card", "batch", "after"),
     *("stock", "pickup", "setup", "preempted", "place", "breakdown", "maintenance", "bad"),
-    "false_alarm",
+    *("false_alarm", "away", "closed", "meeting", "takt", "line_stop", "unfinished", "behind"),
 )
 NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL, IS_DOWN, NO_PARTS, NO_TOOL, TEAM, NO_CARD, BATCH, AFTER = range(13)
 STOCK, PICKUP, SETTING_UP, PREEMPTED, NO_PLACE, BREAKDOWN, MAINTENANCE, BAD, FALSE_ALARM = range(13, 22)
+AWAY, CLOSED, MEETING, TAKT, LINE_STOP, UNFINISHED, BEHIND = range(22, 29)
 
 COLUMNS: dict[str, type] = {
     "kind": np.int8,

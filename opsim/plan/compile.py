@@ -2,14 +2,18 @@
 
 from opsim.layout import distances_m
 from opsim.plan.assembly import plan_assembly
+from opsim.plan.calendar import plan_shifts
 from opsim.plan.cards import plan_cards
 from opsim.plan.conveyors import plan_conveyors
+from opsim.plan.crews import plan_crews
 from opsim.plan.failures import plan_breakdowns, plan_maintenance, plan_repair_teams, repair_tasks
+from opsim.plan.lines import plan_lines
 from opsim.plan.material import plan_products
 from opsim.plan.plan import Plan
 from opsim.plan.quality import plan_quality, with_detours
 from opsim.plan.ranks import ranks_of
 from opsim.plan.release import plan_sources
+from opsim.plan.rotations import plan_rotations
 from opsim.plan.sequence import has_priorities, looks_ahead, plan_queues, work_ahead
 from opsim.plan.setup import plan_setups
 from opsim.plan.station import plan_stations
@@ -47,7 +51,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         stations=stations,
         products=products,
         sources=assembly.sources,
-        workers=plan_workers(scenario, ranks.places, ranks.stations),
+        workers=plan_workers(scenario, ranks),
         rule=scenario.allocation.rule,
         when_blocked=scenario.allocation.when_blocked,
         idle=scenario.allocation.idle,
@@ -70,4 +74,8 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         repair_teams=plan_repair_teams(scenario),
         conveyors=plan_conveyors(scenario, ranks),
         transporters=plan_transporters(scenario, ranks, distance_m),
+        shifts=plan_shifts(scenario),
+        crews=plan_crews(scenario, ranks),
+        lines=plan_lines(scenario, ranks),
+        rotations=plan_rotations(scenario, ranks),
     )

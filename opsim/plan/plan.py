@@ -4,12 +4,16 @@ from dataclasses import dataclass
 
 from opsim.names import natural_key
 from opsim.plan.assembly import BatchPlan, KitPlan
+from opsim.plan.calendar import ShiftPlan
 from opsim.plan.cards import CardPlan
 from opsim.plan.conveyors import ConveyorPlan
+from opsim.plan.crews import CrewPlan
 from opsim.plan.failures import BreakdownPlan, MaintenancePlan, RepairTeamPlan
+from opsim.plan.lines import LinePlan
 from opsim.plan.material import ProductPlan
 from opsim.plan.quality import QualityPlan
 from opsim.plan.release import SourcePlan
+from opsim.plan.rotations import RotationPlan
 from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
 from opsim.plan.setup import SetupPlan
 from opsim.plan.splits import SplitPlan
@@ -37,6 +41,8 @@ class Plan:
     quality : of the stations where something goes wrong, or is looked at; tools : what stations and tasks share
     queues : those that are not simply first come, first served; routing : the rule by which one of several stations is
              taken; ahead : mean times that their rules look at, where some do
+    priorities : what comes before the rule of allocation, in this order: ``stations``, ``products``
+    serve : what somebody who patrols does at a station: ``exhaustive`` or ``one``
     """
 
     name: str
@@ -72,6 +78,12 @@ class Plan:
     repair_teams: tuple[RepairTeamPlan, ...] = ()
     conveyors: tuple[ConveyorPlan, ...] = ()
     transporters: tuple[TransporterPlan, ...] = ()
+    shifts: tuple[ShiftPlan, ...] = ()
+    crews: tuple[CrewPlan, ...] = ()
+    lines: tuple[LinePlan, ...] = ()
+    rotations: tuple[RotationPlan, ...] = ()
+    priorities: tuple[str, ...] = ()
+    serve: str = "exhaustive"
 
     @property
     def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from opsim.names import natural_key
+from opsim.plan.calendar import OPEN, open_times
 from opsim.plan.orders import ANY, OrderPlan, plan_orders
 from opsim.plan.ranks import Ranks
 from opsim.task import TaskModel
@@ -30,6 +31,7 @@ class SourcePlan:
     sequence : product ranks in the order in which they are made, again and again; empty where drawn from the mix
     orders   : of a schedule, in order of time; n_late : how many more come at the horizon or later
     store, level : rank of the store that is kept filled, and up to how many pieces; -1 where none is
+    open_s : when it makes jobs, None where always: gaps count the time that it is open
     """
 
     name: str
@@ -44,6 +46,7 @@ class SourcePlan:
     n_late: int = 0
     store: int = -1
     level: int = 0
+    open_s: OPEN | None = None
 
     def job_every_s(self, horizon_s: float) -> float | None:
         """Mean seconds from one job to the next, where it makes them by time or by order; else None."""
@@ -94,6 +97,7 @@ def _source(
         n_late,
         -1 if release.store is None else ranks.stations[release.store],
         release.level or 0,
+        open_times(release.shift, loaded.scenario),
     )
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import inf
 
 from opsim.names import natural_key
+from opsim.plan.calendar import OPEN, open_times
 from opsim.plan.conveyors import belt_capacity
 from opsim.plan.ranks import Ranks
 from opsim.plan.tools import Needs, needs_of
@@ -17,6 +18,8 @@ class StationPlan:
     tasks : ranks of the tasks a job gets here, in order; kind : ``station``, ``store`` or ``conveyor``;
     buffer_after : places for finished jobs, off the servers; place_first : a job is begun only when its place
     downstream is sure; needs : tools of a job from its server until it leaves.
+    open_s : when it is open, None where always; at_close : what becomes then of what was begun
+    priority : workers go to stations of a higher one first
     """
 
     name: str
@@ -28,6 +31,9 @@ class StationPlan:
     buffer_after: int = 0
     place_first: bool = False
     needs: Needs = ()
+    open_s: OPEN | None = None
+    at_close: str = "finish"
+    priority: int = 0
 
     @property
     def capacity(self) -> float:
@@ -52,6 +58,8 @@ def _station(name: str, station, scenario, ranks: Ranks) -> StationPlan:
         buffer_after=station.buffer_after,
         place_first=before,
         needs=needs_of(station, scenario),
+        open_s=open_times(station.shift, scenario),
+        at_close=station.at_close,
     )
 
 

@@ -19,6 +19,7 @@ class TaskPlan:
     attended : it takes the station's time, and a worker stays; team : workers at once
     needs, hold : tools for the whole of the task, and between two moments of each performance
     per_lot : done once for a lot; else for each of its units
+    interruption : the rule by which it is left, whatever the shift says; None: the shift's
     """
 
     name: str
@@ -30,6 +31,7 @@ class TaskPlan:
     needs: Needs = ()
     hold: HoldPlan | None = None
     per_lot: bool = False
+    interruption: str | None = None
 
     def mean_s(self, worker=None) -> float:
         """Mean time of all repeats together for one unit, in seconds, of a worker with skill rating 1."""
@@ -57,4 +59,5 @@ def _task(name: str, task, scenario, model: TaskModel) -> TaskPlan:
         needs=needs_of(task, scenario),
         hold=hold_of(task, scenario, model),
         per_lot=task.per == "lot",
+        interruption=getattr(task, "interruption", None),
     )

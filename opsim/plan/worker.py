@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 from opsim.bodies import BODY_KEYS
 from opsim.names import natural_key
+from opsim.plan.calendar import Duty, duties_of
+from opsim.plan.ranks import Ranks
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,9 @@ class WorkerPlan:
     place  : where he starts and is at home
     patrol : ranks of the stations of his round, empty where he makes none
     most_load_kg : what he carries at once; None: anything
+    duties : his shifts within the run, in order; None where he is always there; absence : share of them he misses
+    zone : ranks of his own stations, in natural order; empty: all are; floater : goes only where nobody else is free
+    quality : (S,) share of his operations that leave no defect, at each station; empty: all of them
     """
 
     name: str
@@ -43,19 +48,25 @@ class WorkerPlan:
     body: Body
     patrol: tuple[int, ...] = ()
     most_load_kg: float | None = None
+    duties: tuple[Duty, ...] | None = None
+    absence: float = 0.0
+    zone: tuple[int, ...] = ()
+    floater: bool = False
+    quality: tuple[float, ...] = ()
 
 
-def plan_workers(scenario, places: dict[str, int], ranks: dict[str, int]) -> tuple[WorkerPlan, ...]:
+def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
     """Workers in natural order. Who has no ``home`` starts at the first of his stations in natural order."""
     return tuple(
         WorkerPlan(
             name,
-            places[start_place(worker, scenario)],
+            ranks.places[start_place(worker, scenario)],
             worker.walk_m_per_s,
-            _ratings(worker, ranks),
+            _ratings(worker, ranks.stations),
             Body(**{key: getattr(worker, key) for key in BODY_KEYS}, walk_m_per_s=worker.walk_m_per_s),
-            tuple(ranks[name] for name in worker.patrol or ()),
+            tuple(ranks.stations[name] for name in worker.patrol or ()),
             worker.most_load_kg,
+            duties_of(worker, scenario, ranks),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )

@@ -1,8 +1,8 @@
 """Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round."""
 
-from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Station, Worker
-from opsim.engine.simpy_engine.station import perform
+from opsim.engine.simpy_engine.floor import Floor, pair_key
+from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.station import call_off, perform, quiet
 from opsim.engine.simpy_engine.worker import log_worker, walk
 
 
@@ -44,7 +44,8 @@ def _serve_best(floor: Floor, patrols: bool) -> bool:
     n_free = len(floor.free)
     if best[1].calling[0][3].with_tools:
         best = _who_waits_longest(floor, best, patrols)
-    _send(floor, *best)
+    worker, station = best
+    send(floor, worker, station, station.calling[0][3])
     # NOTE: it was the only pair, and nobody has come free or has called since: there is none, and no need to look
     return best_key is not None or len(floor.free) >= n_free or floor.calls & ~calls != 0
 
@@ -53,7 +54,7 @@ def _who_waits_longest(floor: Floor, best: tuple[Worker, Station], patrols: bool
     """The pair, or that of who has waited longer for the same tools, where somebody is free for him too."""
     station = best[1]
     for other in station.before(floor, station.calling[0][3]):  # type: ignore[misc]
-        able = [worker for worker in floor.free.values() if worker.rating[other.rank] > 0]
+        able = [worker for worker in floor.free.values() if worker.may_serve(other)]
         able = [worker for worker in able if not patrols or _on_round(worker, other)]
         if able:
             return min(able, key=lambda worker: _key(floor, worker, other)), other
@@ -61,22 +62,21 @@ def _who_waits_longest(floor: Floor, best: tuple[Worker, Station], patrols: bool
 
 
 def _key(floor: Floor, worker: Worker, station: Station) -> tuple[float, ...]:
-    rank, calls = station.rank, station.calling
-    n_waiting, since_s = len(calls) + len(station.queue), calls[0][1]
-    return floor.rule(
-        n_waiting, since_s, worker.walk_s[worker.place][rank], worker.plan.rating[rank], rank, worker.rank
-    )
+    calls = station.calling
+    return pair_key(floor, worker, station, calls[0][3], len(calls) + len(station.queue), calls[0][1])
 
 
-def _send(floor: Floor, worker: Worker, station: Station) -> None:
+def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
+    """A free worker goes to a job on a server of a station, which calls there for anybody, or waits for him."""
     if floor.now > worker.since_s:
         log_worker(floor, worker)
     del floor.free[worker.rank]
-    job = station.calling[0][3]
-    del station.calling[0]
-    if not station.calling:
-        del floor.calling[station.rank]
-        floor.calls ^= 1 << station.rank
+    calls = station.calling
+    if calls and calls[0][3] is job:  # NOTE: most often
+        del calls[0]
+        quiet(floor, station)
+    else:
+        call_off(floor, station, job)
     if job.with_tools:
         station.sent(floor, job)  # type: ignore[misc]
     worker.job, worker.station = job, station

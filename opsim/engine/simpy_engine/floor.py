@@ -39,6 +39,7 @@ class Floor:
     closing      : asked for their open rows at the horizon, before those of workers and jobs are written
     stock, kits  : what lies in the stores, and who waits for parts, where there are some
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
+    prefix       : of a worker, a station and the job that calls there: what comes before the rule's own key
     """
 
     def __init__(
@@ -77,6 +78,7 @@ class Floor:
         self.stock: Any = None
         self.kits: Any = None
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
+        self.prefix: Callable[[Worker, Station, Job], tuple[float, ...]] | None = None
         self.now = 0.0
         self.n_performances = 0
         self._reports: list[tuple] = []
@@ -173,6 +175,15 @@ class Floor:
             kind, now, now, -1, station, -1, -1, job.source, job.number, job.product, job.operation_rank,
             -1, -1, other, nan, nan, nan, cause,
         ))  # fmt: skip
+
+
+def pair_key(
+    floor: Floor, worker: Worker, station: Station, job: Job, n_waiting: int, since_s: float
+) -> tuple[float, ...]:
+    """What a free worker and a calling station are compared by; ``job`` is the one that calls, since some time."""
+    rank = station.rank
+    key = floor.rule(n_waiting, since_s, worker.walk_s[worker.place][rank], worker.rating[rank], rank, worker.rank)
+    return key if floor.prefix is None else (*floor.prefix(worker, station, job), *key)
 
 
 def cancel(event: simpy.Event) -> None:

@@ -12,6 +12,8 @@ from opsim.engine.simpy_engine.teams import Teams
 from opsim.engine.simpy_engine.tools import at_hand, for_task, tasks_done
 from opsim.plan.tasks import TaskPlan
 
+ACT = 50
+"""Among the ways to begin a task: after those that look at who begins it."""
 ORDER = 5
 """Among what is asked when an operation is done: tools are given back before a job is looked at, or is split."""
 
@@ -81,7 +83,8 @@ def _hang(hands: Hands, floor: Floor, station: Station) -> None:
     if any(task.needs for task in here) and hands.crib is not None:
         station.add_after(ORDER, partial(tasks_done, hands.crib))
     if any(_asks(task) for task in here):
-        station.act, station.acted = hands.act, hands.acted
+        station.add_act(ACT, hands.act)
+        station.acted = hands.acted
     if hands.crib is not None:
         station.sent, station.before = hands.crib.sent, hands.crib.before
 

@@ -1,10 +1,10 @@
 """Performances that are broken off, and stations that stand still: for breakdowns, maintenance, pre-emption."""
 
 from opsim.engine.simpy_engine.floor import Floor, cancel, progress
-from opsim.engine.simpy_engine.state import Job, Station
-from opsim.engine.simpy_engine.station import go_on, quiet, stand_still
+from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.station import call_off, go_on, perform, quiet, stand_still
 from opsim.engine.simpy_engine.worker import log_worker, set_free, stop
-from opsim.log import HELD, IS_DOWN, SETUP, WORK
+from opsim.log import HELD, IS_DOWN, NO_WORKER, SETUP, WORK
 
 
 def stop_station(floor: Floor, station: Station) -> None:
@@ -59,6 +59,26 @@ def interrupt(floor: Floor, job: Job, cause: int) -> None:
     release_team(floor, job)
     for told in floor.broken_off:
         told(floor, job)
+
+
+def leave(floor: Floor, job: Job, cause: int) -> None:
+    """Who works on the job leaves it on its server; it waits there for a cause, and calls for nobody."""
+    interrupt(floor, job, cause)
+
+
+def call_again(floor: Floor, job: Job) -> None:
+    """A job that was left calls for anybody, as it did before its task began."""
+    go_on(floor, job)
+
+
+def take_over(floor: Floor, job: Job, worker: Worker) -> None:
+    """A worker who stands at the job goes on with it, as who did it until now is free."""
+    if job.kind == WORK or job.kind == SETUP:
+        interrupt(floor, job, NO_WORKER)
+    else:
+        call_off(floor, job.station, job)
+    worker.job, worker.station = job, job.station
+    perform(floor, job, worker)
 
 
 def forget_progress(job: Job) -> None:

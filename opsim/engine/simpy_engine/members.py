@@ -1,6 +1,6 @@
 """Who belongs to a team, until when."""
 
-from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.floor import Floor, pair_key
 from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.engine.simpy_engine.station import units
 from opsim.engine.simpy_engine.worker import set_free
@@ -10,14 +10,13 @@ from opsim.log import WALK
 def chosen(floor: Floor, job: Job, station: Station) -> list[Worker]:
     """The free workers who go, by the rule of allocation, in natural order; none where they are too few."""
     n = floor.plan.tasks[station.tasks[job.task_position]].team
-    able = [worker for worker in floor.free.values() if worker.rating[station.rank] > 0]
+    able = [worker for worker in floor.free.values() if worker.may_serve(station)]
     if len(able) < n:
         return []
-    rank, n_waiting = station.rank, 1 + len(station.queue)
+    n_waiting = 1 + len(station.queue)
 
     def key(worker: Worker) -> tuple[float, ...]:
-        walk_s = worker.walk_s[worker.place][rank]
-        return floor.rule(n_waiting, job.since_s, walk_s, worker.plan.rating[rank], rank, worker.rank)
+        return pair_key(floor, worker, station, job, n_waiting, job.since_s)
 
     return sorted(sorted(able, key=key)[:n], key=lambda worker: worker.rank)
 

@@ -8,7 +8,7 @@ from opsim.engine.simpy_engine.interruption import forget_progress, interrupt
 from opsim.engine.simpy_engine.material import give_up_place
 from opsim.engine.simpy_engine.setup import take_up
 from opsim.engine.simpy_engine.state import GOES_ON, Job, Station
-from opsim.engine.simpy_engine.station import next_in_line, quiet, seat
+from opsim.engine.simpy_engine.station import call_off, next_in_line, seat
 from opsim.log import HELD, NO_WORKER, PREEMPTED, QUEUE, WALK, WORK
 
 RESTART = "restart"
@@ -70,8 +70,7 @@ def _give_up_server(floor: Floor, station: Station, job: Job, restart: bool) -> 
 
 def _call_off(floor: Floor, station: Station, job: Job) -> None:
     """The job calls for nobody any more; who is on his way to it comes all the same, and is free there."""
-    station.calling = [claim for claim in station.calling if claim[3] is not job]
-    quiet(floor, station)
+    call_off(floor, station, job)
     job.setup_task = -1
     for worker in floor.workers:
         if worker.job is job and worker.kind == WALK:

@@ -78,6 +78,10 @@ Hook = Callable[["Floor", "Job"], bool]
 """Asked when a job's operation is done; False where the job is gone, or sent elsewhere."""
 
 
+Act = Callable[["Floor", "Job", "Worker"], bool]
+"""Another way to begin a task than to perform it alone; True where it was seen to."""
+
+
 class Meter(Protocol):
     """Counts what a station does: the begin and the end of each performance, and each operation done."""
 
@@ -101,7 +105,7 @@ class Station:
     ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``
     sent    : told of a job with ``with_tools`` that a worker is sent to
     before  : of such a job, the stations whose first call has waited longer for the same tools
-    act, acted : another way to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
+    act, acted : other ways to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
     after   : asked when an operation is done, in their order
     order   : key by which the next job of the queue is chosen; None: first come, first served
     serve   : fills free servers from the queue, in place of one job at a time; asked after each arrival too
@@ -132,8 +136,8 @@ class Station:
     ready: Callable[[Floor, Job], bool] | None = None
     sent: Callable[[Floor, Job], None] | None = None
     before: Callable[[Floor, Job], list[Station]] | None = None
-    act: Callable[[Floor, Job, Worker], bool] | None = None
-    acted: Callable[[Floor, Job, Worker], bool] | None = None
+    act: Act | None = None
+    acted: Act | None = None
     after: tuple[Hook, ...] = ()
     order: Callable[[Job], Any] | None = None
     serve: Callable[[Floor, Station], None] | None = None
@@ -147,6 +151,7 @@ class Station:
     put_away: list[Job] = field(default_factory=list)
     ordered_stages: list[tuple[int, Stage]] = field(default_factory=list)
     ordered_hooks: list[tuple[int, Hook]] = field(default_factory=list)
+    ordered_acts: list[tuple[int, Act]] = field(default_factory=list)
 
     def add_stage(self, order: int, stage: Stage) -> None:
         """One more preparation; they come in the order of their numbers."""
@@ -157,6 +162,12 @@ class Station:
         """One more question when an operation is done; they come in the order of their numbers."""
         self.ordered_hooks.append((order, hook))
         self.after = tuple(found for _, found in sorted(self.ordered_hooks, key=lambda pair: pair[0]))
+
+    def add_act(self, order: int, act: Act) -> None:
+        """One more way to begin a task; they are asked in the order of their numbers, until one has seen to it."""
+        self.ordered_acts.append((order, act))
+        acts = [found for _, found in sorted(self.ordered_acts, key=lambda pair: pair[0])]
+        self.act = acts[0] if len(acts) == 1 else lambda *asked: any(one(*asked) for one in acts)
 
 
 OUTSIDE = Station(StationPlan("", -1, 0, 0, ()), -1, -1, 0, (), (), (), 0)
@@ -280,7 +291,8 @@ class Worker:
     """``stretch_over``: the event its process waits for.
 
     walk_s   : (P, S) seconds from each place to each station
-    rating   : (S,) by station; skills : bit r set where rating[r] > 0
+    rating   : (S,) by station; skills : bit r set where he may be sent to station r now
+    limits   : by block, the stations that it leaves him, as bits: ``skills`` are those with a rating that all leave
     luck     : by task, durations to come at rating 1
     next_k   : by task, how often it was done
     round    : where the worker is on the round he patrols
@@ -307,3 +319,19 @@ class Worker:
     walks_left: int = 0
     process: simpy.Process | None = None
     stint: Any = None
+    limits: dict[str, int] = field(default_factory=dict)
+
+    def restrict(self, block: str, stations: int | None) -> None:
+        """A block leaves him the stations whose bits are set; None: all of them."""
+        if stations is None:
+            self.limits.pop(block, None)
+        else:
+            self.limits[block] = stations
+        skills = sum(1 << rank for rank, rating in enumerate(self.rating) if rating > 0)
+        for left in self.limits.values():
+            skills &= left
+        self.skills = skills
+
+    def may_serve(self, station: Station) -> bool:
+        """Whether he may be sent to a station now."""
+        return self.skills >> station.rank & 1 == 1

@@ -124,6 +124,12 @@ def quiet(floor: Floor, station: Station) -> None:
         floor.calls ^= 1 << station.rank
 
 
+def call_off(floor: Floor, station: Station, job: Job) -> None:
+    """The job calls for nobody any more."""
+    station.calling = [claim for claim in station.calling if claim[3] is not job]
+    quiet(floor, station)
+
+
 def begin_setup(floor: Floor, job: Job, task: int) -> None:
     """Set the server up for the job: a performance of a task of its own, after which the preparations go on."""
     station = job.station

@@ -43,6 +43,13 @@ def set_free(floor: Floor, worker: Worker) -> None:
     floor.free[worker.rank] = worker
 
 
+def take_off(floor: Floor, worker: Worker, kind: int, cause: int = 0) -> None:
+    """A free worker can be sent no more: he has a break, is off, or absent, until ``set_free``."""
+    log_worker(floor, worker)
+    del floor.free[worker.rank]
+    worker.kind, worker.cause, worker.since_s = kind, cause, floor.now
+
+
 def hold(floor: Floor, worker: Worker, job: Job) -> None:
     """The worker stays with a blocked job until it moves."""
     wait_by(floor, worker, JOB_BLOCKED)
@@ -67,7 +74,7 @@ def log_worker(floor: Floor, worker: Worker) -> None:
     now, kind = floor.now, worker.kind
     if now <= worker.since_s:
         return
-    if kind != WAIT and kind != WALK:
+    if kind == WORK or kind == SETUP:  # noqa: SIM109
         if worker.stint is not None:
             worker.stint.log(floor, worker)
         return

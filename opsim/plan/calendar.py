@@ -1,0 +1,124 @@
+"""When people, stations and sources are there: weekly patterns laid on the time of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from opsim.clock import DAY_S, DAYS, WEEK_S
+from opsim.names import natural_key
+from opsim.plan.ranks import ranked
+
+OPEN = tuple[tuple[float, float], ...]
+"""(from_s, to_s) of each time that something is open, in order, from 0 to the horizon."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """A break or a meeting: from when to when it is planned; place : where it is, -1 where the worker stands."""
+
+    name: str
+    start_s: float
+    end_s: float
+    meeting: bool = False
+    place: int = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Duty:
+    """One shift of one worker. Times are seconds from the start of the run, cut at its start and its horizon.
+
+    shift : rank among the shifts; number : how many shifts of his were before it
+    cut   : whether it goes on beyond the horizon
+    """
+
+    start_s: float
+    end_s: float
+    shift: int
+    number: int
+    pauses: tuple[Pause, ...] = ()
+    cut: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ShiftPlan:
+    """at_break, at_end : the rules of interruption, one of ``RULES``; overtime_s : how long after its end people stay
+    while the floor needs them.
+    """
+
+    name: str
+    at_break: str
+    at_end: str
+    overtime_s: float = 0.0
+
+
+def plan_shifts(scenario: Any) -> tuple[ShiftPlan, ...]:
+    """All shifts in natural order of names."""
+    shifts = sorted(scenario.shifts.items(), key=lambda item: natural_key(item[0]))
+    return tuple(
+        ShiftPlan(name, one.at_break, one.at_end, 0.0 if one.overtime is None else one.overtime.most_s)
+        for name, one in shifts
+    )
+
+
+def duties_of(worker: Any, scenario: Any, ranks: Any) -> tuple[Duty, ...] | None:
+    """The shifts of a worker within the run, in order; None where he is always there."""
+    if worker.shift is None:
+        return None
+    shift_ranks, horizon_s = ranked(scenario.shifts), scenario.run.horizon_s
+    return tuple(
+        Duty(
+            max(start_s, 0.0),
+            min(end_s, horizon_s),
+            shift_ranks[name],
+            number,
+            _pauses(scenario.shifts[name], day, start_s, horizon_s, ranks.places),
+            end_s > horizon_s,
+        )
+        for number, (start_s, end_s, day, name) in enumerate(begun(worker.shift, scenario))
+    )
+
+
+def open_times(shifts: list[str] | None, scenario: Any) -> OPEN | None:
+    """When something that is open in all of some shifts is open within the run; None where always."""
+    if shifts is None:
+        return None
+    times = sorted((start_s, end_s) for name in shifts for start_s, end_s, _, _ in begun([name], scenario))
+    joined: list[tuple[float, float]] = []
+    for start_s, end_s in times:
+        if joined and start_s <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(end_s, joined[-1][1])
+        else:
+            joined.append((start_s, end_s))
+    return tuple((max(start_s, 0.0), min(end_s, scenario.run.horizon_s)) for start_s, end_s in joined)
+
+
+def begun(names: list[str], scenario: Any) -> Iterator[tuple[float, float, str, str]]:
+    """(start_s, end_s, day, name) of each time that shifts, which follow each other week by week, come up in a run.
+
+    In order of time, in seconds from the start of the run, the first of them perhaps begun before it. The first name is
+    that of the week, from Monday 00:00, in which the run starts.
+    """
+    horizon_s, week = scenario.run.horizon_s, -1
+    while week * WEEK_S - scenario.run.start_s < horizon_s:
+        name = names[week % len(names)]
+        shift = scenario.shifts[name]
+        for day in shift.days:
+            start_s = week * WEEK_S + DAYS.index(day) * DAY_S + shift.start_s - scenario.run.start_s
+            if start_s + shift.length_s > 0 and start_s < horizon_s:
+                yield start_s, start_s + shift.length_s, day, name
+        week += 1
+
+
+def _pauses(shift: Any, day: str, start_s: float, horizon_s: float, places: dict[str, int]) -> tuple[Pause, ...]:
+    """The breaks and meetings of one shift, in order of time."""
+    found = []
+    for meeting, named in ((False, shift.breaks), (True, shift.meetings)):
+        for name, pause in named.items():
+            from_s = start_s + shift.offset_s(pause)
+            to_s = from_s + pause.lasts_s
+            if (pause.days is None or day in pause.days) and to_s > 0 and from_s < horizon_s:
+                place = -1 if pause.place is None else places[pause.place]
+                found.append(Pause(name, max(from_s, 0.0), min(to_s, horizon_s), meeting, place))
+    return tuple(sorted(found, key=lambda one: (one.start_s, natural_key(one.name))))
