@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+from opsim.engine.simpy_engine import run_plan
+from opsim.laws import audit
+from opsim.log import EventLog
 from opsim.plan import Plan, compile_plan
 from opsim.scenario.read import Loaded, scenarios_in
 
@@ -14,6 +17,17 @@ def loaded(text: str, variant: str = "base") -> Loaded:
 
 def plan(text: str) -> Plan:
     return compile_plan(loaded(text))
+
+
+def ran(text: str, *edits: tuple[str, str]) -> tuple[EventLog, Plan]:
+    """The log of a scenario with some of its words replaced, and its plan; the log obeys all laws."""
+    for old, new in edits:
+        assert old in text, old
+        text = text.replace(old, new)
+    made = plan(text)
+    log = run_plan(made)
+    audit(log, made)
+    return log, made
 
 
 def line(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Annotated
 
@@ -27,6 +28,18 @@ def to_sum_to_1(total: float) -> str:
     """What to do about shares, or probabilities, whose sum is another."""
     one = f"take {total - 1:g} from" if total > 1 else f"add {1 - total:g} to"
     return f"{one} one of them, or divide each by {total:g}" if total else "give one of them 1"
+
+
+def summing_to_1(what: str) -> AfterValidator:
+    """Numbers by name, without those that are 0, and with a sum of 1 to the last bits; ``what`` they are called."""
+
+    def read(numbers: dict[str, float]) -> dict[str, float]:
+        total = math.fsum(numbers.values())
+        if abs(total - 1) > 1e-6:
+            raise plain_error(f"the {what} sum to {total:g}; they must sum to 1", to_sum_to_1(total))
+        return {name: number / total for name, number in numbers.items() if number > 0}
+
+    return AfterValidator(read)
 
 
 def _quantity(

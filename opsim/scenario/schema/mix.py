@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
+from pydantic import BeforeValidator, WithJsonSchema
 
 from opsim.problems import shown
-from opsim.scenario.fields import plain_error, to_sum_to_1
+from opsim.scenario.fields import plain_error, summing_to_1
 from opsim.scenario.schema.routing import Probability
 
 LONGEST_SEQUENCE = 100_000
@@ -26,14 +25,6 @@ def _equal(value: object) -> object:
         found = f"expected products, or products with their shares, found {shown(value)}"
         raise plain_error(found, "such as [a, b] or {a: 0.7, b: 0.3}")
     return value
-
-
-def _sum_to_1(shares: dict[str, float]) -> dict[str, float]:
-    """The same without products that are never made, and with a sum of 1 to the last bits."""
-    total = math.fsum(shares.values())
-    if abs(total - 1) > 1e-6:
-        raise plain_error(f"the shares sum to {total:g}; they must sum to 1", to_sum_to_1(total))
-    return {name: share / total for name, share in shares.items() if share > 0}
 
 
 def _order(value: object) -> object:
@@ -57,7 +48,7 @@ _SHARE = {"anyOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"type": "st
 Shares = Annotated[
     dict[str, Probability],
     BeforeValidator(_equal),
-    AfterValidator(_sum_to_1),
+    summing_to_1("shares"),
     WithJsonSchema({"anyOf": [_NAMES, {"type": "object", "additionalProperties": _SHARE, "minProperties": 1}]}),
 ]
 Sequence = Annotated[list[str] | str, BeforeValidator(_order), WithJsonSchema({"anyOf": [_NAMES, {"type": "string"}]})]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import re
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
+from pydantic import BeforeValidator, WithJsonSchema
 
 from opsim.problems import shown
-from opsim.scenario.fields import plain_error, to_sum_to_1
+from opsim.scenario.fields import plain_error, summing_to_1
 
 START, OUT = "start", "out"
 _FRACTION = re.compile(r"\s*([0-9]{1,9})\s*/\s*([1-9][0-9]{0,8})\s*")
@@ -41,14 +40,6 @@ def _sure(value: object) -> object:
     return value
 
 
-def _sums_to_1(ways: dict[str, float]) -> dict[str, float]:
-    """The same without ways that are never taken, and with a sum of 1 to the last bits."""
-    total = math.fsum(ways.values())
-    if abs(total - 1) > 1e-6:
-        raise plain_error(f"the probabilities sum to {total:g}; they must sum to 1", to_sum_to_1(total))
-    return {name: p / total for name, p in ways.items() if p > 0}
-
-
 Probability = Annotated[
     float,
     BeforeValidator(_probability),
@@ -62,4 +53,4 @@ Probability = Annotated[
         }
     ),
 ]
-Onward = Annotated[dict[str, Probability], BeforeValidator(_sure), AfterValidator(_sums_to_1)]
+Onward = Annotated[dict[str, Probability], BeforeValidator(_sure), summing_to_1("probabilities")]

@@ -1,14 +1,13 @@
 """Batches on one server and lots: known answers by hand, and the laws."""
 
 import numpy as np
+import plans
 import pytest
-from plans import loaded, plan
+from plans import loaded
 
 from opsim import log as kinds
 from opsim.clock import on_grid
 from opsim.engine.rules.batch import batch_begins
-from opsim.engine.simpy_engine import run_plan
-from opsim.laws import audit
 from opsim.scenario.risks import risks_of
 
 OVEN = """
@@ -24,15 +23,7 @@ sources: {loaves: {kind: renewal, every: {fixed: 10 s}, sequence: [a, b]}}
 
 
 def ran(*edits):
-    """The log of a run whose laws hold."""
-    text = OVEN
-    for old, new in edits:
-        assert old in text, old
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log
+    return plans.ran(OVEN, *edits)[0]
 
 
 def baked(log):

@@ -1,14 +1,12 @@
 """A tool held between two moments of a performance, by hand arithmetic and by the marks of drawn movements."""
 
 import numpy as np
+import plans
 import pytest
-from plans import plan
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.kpi import figures
-from opsim.laws import audit
 from opsim.log import HELD, NO_TOOL, TOOL, WAIT, WORK
 
 CELL = """
@@ -28,15 +26,8 @@ workers: {w1: {skills: {s1: 1.0}}, w2: {skills: {s2: 1.0}}}
 """
 
 
-def ran(*changes):
-    text = CELL
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log, p
+def ran(*edits):
+    return plans.ran(CELL, *edits)
 
 
 def pieces(log, worker):

@@ -2,12 +2,12 @@
 
 import made_shops
 import numpy as np
+import plans
 import pytest
 from plans import plan
 
 from opsim import log as kinds
 from opsim.engine.simpy_engine import run_plan
-from opsim.laws import audit
 
 BIKES = """
 opsim: 1
@@ -29,15 +29,7 @@ sources:
 
 
 def ran(*edits):
-    """The log of a run whose laws hold."""
-    text = BIKES
-    for old, new in edits:
-        assert old in text, old
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log
+    return plans.ran(BIKES, *edits)[0]
 
 
 def times(log, kind, column="end_s", **wanted):

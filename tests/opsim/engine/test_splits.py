@@ -2,12 +2,10 @@
 
 import made_shops
 import numpy as np
+import plans
 import pytest
-from plans import plan
 
 from opsim import log as kinds
-from opsim.engine.simpy_engine import run_plan
-from opsim.laws import audit
 
 SAW = """
 opsim: 1
@@ -32,15 +30,7 @@ sources:
 
 
 def ran(*edits):
-    """The log of a run whose laws hold."""
-    text = SAW
-    for old, new in edits:
-        assert old in text, old
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log
+    return plans.ran(SAW, *edits)[0]
 
 
 def of_product(log, name):

@@ -1,11 +1,9 @@
 """Teams and attended runs by hand arithmetic: who comes, who waits, and whose time counts."""
 
+import plans
 import pytest
-from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
-from opsim.laws import audit
 from opsim.log import HELD, NO_WORKER, TEAM, WAIT, WALK, WORK
 
 CELL = """
@@ -23,15 +21,8 @@ workers: {w1: {skills: {s1: 1.0}}, w2: {skills: {s1: 0.5}}}
 """
 
 
-def ran(*changes):
-    text = CELL
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log, p
+def ran(*edits):
+    return plans.ran(CELL, *edits)
 
 
 def spans(log, kind, worker=-1, cause=None):

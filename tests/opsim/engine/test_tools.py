@@ -1,5 +1,6 @@
 """Tools by hand arithmetic: who has which from when to when, and who waits."""
 
+import plans
 import pytest
 from plans import plan
 
@@ -25,15 +26,8 @@ workers: {w1: {skills: {s1: 1.0}}, w2: {skills: {s2: 1.0}}, w3: {skills: {s3: 1.
 """
 
 
-def ran(*changes):
-    text = CELL
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    p = plan(text)
-    log = run_plan(p)
-    audit(log, p)
-    return log, p
+def ran(*edits):
+    return plans.ran(CELL, *edits)
 
 
 def spans(log, kind, station=None, cause=None):
