@@ -18,3 +18,14 @@ def ticks(times_s):
     import numpy as np
 
     return np.rint(np.asarray(times_s) * TICKS_PER_S).astype(np.int64)
+
+
+DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+DAY_S, WEEK_S = 86_400.0, 604_800.0
+
+
+def on_the_clock(time_s: float) -> str:
+    """Seconds from midnight of any day as a time of the day: "06:00", with seconds only where there are some."""
+    minutes, seconds = divmod(round(time_s % DAY_S), 60)
+    text = f"{minutes // 60 % 24:02d}:{minutes % 60:02d}"
+    return f"{text}:{seconds:02d}" if seconds else text

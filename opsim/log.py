@@ -10,16 +10,17 @@ import numpy as np
 
 KINDS = (
     *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
-    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool"),
+    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool", "sent_on", "stands"),
 )
 WORK, WALK, WAIT, BREAK, OFF, ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
-REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST, REWORK, TOOL = range(12, 22)
+REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST, REWORK, TOOL, SENT_ON, STANDS = range(12, 24)
 WORKER_KINDS = (WORK, WALK, WAIT, BREAK, OFF, ABSENT, SETUP, REPAIR)
 """Kinds that are states of a worker, where the row names one."""
 JOB_KINDS = (QUEUE, WORK, SETUP, TRANSPORT, BLOCKED, HELD)
 """Kinds that are states of a job, where the row names one."""
 STATION_KINDS = (DOWN, REPAIR, OFF)
-"""Kinds that are states of a station, in rows that name neither worker nor job."""
+"""Kinds that are states of a station, in rows that name neither worker nor job. STANDS is that of a paced line, in a
+row of its first station; SENT_ON an instant: a job left a station of such a line unfinished."""
 LEAVING_KINDS = (FINISH, SCRAP, JOIN, SPLIT, LOST)
 """Kinds by which a job leaves the floor, each an instant."""
 

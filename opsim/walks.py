@@ -34,8 +34,8 @@ def walks_of(log: EventLog, plan: Plan) -> Walks:
     rows = rows[np.lexsort([log["start_s"][rows], log["worker"][rows]])]
     worker, place_from, place_to = (log[name][rows] for name in ("worker", "place_from", "place_to"))
     first = np.searchsorted(worker, worker)
-    distance_m = np.array(plan.distance_m)[place_from, place_to]
     speed_m_per_s = np.array([person.walk_m_per_s for person in plan.workers])[worker]
+    distance_m = ways_m(log, plan, rows, speed_m_per_s)
     return Walks(
         worker,
         np.arange(rows.size) - first,
@@ -46,6 +46,16 @@ def walks_of(log: EventLog, plan: Plan) -> Walks:
         log["end_s"][rows],
         on_grid_each(distance_m / speed_m_per_s),
     )
+
+
+def ways_m(log: EventLog, plan: Plan, rows: np.ndarray, speed_m_per_s: np.ndarray) -> np.ndarray:
+    """(n,) metres of each of some walks; along a moving line, where the place stays the same, as far as the time goes.
+
+    speed_m_per_s : (n,) of who walks
+    """
+    place_from, place_to = log["place_from"][rows], log["place_to"][rows]
+    along_m = log.duration_s[rows] * speed_m_per_s
+    return np.where(place_from == place_to, along_m, np.array(plan.distance_m)[place_from, place_to])
 
 
 def on_grid_each(seconds: np.ndarray) -> np.ndarray:

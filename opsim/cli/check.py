@@ -39,6 +39,7 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[st
     from opsim.plan.joins import wide_joins
     from opsim.plan.loads import loads_of, overloads
     from opsim.plan.orders import late_orders
+    from opsim.plan.risks import hour_risks
     from opsim.plan.unread import unread
     from opsim.scenario import read_scenarios
     from opsim.scenario.risks import risks_of
@@ -49,7 +50,7 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[st
         plan = compile_plan(variant)
         loads[name] = loads_of(plan)
         warnings[name] = [*overloads(plan, loads[name]), *risks_of(variant.scenario), *late_orders(plan)]
-        warnings[name] += [*unread(plan), *wide_joins(plan)]
+        warnings[name] += [*hour_risks(plan, loads[name]), *unread(plan), *wide_joins(plan)]
     return loads, warnings
 
 

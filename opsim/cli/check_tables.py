@@ -33,10 +33,11 @@ def _print_stations(variant: str, loads: list[Any]) -> None:
     from opsim.cli.console import print_table
 
     setups, stops = any(load.setup_s for load in loads), any(load.up < 1 for load in loads)
-    more = (*(("set-up",) if setups else ()), *(("up",) if stops else ()))
+    hours = any(load.hours < 1 for load in loads)
+    more = (*(("set-up",) if setups else ()), *(("up",) if stops else ()), *(("hours",) if hours else ()))
     columns = ("station", "servers", "work a visit", *more, "visits a job", "most per h", "arrivals per h", "load")
     shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_STATIONS]
-    rows = [_cells(load, setups, stops) for load in shown]
+    rows = [_cells(load, setups, stops, hours) for load in shown]
     print_table(f"{variant}: load of the stations, from mean times", columns, rows)
     if len(loads) > MOST_ROWS:
         click.echo(f"{variant}: the {MOST_STATIONS} busiest of {len(loads)} stations are shown; --json has them all\n")
@@ -47,13 +48,14 @@ def _spare(load: Any) -> float:
     return load.most_per_h / load.visits if load.visits else float("inf")
 
 
-def _cells(load: Any, setups: bool, stops: bool) -> tuple[str, ...]:
+def _cells(load: Any, setups: bool, stops: bool, hours: bool) -> tuple[str, ...]:
     return (
         load.station,
         str(load.servers) if load.servers else "–",
         f"{load.work_s:.1f} s",
         *((f"{load.setup_s:.1f} s",) if setups else ()),
         *((f"{load.up:.1%}",) if stops else ()),
+        *((f"{load.hours:.1%}",) if hours else ()),
         f"{load.visits:.2f}" if load.visits or not load.arrivals_per_h else "–",  # of sources beside a saturated one
         f"{load.most_per_h:.1f}" if load.most_per_h < float("inf") else "–",
         "saturated" if load.arrivals_per_h is None else f"{load.arrivals_per_h:.1f}",
@@ -69,18 +71,24 @@ def _print_people(variant: str, skills: Any, crew: Any) -> None:
     rated = any(load.load is not None for load in skills)
     shown = skills if len(skills) <= MOST_ROWS else sorted(skills, key=lambda load: -load.wanted / max(1, load.able))
     shown = shown if len(skills) <= MOST_ROWS else shown[:MOST_SKILLS]
-    columns = ("skill", "workers", "work a visit", *(("wanted", "load") if rated else ()))
-    rows = [_skill_cells(load, rated) for load in shown]
+    hours = any(load.there < load.able for load in skills)
+    there = ("at work",) if hours else ()
+    columns = ("skill", "workers", *there, "work a visit", *(("wanted", "load") if rated else ()))
+    rows = [_skill_cells(load, rated, hours) for load in shown]
     print_table(f"{variant}: load of the skills, from mean times, walks not counted", columns, rows)
     if crew is not None and rated:
         who = f"{len(crew.workers)} workers" if len(crew.workers) > 1 else crew.workers[0]
+        more = "" if crew.with_overtime is None else f", {crew.with_overtime:.0%} with all overtime"
         where = ", ".join(crew.skills[:6]) + (" and others" if len(crew.skills) > 6 else "")
-        click.echo(f"{variant}: however work is shared, {crew.share:.0%} of the time of {who} ({where}) is wanted\n")
+        click.echo(
+            f"{variant}: however work is shared, {crew.share:.0%} of the time of {who} ({where}) is wanted{more}\n"
+        )
 
 
-def _skill_cells(load: Any, rated: bool) -> tuple[str, ...]:
+def _skill_cells(load: Any, rated: bool, hours: bool) -> tuple[str, ...]:
     wanted = (f"{load.wanted:.2f}", "–" if load.load is None else f"{load.load:.0%}") if rated else ()
-    return (load.skill, str(load.able), f"{load.work_s:.1f} s", *wanted)
+    there = (f"{load.there:.2f}",) if hours else ()
+    return (load.skill, str(load.able), *there, f"{load.work_s:.1f} s", *wanted)
 
 
 def _print_shared(variant: str, shared: list[Any]) -> None:

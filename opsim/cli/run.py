@@ -76,14 +76,15 @@ def _reached(variant: str, one: dict[str, Any], n: int) -> str:
 
 def _reports(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Path]:
     """Write the report of each variant; strips of one model are drawn once."""
-    from opsim.report import scenario_strips, walks_section, write_report
+    from opsim.report import days_section, scenario_strips, walks_section, write_report
 
     reports: dict[str, Path] = {}
     drawn: dict[tuple[str, str], bytes] = {}
     for name, result in results.items():
         strips = scenario_strips(variants[name], result.summary["tasks"], drawn)
         walks = walks_section(variants[name], result)
-        reports[name] = write_report(result, result.folder / "report.html", strips, walks)
+        days = days_section(variants[name], result)
+        reports[name] = write_report(result, result.folder / "report.html", strips, walks, days)
     return reports
 
 

@@ -7,12 +7,15 @@ from typing import Any
 
 _ALWAYS = ("work", "blocked", "loaded")
 _WHERE_LARGE = {
-    "station_states": ("setup", "down", "repair", "parts", "tool", "place", "pickup", "waiting"),
-    "worker_states": ("setup", "walk", "held", "team", "tool"),
+    "station_states": ("setup", "down", "repair", "parts", "tool", "place", "pickup", "away", "takt", "line_stop", "waiting"),
+    "worker_states": ("setup", "walk", "held", "team", "tool", "absent"),
 }
 """States beside those of ``_ALWAYS``, shown where some variant has more of them than ``_LARGE``; the report has all."""
 _LARGE = 0.05
-_BY_STOP = ("stops_per_h", "down_s", "wait_for_repair_s", "stop_share")
+_BY_STOP = (
+    *("stops_per_h", "down_s", "wait_for_repair_s", "stop_share", "interruptions_per_h"),
+    *("incomplete_share", "line_stopped_share"),
+)
 Cells = dict[str, dict[str, Any]]
 
 

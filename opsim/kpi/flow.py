@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.kpi.figure import Figure
+from opsim.kpi.open_hours import open_hours
 from opsim.kpi.values import (
     SECONDS_PER_HOUR,
     by_rank,
@@ -24,18 +25,19 @@ def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Good units finished in the window per hour, in all and by product; a lot counts as its units.
 
     A job that leaves with a defect is not good, though nobody found the defect (``defects_out_share``). What ends in
-    a store is no output until it goes out as a part of something. No calendar closes release or stations yet, so
-    scheduled open hours and calendar hours are the same.
+    a store is no output until it goes out as a part of something. ``throughput_per_h`` counts the hours for which the
+    floor is scheduled to be open, ``throughput_per_calendar_h`` all hours of the window; nan where there are none.
     """
-    hours = window_length_s(plan) / SECONDS_PER_HOUR
+    scheduled = open_hours(plan) or np.nan
     done = _ended(log, plan, FINISH)
     product = log["product"][done[log["cause"][done] != BAD]]
     units = np.bincount(product, minlength=len(plan.products)) * units_each(plan)
-    for name in ("throughput_per_h", "throughput_per_calendar_h"):
+    calendar = window_length_s(plan) / SECONDS_PER_HOUR
+    for name, hours in (("throughput_per_h", scheduled), ("throughput_per_calendar_h", calendar)):
         yield Figure(name, "", "", "1/h", units.sum() / hours)
     finished = [rank for rank in range(len(plan.products)) if finishes(plan, rank)]
     for rank in finished if len(finished) > 1 else ():
-        yield Figure("throughput_per_h", plan.products[rank].name, "", "1/h", units[rank] / hours)
+        yield Figure("throughput_per_h", plan.products[rank].name, "", "1/h", units[rank] / scheduled)
 
 
 def lost(log: EventLog, plan: Plan) -> Iterator[Figure]:

@@ -74,6 +74,15 @@ KPIS = (
     "false_alarm_share",
     "tool_use",
     "tools_waited_for",
+    "on_duty_h",
+    "duty_use",
+    "overtime_h",
+    "absent_share",
+    "interruptions_per_h",
+    "hand_overs_per_h",
+    "handoff_position",
+    "incomplete_share",
+    "line_stopped_share",
     *POSTURE,
 )
 

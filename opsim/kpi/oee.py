@@ -6,8 +6,9 @@ import numpy as np
 
 from opsim.kpi.cycle import visits
 from opsim.kpi.figure import Figure
+from opsim.kpi.open_hours import elapsed_s, open_time_s, station_hours
 from opsim.kpi.outages import outage_rows
-from opsim.kpi.values import in_window, inside_s, window_length_s
+from opsim.kpi.values import in_window, inside_s
 from opsim.log import BATCH, BREAKDOWN, HELD, MAINTENANCE, REWORK, SCRAP, SETUP, WORK, EventLog
 from opsim.plan import Plan
 
@@ -15,7 +16,7 @@ from opsim.plan import Plan
 def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """OEE = availability x performance x quality, per server of a station over the window; each factor beside it.
 
-    Planned time is the window without planned maintenance; no calendar closes a station yet.
+    Planned time is that of the window in which the station is open, without planned maintenance.
     availability : the share of planned time in which the station is neither down by a breakdown nor being set up
     performance  : seconds the work done should take by the tasks' mean durations / seconds available. It is speed
                    (should take / took) times use (took / available), so blocking, starving and waiting lower it
@@ -49,12 +50,25 @@ def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
 def _times(log: EventLog, plan: Plan, servers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(stations,) seconds of servers in the window that are planned for work, and those of them it can be done in."""
     stops = outage_rows(log)
-    down_s = inside_s(log, stops, plan) * servers[log["station"][stops]]
+    down_s = _open_s(log, plan, stops) * servers[log["station"][stops]]
     maintained = log["cause"][stops] == MAINTENANCE
     setups = np.flatnonzero((log["kind"] == SETUP) & (log["station"] >= 0) & (log["job"] >= 0))
-    planned_s = window_length_s(plan) * servers - _by_station(log, plan, stops[maintained], down_s[maintained])
+    open_s = [open_time_s(plan, station_hours(plan, rank)) for rank in range(len(plan.stations))]
+    planned_s = np.array(open_s) * servers - _by_station(log, plan, stops[maintained], down_s[maintained])
     lost_s = _by_station(log, plan, stops[~maintained], down_s[~maintained])
     return planned_s, planned_s - lost_s - _by_station(log, plan, setups, inside_s(log, setups, plan))
+
+
+def _open_s(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
+    """(rows,) seconds in the window of some rows while their station is open."""
+    seconds = inside_s(log, rows, plan)
+    for rank, place in enumerate(plan.stations):
+        here = log["station"][rows] == rank
+        if place.open_s is not None and here.any():
+            edges_s = (np.clip(log[edge][rows[here]], *plan.window_s) for edge in ("start_s", "end_s"))
+            begin_s, end_s = (elapsed_s(place.open_s, at_s) for at_s in edges_s)
+            seconds[here] = end_s - begin_s
+    return seconds
 
 
 def _quality(log: EventLog, plan: Plan) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import SECONDS_PER_HOUR, inside_s, mean, window_length_s
-from opsim.log import BREAKDOWN, DOWN, MAINTENANCE, STATION_KINDS, EventLog
+from opsim.log import BREAKDOWN, DOWN, MAINTENANCE, REPAIR, EventLog
 from opsim.plan import Plan
 
 KINDS_OF_STOP = {"breakdown": BREAKDOWN, "maintenance": MAINTENANCE}
@@ -34,7 +34,7 @@ class Stretches:
 
 def outage_rows(log: EventLog) -> np.ndarray:
     """Numbers of the rows in which a station was down or repaired, in time."""
-    of_stations = np.isin(log["kind"], STATION_KINDS) & (log["worker"] < 0) & (log["job"] < 0) & (log["station"] >= 0)
+    of_stations = np.isin(log["kind"], (DOWN, REPAIR)) & (log["worker"] < 0) & (log["job"] < 0) & (log["station"] >= 0)
     return np.flatnonzero(of_stations)
 
 

@@ -6,8 +6,9 @@ import numpy as np
 
 from opsim.ergonomics.exposure import DEGREES, Exposure, trunk_exposure
 from opsim.ergonomics.walking import Walked, walking_exposure
+from opsim.kpi.duty import present_s
 from opsim.kpi.figure import Figure
-from opsim.kpi.values import SECONDS_PER_HOUR, window_length_s
+from opsim.kpi.values import SECONDS_PER_HOUR
 from opsim.log import EventLog
 from opsim.plan import Plan
 
@@ -27,10 +28,10 @@ def trunk_flexion(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Figures of the trunk over all workers together (no subject) and of each; none where there are no workers.
 
     trunk_beyond_60_min_per_h, ..._20_... : measured minutes of work with the trunk flexed so far or further, in an hour
-        of the window and of a worker, who is present all of it since no calendar closes anything yet. All together:
-        an hour of all workers' time. So unmeasured work makes it too small; nan where no work at all was measured
+        of the window in which the worker is there, breaks included. All together: an hour of all workers' time. So
+        unmeasured work makes it too small; nan where no work at all was measured, or nobody was ever there
     trunk_flexion_mean_deg, trunk_flexion_p95_deg : over the measured time of work, forward positive
-    trunk_flexion_share    : parts of the window that sum to 1; not_at_work is walking and waiting, never measured
+    trunk_flexion_share    : parts of that time, which sum to 1; not_at_work is walking and waiting, never measured
     posture_measured_share : of the time of work, how much has a known posture
 
     Where the plan names a walking emulator, minutes, mean and percentile have the parts ``walking`` and ``together``
@@ -42,12 +43,12 @@ def trunk_flexion(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """
     if not plan.workers:
         return
-    worked, hours = trunk_exposure(log, plan), window_length_s(plan) / SECONDS_PER_HOUR
+    worked, hours = trunk_exposure(log, plan), present_s(log, plan) / SECONDS_PER_HOUR
     walked = None if plan.walking is None else walking_exposure(log, plan)
     all_walked = None if walked is None else walked.together()
-    yield from _of("", worked.together(), all_walked, 0, hours * len(plan.workers))
+    yield from _of("", worked.together(), all_walked, 0, float(hours.sum()) or np.nan)
     for rank, worker in enumerate(plan.workers):
-        yield from _of(worker.name, worked, walked, rank, hours)
+        yield from _of(worker.name, worked, walked, rank, float(hours[rank]) or np.nan)
 
 
 def _of(subject: str, worked: Exposure, walked: Walked | None, rank: int, hours: float) -> Iterator[Figure]:

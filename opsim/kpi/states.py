@@ -1,13 +1,25 @@
-"""Shares of time: what workers and stations are doing. The parts of each subject sum to 1."""
+"""Shares of time: what workers are doing. The parts of each subject sum to 1."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from opsim import log as kinds
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import inside_s, window_length_s
-from opsim.log import JOB_BLOCKED, KINDS, NO_TOOL, SETUP, TEAM, TRANSPORT, WAIT, WALK, WORK, EventLog
+from opsim.log import BREAK, WAIT, EventLog
 from opsim.plan import Plan
+
+WORK, WALK, IDLE = "work", "walk", "wait"
+BY_KIND = {
+    **{kinds.WORK: WORK, kinds.WALK: WALK, kinds.TRANSPORT: WALK, kinds.WAIT: IDLE, kinds.SETUP: "setup"},
+    **{kinds.BREAK: "break", kinds.OFF: "off", kinds.ABSENT: "absent"},
+}
+BY_CAUSE = {
+    **{(WAIT, kinds.JOB_BLOCKED): "held", (WAIT, kinds.TEAM): "team", (WAIT, kinds.NO_TOOL): "tool"},
+    **{(WAIT, kinds.BEHIND): "behind", (BREAK, kinds.MEETING): "meeting"},
+}
+STATES = tuple(dict.fromkeys([*BY_KIND.values(), *BY_CAUSE.values()]))
 
 
 def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -15,32 +27,41 @@ def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     held : standing by a blocked job, where allocation holds him, or he is to carry it; setup : setting a station up;
     team : waiting for the others of a team, before the work or after it; tool : waiting, in the middle of a task, for
-    the tool it takes now
+    the tool it takes now; behind : waiting for the member of his crew who is ahead of him; break, meeting, off, absent
+    : of floors where people work in shifts
     """
-    rows = np.flatnonzero(log["worker"] >= 0)
-    kinds = _seconds_by_kind(log, plan, rows)
-    waits = rows[log["kind"][rows] == WAIT]
-    held_s, team_s, tool_s = (
-        _seconds_by_kind(log, plan, waits[log["cause"][waits] == cause])[:, WAIT]
-        for cause in (JOB_BLOCKED, TEAM, NO_TOOL)
-    )
-    parts = {"work": kinds[:, WORK], "walk": kinds[:, WALK] + kinds[:, TRANSPORT]}
-    parts["wait"] = kinds[:, WAIT] - held_s - team_s - tool_s
-    if plan.when_blocked == "held" or any(product.carried for product in plan.products):
-        parts["held"] = held_s
-    if any(setup.attended for setup in plan.setups):
-        parts["setup"] = kinds[:, SETUP]
-    if any(task.team > 1 for task in plan.tasks):
-        parts["team"] = team_s
-    if any(task.hold is not None for task in plan.tasks):
-        parts["tool"] = tool_s
-    for rank, worker in enumerate(plan.workers):
-        for part, spent_s in parts.items():
-            yield Figure("worker_states", worker.name, part, "share", spent_s[rank] / window_length_s(plan))
+    rows, state = states_of_rows(log)
+    cell = log["worker"][rows].astype(np.int64) * len(STATES) + state
+    n_cells = len(plan.workers) * len(STATES)
+    spent_s = np.bincount(cell, weights=inside_s(log, rows, plan), minlength=n_cells).reshape(-1, len(STATES))
+    for worker, of_worker in zip(plan.workers, spent_s):
+        for part in possible(plan):
+            yield Figure(
+                "worker_states", worker.name, part, "share", of_worker[STATES.index(part)] / window_length_s(plan)
+            )
 
 
-def _seconds_by_kind(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
-    """(workers, kinds) seconds in the window of some rows, by worker and by kind."""
-    n = len(plan.workers)
-    cell = log["worker"][rows].astype(np.int64) * len(KINDS) + log["kind"][rows]
-    return np.bincount(cell, weights=inside_s(log, rows, plan), minlength=n * len(KINDS)).reshape(n, len(KINDS))
+def states_of_rows(log: EventLog) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the rows that say what a worker does, and (rows,) which of ``STATES`` that is."""
+    rows = np.flatnonzero((log["worker"] >= 0) & np.isin(log["kind"], list(BY_KIND)))
+    kind, cause = log["kind"][rows], log["cause"][rows]
+    of_kind = np.zeros(len(kinds.KINDS), dtype=np.int64)
+    for number, state in BY_KIND.items():
+        of_kind[number] = STATES.index(state)
+    found = of_kind[kind]
+    for (number, why), state in BY_CAUSE.items():
+        found[(kind == number) & (cause == why)] = STATES.index(state)
+    return rows, found
+
+
+def possible(plan: Plan) -> list[str]:
+    """The states that workers of a plan can be in."""
+    can_be = {
+        "held": plan.when_blocked == "held" or any(product.carried for product in plan.products),
+        "setup": any(setup.attended for setup in plan.setups),
+        "team": any(task.team > 1 for task in plan.tasks),
+        "tool": any(task.hold is not None for task in plan.tasks),
+        "behind": bool(plan.crews),
+        **dict.fromkeys(("break", "meeting", "off", "absent"), any(w.duties is not None for w in plan.workers)),
+    }
+    return [WORK, WALK, IDLE, *(part for part, can in can_be.items() if can)]

@@ -6,14 +6,24 @@ import numpy as np
 
 from opsim import log as kinds
 from opsim.kpi.figure import Figure
+from opsim.kpi.open_hours import closed_hours, open_time_s
 from opsim.kpi.outages import Stretches, outage_rows, outages_of, stops_of
 from opsim.kpi.values import by_rank, changes, inside_s, window_length_s
 from opsim.log import BLOCKED, HELD, QUEUE, SETUP, WORK, EventLog
 from opsim.plan import Plan
 from opsim.plan.assembly import jobs_on_a_server
+from opsim.plan.hours.spans import Spans, either
 from opsim.plan.station import STATION
 
-WAITS = {"parts": kinds.NO_PARTS, "tool": kinds.NO_TOOL, "place": kinds.NO_PLACE, "pickup": kinds.PICKUP}
+WAITS = {
+    "parts": kinds.NO_PARTS,
+    "tool": kinds.NO_TOOL,
+    "place": kinds.NO_PLACE,
+    "pickup": kinds.PICKUP,
+    "away": kinds.AWAY,
+    "takt": kinds.TAKT,
+    "line_stop": kinds.LINE_STOP,
+}
 """What a job on a server may wait for, beside a worker: part -> cause."""
 
 
@@ -22,6 +32,8 @@ def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     setup : being set up; down, repair : all servers stand, and nobody or somebody repairs or maintains the station
     parts, tool, place, pickup : a job wants parts, tools, a place kept downstream, or a transporter
+    away : a job waits for the worker who began it; closed : closed by its calendar, but for what is finished then
+    takt, line_stop : on an indexed line, a job is done and waits for the line, which runs or stands
     And the jobs in its buffer or on its servers waiting for something but room, averaged over the window.
     """
     length_s = window_length_s(plan)
@@ -37,7 +49,7 @@ def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
     for rank, place in stations:
         waits = rows_of[rank]
         waits = waits[np.isin(log["kind"][waits], (QUEUE, HELD))]
-        waits = waits[~np.isin(log["cause"][waits], (kinds.AFTER, kinds.PICKUP))]
+        waits = waits[~np.isin(log["cause"][waits], (kinds.AFTER, kinds.PICKUP, kinds.TAKT, kinds.LINE_STOP))]
         yield Figure("queue_length", place.name, "", "jobs", inside_s(log, waits, plan).sum() / length_s)
 
 
@@ -45,7 +57,9 @@ _STATES = (WORK, SETUP, BLOCKED, HELD, QUEUE)
 
 
 def _parts(log: EventLog, plan: Plan, rank: int, rows: np.ndarray, stops: np.ndarray) -> dict[str, float]:
-    """Seconds of servers in each state but starved. A station that is down is nothing else, whatever stands there."""
+    """Seconds of servers in each state but starved. A station that is down is nothing else, whatever stands there; one
+    that is closed is at work as long as something is finished there, and else closed, whether it is down or not.
+    """
     kind, cause = log["kind"][rows], log["cause"][rows]
     can_be = possible(plan, rank)
     states = {"work": kind == WORK, "blocked": kind == BLOCKED}
@@ -57,18 +71,37 @@ def _parts(log: EventLog, plan: Plan, rank: int, rows: np.ndarray, stops: np.nda
     if "setup" in can_be:
         states["setup"] = kind == SETUP
     outages = outages_of(log, stops, rank)
+    shut = _stretches(closed_hours(plan, rank))
+    stands = _stretches(either(_spans(outages), _spans(shut))) if shut.start_s.size else outages
     start_s, end_s = log["start_s"][rows], log["end_s"][rows]
-    parts = {part: _up_s(plan, start_s[mask], end_s[mask], outages) for part, mask in states.items()}
+    parts = {
+        part: _up_s(plan, start_s[mask], end_s[mask], outages if part in ("work", "setup") else stands)
+        for part, mask in states.items()
+    }
     together = jobs_on_a_server(plan, rank)
     if together > 1:
         waits = states["blocked"] | states.pop("pickup", states["blocked"])
-        parts["blocked"] = _up_s(plan, *_shared(log, rows[waits], together), outages)
+        parts["blocked"] = _up_s(plan, *_shared(log, rows[waits], together), stands)
         parts |= {"pickup": 0.0} if "pickup" in parts else {}
     if "down" in can_be:
         for part, number in (("down", kinds.DOWN), ("repair", kinds.REPAIR)):
             here = stops[(log["station"][stops] == rank) & (log["kind"][stops] == number)]
-            parts[part] = float(inside_s(log, here, plan).sum()) * plan.stations[rank].servers
+            parts[part] = _up_s(plan, log["start_s"][here], log["end_s"][here], shut) * plan.stations[rank].servers
+    if shut.start_s.size:
+        busy = np.isin(kind, (WORK, SETUP))
+        finished_s = shut.meet_s(*(np.clip(edge[busy], *plan.window_s) for edge in (start_s, end_s))).sum()
+        shut_s = open_time_s(plan, closed_hours(plan, rank))
+        parts["closed"] = shut_s * plan.stations[rank].servers - float(finished_s)
     return parts
+
+
+def _stretches(spans: Spans) -> Stretches:
+    edges_s = np.array(spans, dtype=float).reshape(-1, 2)
+    return Stretches(edges_s[:, 0], edges_s[:, 1])
+
+
+def _spans(stretches: Stretches) -> Spans:
+    return tuple(zip(stretches.start_s.tolist(), stretches.end_s.tolist()))
 
 
 def possible(plan: Plan, rank: int) -> set[str]:
@@ -81,7 +114,9 @@ def possible(plan: Plan, rank: int) -> set[str]:
         "tool": bool(place.needs) or any(plan.tasks[task].needs or plan.tasks[task].hold for task in place.tasks),
         "place": place.place_first,
         "pickup": any(leg.before == rank for pool in plan.transporters for leg in pool.legs),
+        "away": any(worker.duties is not None and worker.rating[rank] > 0 for worker in plan.workers),
     }
+    found |= dict.fromkeys(("takt", "line_stop"), any(rank in line.stations and not line.moves for line in plan.lines))
     return {part for part, can_be in found.items() if can_be}
 
 

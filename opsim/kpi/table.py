@@ -7,11 +7,15 @@ import numpy as np
 from opsim.kpi.active import active_time
 from opsim.kpi.balance import line_balance
 from opsim.kpi.bottleneck import bottleneck
+from opsim.kpi.crews import crews
 from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
 from opsim.kpi.due import due_dates
+from opsim.kpi.duty import duty
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
+from opsim.kpi.interruptions import interruptions
 from opsim.kpi.names import needs_postures
+from opsim.kpi.lines import lines
 from opsim.kpi.oee import oee
 from opsim.kpi.outages import outages
 from opsim.kpi.posture import trunk_flexion
@@ -50,6 +54,10 @@ _FUNCTIONS = (
     transporters,
     quality,
     tools,
+    duty,
+    interruptions,
+    crews,
+    lines,
 )
 
 

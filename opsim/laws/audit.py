@@ -2,8 +2,12 @@
 
 from collections.abc import Callable, Iterator
 
+from opsim.laws.closed import closed
+from opsim.laws.duty import duty
 from opsim.laws.jobs import conserved, integral, tiled
 from opsim.laws.outages import outages
+from opsim.laws.places import places
+from opsim.laws.progress import progress
 from opsim.laws.rooms import rooms
 from opsim.laws.shared import shared
 from opsim.laws.stays import Stays
@@ -19,7 +23,11 @@ LAWS: dict[str, Law] = {
     "a job's rows tile its stay without gap": tiled,
     "time of jobs' rows in the window equals the integral of jobs inside": integral,
     "no station, store or conveyor holds more jobs than it has room for": rooms,
+    "every second of every worker has a place, and nobody moves but by walking": places,
+    "people work in their shifts, and after them only for what they stay for": duty,
+    "the pieces of a performance follow one another and add up to one": progress,
     "nobody works at a station that is down": outages,
+    "nothing begins at a station that its calendar closes": closed,
     "no more tools, cards, repair teams and vehicles are in use than there are": shared,
 }
 """Each law yields what it finds wrong, in words; nothing where the log obeys it."""

@@ -6,13 +6,13 @@ import numpy as np
 
 from opsim.clock import ticks
 from opsim.laws.stays import Stays, words
-from opsim.log import SETUP, STATION_KINDS, WORK, EventLog
+from opsim.log import DOWN, REPAIR, SETUP, WORK, EventLog
 from opsim.plan import Plan
 
 
 def outages(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
     """Rows of a station's outages do not overlap, and no performance or set-up there overlaps with one of them."""
-    down = log.where(np.isin(log["kind"], STATION_KINDS) & (log["job"] < 0) & (log["worker"] < 0))
+    down = log.where(np.isin(log["kind"], (DOWN, REPAIR)) & (log["job"] < 0) & (log["worker"] < 0))
     if not len(down):
         return
     at_work = log.where(np.isin(log["kind"], (WORK, SETUP)) & (log["station"] >= 0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 from opsim.clock import DAY_S, DAYS, WEEK_S
@@ -92,6 +93,11 @@ def open_times(shifts: list[str] | None, scenario: Any) -> OPEN | None:
         else:
             joined.append((start_s, end_s))
     return tuple((max(start_s, 0.0), min(end_s, scenario.run.horizon_s)) for start_s, end_s in joined)
+
+
+def next_open(hours: OPEN, at_s: float) -> float:
+    """The first time from ``at_s`` on at which something with hours is open; inf where there is none in the run."""
+    return next((max(at_s, from_s) for from_s, to_s in hours if at_s < to_s), inf)
 
 
 def begun(names: list[str], scenario: Any) -> Iterator[tuple[float, float, str, str]]:

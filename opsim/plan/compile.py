@@ -21,6 +21,7 @@ from opsim.plan.tasks import plan_tasks
 from opsim.plan.tools import plan_tools
 from opsim.plan.transporters import plan_transporters
 from opsim.plan.walking import plan_walking
+from opsim.plan.work_sharing import plan_shares
 from opsim.plan.worker import plan_workers
 
 
@@ -38,7 +39,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
     products = with_detours(scenario, ranks, plan_products(scenario, ranks.stations))
     assembly = plan_assembly(scenario, ranks, plan_sources(loaded, ranks, model_of))
     queues = plan_queues(scenario, ranks, has_priorities(products, assembly.sources))
-    looked_at = looks_ahead(queues, scenario.flow.routing)
+    looked_at = looks_ahead(queues, scenario.flow.routing, scenario.allocation.rule)
     together = {batch.station for batch in assembly.batches}
     return Plan(
         name=scenario.name,
@@ -78,4 +79,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         crews=plan_crews(scenario, ranks),
         lines=plan_lines(scenario, ranks),
         rotations=plan_rotations(scenario, ranks),
+        shares=plan_shares(scenario, ranks),
+        priorities=tuple(scenario.allocation.priorities),
+        serve=scenario.allocation.serve,
     )

@@ -2,12 +2,15 @@
 
 from dataclasses import dataclass
 
+from opsim.names import natural_key
+from opsim.plan.ranks import Ranks, ranked
+
 BUCKET_BRIGADE, RABBIT_CHASE = "bucket_brigade", "rabbit_chase"
 
 
 @dataclass(frozen=True, slots=True)
 class CrewPlan:
-    """stations : ranks in the order of the line; workers : ranks, in a bucket brigade from the line's start on."""
+    """stations, workers : ranks, in the order of the line; of a bucket brigade, from who begins jobs to who ends them."""
 
     name: str
     kind: str
@@ -15,6 +18,15 @@ class CrewPlan:
     workers: tuple[int, ...]
 
 
-def plan_crews(scenario, ranks) -> tuple[CrewPlan, ...]:
+def plan_crews(scenario, ranks: Ranks) -> tuple[CrewPlan, ...]:
     """All crews in natural order of names."""
-    return ()
+    people = ranked(scenario.workers)
+    return tuple(
+        CrewPlan(
+            name,
+            crew.kind,
+            tuple(ranks.stations[station] for station in crew.stations),
+            tuple(people[worker] for worker in crew.workers),
+        )
+        for name, crew in sorted(scenario.crews.items(), key=lambda item: natural_key(item[0]))
+    )

@@ -1,18 +1,101 @@
 """Paced lines: stations whose jobs move together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
+
+from opsim.clock import TICKS_PER_S, on_grid
+from opsim.names import natural_key
+from opsim.plan.ranks import Ranks, ranked
+
+INDEXED, MOVING = "indexed", "moving"
+STOP, SEND_ON = "stop", "send_on"
+NEVER_S = inf
 
 
 @dataclass(frozen=True, slots=True)
 class LinePlan:
-    """stations : ranks, in the order of the line."""
+    """stations : ranks, in the order of the line; takt_s : from one job coming onto it to the next
+
+    sends_on : whether a job that is not done goes on as it is; else the line stands until it is done
+    floaters : ranks of the workers who are called ``call_s`` after a job has come to a station (its stretch), and
+               whether they help who is there; nobody where there are none
+    speed_m_per_s : of a moving line; 0 of an indexed one
+    start_m  : of a moving line, where each station's stretch begins, from the beginning of the line
+    reach_s, limit_s : for each station of a moving line, how long after it came onto the line a job is where its worker
+               may begin, and where he must stop, while the line moves; exit_s : when it is at the end of the line
+    """
 
     name: str
     kind: str
     stations: tuple[int, ...]
     takt_s: float
+    sends_on: bool = False
+    floaters: tuple[int, ...] = ()
+    call_s: float = NEVER_S
+    helps: bool = False
+    speed_m_per_s: float = 0.0
+    start_m: tuple[float, ...] = ()
+    reach_s: tuple[float, ...] = ()
+    limit_s: tuple[float, ...] = ()
+    exit_s: float = 0.0
+
+    @property
+    def moves(self) -> bool:
+        """Whether it is a line that moves all the time."""
+        return self.kind == MOVING
+
+    def start_s(self, at: int) -> float:
+        """How long after it came onto a moving line a job is where the stretch of the at-th station begins."""
+        return _line_s(self.start_m[at] / self.speed_m_per_s)
+
+    def reach_m(self, at: int) -> float:
+        """Where on a moving line the worker of the at-th station may begin."""
+        return self.reach_s[at] * self.speed_m_per_s
 
 
-def plan_lines(scenario, ranks) -> tuple[LinePlan, ...]:
+def plan_lines(scenario, ranks: Ranks) -> tuple[LinePlan, ...]:
     """All paced lines in natural order of names."""
-    return ()
+    lines = sorted(scenario.lines.items(), key=lambda item: natural_key(item[0]))
+    return tuple(_line(name, line, scenario, ranks) for name, line in lines)
+
+
+def buffer_of(name: str, buffer: float, scenario) -> float:
+    """Places in front of a station: none at one of an indexed line, any number on a stretch of a moving one."""
+    kind = next((line.kind for line in scenario.lines.values() if name in line.stations), None)
+    return {None: buffer, INDEXED: 0, MOVING: inf}[kind]
+
+
+def _line(name: str, line, scenario, ranks: Ranks) -> LinePlan:
+    stations = tuple(ranks.stations[station] for station in line.stations)
+    common = LinePlan(name, line.kind, stations, on_grid(line.takt_s), line.unfinished == SEND_ON, *_andon(line, scenario))
+    return _moving(common, line) if line.kind == MOVING else common
+
+
+def _andon(line, scenario) -> tuple[tuple[int, ...], float, bool]:
+    """Who is called, when, and whether he helps."""
+    if line.andon is None:
+        return (), NEVER_S, False
+    workers = ranked(scenario.workers)
+    floaters = tuple(sorted(workers[name] for name in set(line.andon.workers)))
+    return floaters, _line_s(line.andon.at_s), line.andon.does == "help"
+
+
+def _moving(plan: LinePlan, line) -> LinePlan:
+    """The stretches of the stations one after the other, in metres and in the time that the line takes."""
+    speed = line.pace_m_per_s
+    start_m = [0.0]
+    for station in line.stations:
+        start_m.append(start_m[-1] + line.lengths_m.get(station, line.length_m))
+    return replace(
+        plan,
+        speed_m_per_s=speed,
+        start_m=tuple(start_m[:-1]),
+        reach_s=tuple(_line_s(max(0.0, metres - line.upstream_m) / speed) for metres in start_m[:-1]),
+        limit_s=tuple(_line_s((metres + line.drift_m) / speed) for metres in start_m[1:]),
+        exit_s=_line_s(start_m[-1] / speed),
+    )
+
+
+def _line_s(seconds: float) -> float:
+    """A time on the line's clock, on the grid; it may be 0, where a delay may not."""
+    return round(seconds * TICKS_PER_S) / TICKS_PER_S

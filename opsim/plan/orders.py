@@ -7,6 +7,7 @@ from math import inf
 from typing import Any
 
 from opsim.clock import on_grid
+from opsim.plan.calendar import next_open, open_times
 
 ANY = -1
 """The product of an order that does not say one: drawn from the mix of its source."""
@@ -30,23 +31,28 @@ class OrderPlan:
 
 
 def plan_orders(loaded: Any, release: Any, products: dict[str, int]) -> tuple[tuple[OrderPlan, ...], int]:
-    """The orders of a schedule that come before the horizon, by time, and how many orders come too late."""
+    """The orders of a schedule that come before the horizon, by time, and how many orders come too late.
+
+    Where the schedule has hours, what is ordered outside of them comes when the next of them begin.
+    """
     from opsim.orders import read_orders
     from opsim.recorded import resolve_times
 
     orders, _ = read_orders(resolve_times(release.file, loaded.folder), products)
-    in_time = [order for order in orders if order.time_s < loaded.scenario.run.horizon_s]
-    firsts = accumulate((order.quantity for order in in_time), initial=0)
+    hours, horizon_s = open_times(release.shift, loaded.scenario), loaded.scenario.run.horizon_s
+    times_s = [order.time_s if hours is None else next_open(hours, order.time_s) for order in orders]
+    in_time = [(order, time_s) for order, time_s in zip(orders, times_s) if time_s < horizon_s]
+    firsts = accumulate((order.quantity for order, _ in in_time), initial=0)
     planned = tuple(
         OrderPlan(
-            order.time_s,
+            time_s,
             first,
             order.quantity,
             ANY if order.product is None else products[order.product],
             on_grid(order.due_s) if order.due_s < inf else inf,
             order.priority,
         )
-        for order, first in zip(in_time, firsts)
+        for (order, time_s), first in zip(in_time, firsts)
     )
     return planned, len(orders) - len(in_time)
 

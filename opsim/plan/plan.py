@@ -23,6 +23,7 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.tools import ToolPlan
 from opsim.plan.transporters import TransporterPlan
 from opsim.plan.walking import WalkingPlan
+from opsim.plan.work_sharing import SharePlan
 from opsim.plan.worker import WorkerPlan
 
 FIXED_WORKFORCE = 0
@@ -82,6 +83,7 @@ class Plan:
     crews: tuple[CrewPlan, ...] = ()
     lines: tuple[LinePlan, ...] = ()
     rotations: tuple[RotationPlan, ...] = ()
+    shares: tuple[SharePlan, ...] = ()
     priorities: tuple[str, ...] = ()
     serve: str = "exhaustive"
 

@@ -14,6 +14,7 @@ NOWHERE = -1
 class QualityPlan:
     """Of one station. yield_share : share of operations that leave no defect; inspects : whether jobs are looked at
 
+    by_worker : whether some of those who can work here leave defects of their own
     finds, false_alarms : share of bad jobs, and of good ones, that are held to be bad
     back : by product and step, the step that such a job is sent back to; ``NOWHERE``: it is scrapped. () : always scrap
     most : so many reworks of a job from here, then scrap
@@ -26,12 +27,25 @@ class QualityPlan:
     false_alarms: float = 0.0
     back: tuple[tuple[int, ...], ...] = ()
     most: float = inf
+    by_worker: bool = False
 
 
 def plan_quality(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[QualityPlan, ...]:
     """Of the stations where anything can go wrong or is looked at, in natural order; products ``with_detours``."""
-    found = (_quality(block, ranks.stations[name], ranks, products) for name, block in scenario.stations.items())
-    return tuple(sorted((one for one in found if one is not None), key=lambda one: one.station))
+    by_hand = _by_worker(scenario)
+    found = []
+    for name, block in scenario.stations.items():
+        one = _quality(block, ranks.stations[name], ranks, products)
+        if name in by_hand:
+            one = replace(one or QualityPlan(ranks.stations[name]), by_worker=True)
+        found += [one] if one is not None else []
+    return tuple(sorted(found, key=lambda one: one.station))
+
+
+def _by_worker(scenario) -> set[str]:
+    """Stations where somebody leaves defects of his own."""
+    skills = [(name, skill) for worker in scenario.workers.values() for name, skill in worker.skills.items()]
+    return {name for name, skill in skills if getattr(skill, "quality", 1.0) < 1}
 
 
 def with_detours(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[ProductPlan, ...]:

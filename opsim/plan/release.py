@@ -56,9 +56,11 @@ class SourcePlan:
         return self.every_s / self.at_once if self.every_s else None
 
     def jobs_per_s(self, horizon_s: float) -> float | None:
-        """Jobs a second that it makes by itself; None where the floor decides."""
+        """Jobs a second that it makes by itself, on the mean of the run; None where the floor decides."""
         every_s = self.job_every_s(horizon_s)
-        return None if every_s is None else 1 / every_s
+        if every_s is None or self.open_s is None or self.kind == SCHEDULE:
+            return None if every_s is None else 1 / every_s
+        return sum(end_s - start_s for start_s, end_s in self.open_s) / horizon_s / every_s
 
 
 def plan_sources(loaded: Any, ranks: Ranks, model_of: Callable) -> tuple[SourcePlan, ...]:

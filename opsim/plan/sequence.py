@@ -11,6 +11,7 @@ from opsim.plan.tasks import TaskPlan
 
 FIFO = "fifo"
 SHORTEST_QUEUE = "shortest_queue"
+MOST_DOWNSTREAM = "most_downstream"
 FINISH_FIRST = ""
 """How it is at a station where what was begun is finished before anything else."""
 
@@ -52,9 +53,10 @@ def has_priorities(products: Sequence[ProductPlan], sources: Sequence[SourcePlan
     return len({product.priority for product in products}) > 1 or any(one.kind == "schedule" for one in sources)
 
 
-def looks_ahead(queues: Sequence[QueuePlan], routing: str) -> bool:
-    """Whether a rule is in force that may look at mean times."""
-    return routing not in _BLIND_ROUTING or any(queue.rule not in _BLIND_RULES for queue in queues)
+def looks_ahead(queues: Sequence[QueuePlan], routing: str, allocation: str) -> bool:
+    """Whether a rule is in force that may look at mean times, or at how many operations are left."""
+    ahead = routing not in _BLIND_ROUTING or allocation == MOST_DOWNSTREAM
+    return ahead or any(queue.rule not in _BLIND_RULES for queue in queues)
 
 
 _BLIND_RULES = {FIFO, "edd", "least_setup"}

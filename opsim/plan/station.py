@@ -6,6 +6,7 @@ from math import inf
 from opsim.names import natural_key
 from opsim.plan.calendar import OPEN, open_times
 from opsim.plan.conveyors import belt_capacity
+from opsim.plan.lines import buffer_of
 from opsim.plan.ranks import Ranks
 from opsim.plan.tools import Needs, needs_of
 
@@ -50,7 +51,7 @@ def plan_stations(scenario, ranks: Ranks) -> tuple[StationPlan, ...]:
 
 
 def _station(name: str, station, scenario, ranks: Ranks) -> StationPlan:
-    buffer = inf if station.buffer is None else station.buffer
+    buffer = buffer_of(name, inf if station.buffer is None else station.buffer, scenario)
     tasks = tuple(ranks.tasks[task] for task in station.tasks)
     before = (station.blocking or scenario.flow.blocking) == "before"
     return StationPlan(
@@ -60,6 +61,7 @@ def _station(name: str, station, scenario, ranks: Ranks) -> StationPlan:
         needs=needs_of(station, scenario),
         open_s=open_times(station.shift, scenario),
         at_close=station.at_close,
+        priority=station.priority,
     )
 
 

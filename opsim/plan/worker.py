@@ -67,6 +67,10 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
             tuple(ranks.stations[name] for name in worker.patrol or ()),
             worker.most_load_kg,
             duties_of(worker, scenario, ranks),
+            worker.absence,
+            zone=tuple(sorted(ranks.stations[name] for name in worker.zone or ())),
+            floater=worker.floater,
+            quality=_qualities(worker, ranks.stations),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )
@@ -74,9 +78,17 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
 
 def _ratings(worker, ranks: dict[str, int]) -> tuple[float, ...]:
     ratings = [0.0] * len(ranks)
-    for station, rating in worker.skills.items():
-        ratings[ranks[station]] = rating
+    for station, skill in worker.skills.items():
+        ratings[ranks[station]] = skill if isinstance(skill, int | float) else skill.pace
     return tuple(ratings)
+
+
+def _qualities(worker, ranks: dict[str, int]) -> tuple[float, ...]:
+    """(S,), or nothing where all of his work is good."""
+    qualities = [1.0] * len(ranks)
+    for station, skill in worker.skills.items():
+        qualities[ranks[station]] = 1.0 if isinstance(skill, int | float) else skill.quality
+    return tuple(qualities) if min(qualities) < 1 else ()
 
 
 def start_place(worker, scenario) -> str:

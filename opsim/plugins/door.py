@@ -6,19 +6,24 @@ from collections.abc import Callable, Iterator, Mapping
 from importlib.metadata import entry_points
 from typing import Any
 
-from opsim.engine.rules import ALLOCATION_RULES, ROUTING_RULES, SEQUENCING_RULES
+from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.names import natural_key
 from opsim.plugins.blame import Found, NoSuchPlugin, PluginError, blamed
 from opsim.plugins.guard import GUARDS
 from opsim.problems import did_you_mean, shown
 
-GROUPS = ("opsim.emulators", "opsim.stations", "opsim.dispatch", "opsim.sequencing", "opsim.routing", "opsim.human")
+GROUPS = (
+    *("opsim.emulators", "opsim.stations", "opsim.dispatch", "opsim.sequencing", "opsim.routing", "opsim.rotation"),
+    "opsim.human",
+)
 RULES: dict[str, Mapping[str, Callable[..., tuple[float, ...]]]] = {
     "opsim.dispatch": ALLOCATION_RULES,
     "opsim.sequencing": SEQUENCING_RULES,
     "opsim.routing": ROUTING_RULES,
+    "opsim.rotation": ROTATION_RULES,
 }
-"""Our own rules by group: who is sent where, which waiting job is next, which of several stations a job goes to."""
+"""Our own rules by group: who is sent where, which waiting job is next, which of several stations a job goes to, who
+takes a post."""
 
 
 class Plugins(Mapping[str, Any]):

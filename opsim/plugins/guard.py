@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import wraps
 from typing import Any
 
-from opsim.engine.rules import ALLOCATION_RULES, ROUTING_RULES, SEQUENCING_RULES
+from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.plugins.blame import Found, blamed, fault
 from opsim.plugins.model import guarded_model
 from opsim.plugins.taking import must_take, signature_of, worded
@@ -70,6 +70,7 @@ def unguarded(_found: Found, part: Any) -> Any:
 GUARDS: dict[str, Callable[[Found, Any], Any]] = {
     "opsim.dispatch": lambda found, rule: guarded_rule(found, rule, ALLOCATION_RULES["nearest"]),
     "opsim.routing": lambda found, rule: guarded_rule(found, rule, ROUTING_RULES["in_order"]),
+    "opsim.rotation": lambda found, rule: guarded_rule(found, rule, ROTATION_RULES["in_turn"]),
     "opsim.sequencing": lambda found, rule: guarded_rule(found, rule, SEQUENCING_RULES["fifo"]),
     "opsim.emulators": lambda found, factory: guarded_factory(found, factory, guarded_model),
     "opsim.stations": lambda found, factory: guarded_factory(found, factory, station_block),

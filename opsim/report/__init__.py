@@ -6,12 +6,13 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
+    "days_section": "opsim.report.days",
     "draw_strips": "opsim.report.strips",
     "scenario_strips": "opsim.report.emulated",
     "walks_section": "opsim.report.walked",
     "write_report": "opsim.report.write",
 }
-__all__ = ["draw_strips", "scenario_strips", "walks_section", "write_report"]
+__all__ = ["days_section", "draw_strips", "scenario_strips", "walks_section", "write_report"]
 
 
 def __getattr__(name: str) -> Any:

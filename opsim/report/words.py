@@ -58,6 +58,15 @@ NAMES = {
     "false_alarm_share": "Good ones among what was turned down",
     "tool_use": "Use of tools",
     "tools_waited_for": "Jobs that wait for tools",
+    "hand_overs_per_h": "Hand-overs of the crew",
+    "handoff_position": "Where on the line a job is handed over (share of its work)",
+    "incomplete_share": "Jobs that left the line unfinished",
+    "line_stopped_share": "Time in which the line stood",
+    "on_duty_h": "On duty",
+    "duty_use": "Busy, of the time on duty without breaks",
+    "overtime_h": "Overtime, finishing included",
+    "absent_share": "Share of shifts missed",
+    "interruptions_per_h": "Work broken off",
     "trunk_beyond_60_min_per_h": "Trunk flexed 60° or more",
     "trunk_beyond_20_min_per_h": "Trunk flexed 20° or more",
     "trunk_flexion_mean_deg": "Trunk flexion at work, mean",
@@ -70,7 +79,7 @@ NAMES = {
     "step_length_m": "Step length",
     "cadence_per_min": "Steps a minute of walking",
 }
-ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_s", "_m", "_kg", "_j", "_share")
+ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_h", "_s", "_m", "_kg", "_j", "_share")
 ABSENT = "\N{EN DASH}"
 
 

@@ -28,16 +28,20 @@ QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 
 
 def write_report(
-    result: Any, path: str | Path, strips: Mapping[str, bytes] | None = None, walks: Mapping[str, Any] | None = None
+    result: Any,
+    path: str | Path,
+    strips: Mapping[str, bytes] | None = None,
+    walks: Mapping[str, Any] | None = None,
+    days: Mapping[str, Any] | None = None,
 ) -> Path:
     """Write the report of one scenario variant and return where it is.
 
     result : has ``summary`` (the content of summary.json) and ``folder`` (where manifest.json may lie)
     strips : SVG bytes by task name, e.g. of ``scenario_strips``; emulated tasks without one are named without a picture
-    walks  : what ``walks_section`` says of walking, None where nothing
+    walks  : what ``walks_section`` says of walking, days: ``days_section`` of people; None where nothing
     """
     path = Path(path)
-    write_text(path, report_html(result.summary, _manifest(result), strips or {}, walks))
+    write_text(path, report_html(result.summary, _manifest(result), strips or {}, walks, days))
     return path
 
 
@@ -46,6 +50,7 @@ def report_html(
     manifest: Mapping[str, Any],
     strips: Mapping[str, bytes],
     walks: Mapping[str, Any] | None = None,
+    days: Mapping[str, Any] | None = None,
 ) -> str:
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
     bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
@@ -56,6 +61,7 @@ def report_html(
         "headline": _table([row for row in summary["kpis"] if _is_headline(row)]),
         "others": _groups([row for row in summary["kpis"] if not _is_headline(row)]),
         "states": _states(summary, drawn),
+        "days": None if days is None else {**days, "picture": _as_source(days["picture"])},
         "posture": posture_section(summary["kpis"], drawn),
         "histograms": _histograms(summary, drawn),
         "emulated": _emulated(summary.get("tasks", []), strips),

@@ -100,7 +100,8 @@ def _sharpen(properties: Schema, definitions: Schema) -> None:
     whole = {"type": buffer.pop("type"), "minimum": buffer.pop("minimum"), "maximum": buffer.pop("maximum")}
     buffer["anyOf"] = [whole, {"const": "unlimited"}]
     for people in ("Worker", "Workforce"):
-        definitions[people]["properties"]["skills"]["additionalProperties"]["type"] = ["number", "string"]
+        pace, _ = definitions[people]["properties"]["skills"]["additionalProperties"]["anyOf"]
+        pace["type"] = ["number", "string"]
     ways = product["routing"]["additionalProperties"]
     product["routing"]["additionalProperties"] = {"anyOf": [{"type": "string"}, ways]}
     for named in [properties[name] for name in (*SECTIONS, "libraries", "skill_levels")] + [layout["places"]]:

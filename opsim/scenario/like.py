@@ -11,7 +11,7 @@ from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, sho
 from opsim.scenario.merging import entry_over
 from opsim.scenario.positions import Node, entries, problem, text
 
-SECTIONS = ("tasks", "stations", "products", "workers")
+SECTIONS = ("tasks", "stations", "products", "workers", "shifts")
 WORKFORCE = "workforce"
 """One block of keys for many workers: like a worker, or on the defaults of workers."""
 

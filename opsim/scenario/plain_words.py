@@ -12,9 +12,11 @@ from opsim.scenario import like
 from opsim.scenario.positions import Node, Part, child, problem
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.schema.cycles import CYCLE_KINDS, SO_MANY
+from opsim.scenario.schema.skills import RATING, SKILL, Skill
 from opsim.scenario.yaml_nodes import scalar
 
-_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", *CYCLE_KINDS, SO_MANY)
+_FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS)
+_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", *_FORMS)
 _TYPES = {
     "string_type": "text",
     "int_type": "a whole number",
@@ -149,7 +151,7 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     """The block at a location, found by walking down the models; marks say which kind of a task, a path, a step."""
-    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step, **CYCLE_KINDS}
+    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step, SKILL: Skill, **CYCLE_KINDS}
     model: type[Block] = Scenario
     parts = iter(loc)
     for part in parts:

@@ -1,4 +1,4 @@
-"""``skills: {pack: expert}``: the name of a skill level stands for its rating in ``skill_levels``."""
+"""``skills: {pack: expert}``: the name of a skill level stands for what it is in ``skill_levels``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _ANY = 1.0
 
 
 def with_ratings(root: Node) -> tuple[Node, list[Problem]]:
-    """The tree with a rating for every level that skills name, and the names that are no level."""
+    """The tree with a pace, or pace and quality, for every level that skills name, and the names that are no level."""
     levels = entries(root, "skill_levels")
     problems: list[Problem] = []
     top = dict(entries(root))
@@ -49,7 +49,8 @@ def _named(skills: dict[str, Node]) -> Iterator[tuple[str, Node]]:
 
 
 def _rating(level: Node | None) -> object:
-    known = level is not None and isinstance(level.value, int | float) and not isinstance(level.value, bool)
+    """A number, or the entries of a block; what the schema refuses stands for anything."""
+    known = level is not None and isinstance(level.value, int | float | dict) and not isinstance(level.value, bool)
     return level.value if known and level is not None else _ANY
 
 

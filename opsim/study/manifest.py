@@ -81,6 +81,7 @@ def plugins_used(loaded) -> dict[str, str]:
     queues = [scenario.flow.dispatch, *(station.dispatch for station in scenario.stations.values() if station.dispatch)]
     rules = [("opsim.dispatch", scenario.allocation.rule), ("opsim.routing", scenario.flow.routing)]
     rules += [("opsim.sequencing", rule) for rule in queues]
+    rules += [("opsim.rotation", rotation.rule) for rotation in scenario.rotations.values()]
     used = {task.plugin: "opsim.emulators" for task in scenario.tasks.values() if hasattr(task, "plugin")}
     used |= {rule: group for group, rule in rules if rule not in RULES[group]}
     return {name: plugins(used[name]).found(name).distribution for name in sorted(used)}

@@ -10,6 +10,7 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.unread import tasks_of, unknown_there
 from opsim.plan.worker import WorkerPlan, start_place
 from opsim.streams import stream
+from opsim.study.working_time import working_time
 
 _OWN_PACE = ("full", "between_only", "shuffled")
 """Under these, workers differ in pace."""
@@ -40,7 +41,7 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
         given = listed(f"{name} {rating:g}" for name, rating in levels.items())
         yield "skills", f"the ratings of the skill levels are the scenario's own, not measured: {given}"
     yield from _standing(loaded, plan)
-    yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
+    yield from working_time(plan)
     if loaded.scenario.run.variability in _OWN_PACE and any(_differ(task) for task in plan.tasks):
         drawn = {
             "fixed": "the same people work in every replication: a worker's own pace is drawn once for the study",

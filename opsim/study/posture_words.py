@@ -10,10 +10,12 @@ from opsim.streams import stream
 
 def posture_assumptions(plan: Plan) -> Iterator[tuple[str, str]]:
     """(topic, what is assumed) of every figure that was made from postures."""
+    in_shifts = any(worker.duties is not None for worker in plan.workers)
+    present = " in which a worker is there, breaks included" if in_shifts else ": everybody is present all of it"
     yield (
         "postures",
         "trunk flexion is the angle of the line from pelvis to neck against the vertical, forward as the hips face; "
-        "minutes at an angle are measured minutes of work in an hour of the window: everybody is present all of it",
+        f"minutes at an angle are measured minutes of work in an hour of the window{present}",
     )
     unknown = [task.name for task in plan.tasks if not task.automatic and not _has_body(task)]
     if unknown:

@@ -6,6 +6,7 @@ They use + - * / comparisons, min and max only, so that a compiled engine can ru
 from opsim.engine.rules.allocation import ALLOCATION_RULES
 from opsim.engine.rules.release import source_in_turn, stock_wanted
 from opsim.engine.rules.repair import longest_down
+from opsim.engine.rules.rotation import ROTATION_RULES
 from opsim.engine.rules.routing import ROUTING_RULES, shortest_queue
 from opsim.engine.rules.sequencing import SEQUENCING_RULES
 from opsim.engine.rules.settle import ARRIVAL, BREAKDOWN, CALENDAR, COMPLETION, REPAIR
@@ -18,6 +19,7 @@ __all__ = [
     "CALENDAR",
     "COMPLETION",
     "REPAIR",
+    "ROTATION_RULES",
     "ROUTING_RULES",
     "SEQUENCING_RULES",
     "longest_down",

@@ -16,4 +16,35 @@ def oldest_job(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_r
     return (oldest_since_s, walk_s, -rating, -n_waiting, station_rank, worker_rank)
 
 
-ALLOCATION_RULES = {"longest_queue": longest_queue, "nearest": nearest, "oldest_job": oldest_job}
+def most_downstream(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_rank):
+    """The job that is nearest to its end, by ``steps_to_go``, which comes before; then the oldest call."""
+    return (oldest_since_s, walk_s, -rating, -n_waiting, station_rank, worker_rank)
+
+
+def best_skill(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_rank):
+    """The worker where he is best; then the oldest call, then the shorter walk."""
+    return (-rating, oldest_since_s, walk_s, -n_waiting, station_rank, worker_rank)
+
+
+def whose_it_is(outside_zone, floater):
+    """Before everything else: who is at his own stations, then who is at another's; floaters last in each."""
+    return (outside_zone, floater)
+
+
+def more_urgent(priority):
+    """Of a station, or of the job that calls there: the higher the sooner."""
+    return (-priority,)
+
+
+def nearer_to_its_end(steps_to_go):
+    """Before the key of ``most_downstream``: the fewest operations left, this one included, on average."""
+    return (steps_to_go,)
+
+
+ALLOCATION_RULES = {
+    "longest_queue": longest_queue,
+    "nearest": nearest,
+    "oldest_job": oldest_job,
+    "most_downstream": most_downstream,
+    "best_skill": best_skill,
+}

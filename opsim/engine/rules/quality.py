@@ -6,6 +6,11 @@ def leaves_defect(chance, yield_share):
     return chance >= yield_share
 
 
+def share_of_good(yield_share, worst):
+    """Of operations: the station's own yield, times the quality of the worst of those who worked on it."""
+    return yield_share * worst
+
+
 def turned_down(chance, bad, finds, false_alarms):
     """Whether a job is held to be bad: where it is, with ``finds``; where it is good, with ``false_alarms``."""
     return chance < (finds if bad else false_alarms)

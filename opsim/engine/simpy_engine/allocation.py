@@ -30,7 +30,7 @@ def _serve_best(floor: Floor, patrols: bool) -> bool:
         while able:  # NOTE: only stations he can serve are looked at, by the bits of their ranks
             station = calling[(able & -able).bit_length() - 1]
             able &= able - 1
-            if patrols and not _on_round(worker, station):
+            if patrols and not on_round(worker, station):
                 continue
             if best is None:
                 best = worker, station  # NOTE: most often the only pair, and its key is never asked for
@@ -55,7 +55,7 @@ def _who_waits_longest(floor: Floor, best: tuple[Worker, Station], patrols: bool
     station = best[1]
     for other in station.before(floor, station.calling[0][3]):  # type: ignore[misc]
         able = [worker for worker in floor.free.values() if worker.may_serve(other)]
-        able = [worker for worker in able if not patrols or _on_round(worker, other)]
+        able = [worker for worker in able if not patrols or on_round(worker, other)]
         if able:
             return min(able, key=lambda worker: _key(floor, worker, other)), other
     return best
@@ -88,14 +88,17 @@ def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
         perform(floor, job, worker)
 
 
-def _on_round(worker: Worker, station: Station) -> bool:
-    """Whether this is the station of his round where the worker stands: the only one a patrolling worker serves."""
+def on_round(worker: Worker, station: Station) -> bool:
+    """Whether this is the station of his round where the worker stands: the only one a patrolling worker serves, and
+    none any more once he has served there as long as he shall.
+    """
     at, patrol = worker.round, worker.plan.patrol
-    return at >= 0 and patrol[at] == station.rank and worker.place == station.place
+    return at >= 0 and patrol[at] == station.rank and worker.place == station.place and not worker.served
 
 
 def _go_home(floor: Floor) -> None:
-    for worker in [w for w in floor.free.values() if w.place != w.plan.place]:
+    away = [w for w in floor.free.values() if w.place != w.plan.place and "crews" not in w.limits]
+    for worker in away:
         metres = floor.plan.distance_m[worker.place][worker.plan.place]
         if metres > 0:
             _leave(floor, worker, worker.plan.place, metres / worker.plan.walk_m_per_s)
@@ -109,7 +112,7 @@ def _walk_on(floor: Floor) -> bool:
     for worker in sorted(floor.free.values(), key=lambda w: w.rank):
         patrol = worker.plan.patrol
         for _ in patrol:
-            worker.round = (worker.round + 1) % len(patrol)
+            worker.round, worker.served = (worker.round + 1) % len(patrol), False
             station = floor.stations[patrol[worker.round]]
             walk_s = worker.walk_s[worker.place][station.rank]
             if walk_s > 0:

@@ -36,7 +36,7 @@ class Refill:
     def ask(self, floor: Floor) -> bool:
         """Begin the jobs that are wanted; True where there were some."""
         began = False
-        for source in self.sources:
+        for source in [one for one in self.sources if not one.closed]:
             product = source.plan.mix[0][0]
             while stock_wanted(self._pieces(floor, product), waited_for(floor, product), source.plan.level):
                 create(floor, source)

@@ -3,27 +3,35 @@
 from collections.abc import Callable
 
 from opsim.engine.simpy_engine import (
+    assignment,
     base_stock,
     batches,
     cards,
     completion,
     conveyors,
+    crews,
+    duty,
     failures,
     hands,
     kits,
+    lines,
+    opening,
     places,
     preemption,
     quality,
     release,
+    rotations,
     sequence,
     setup,
     splits,
     stores,
     transporters,
+    work_sharing,
 )
 from opsim.engine.simpy_engine.floor import Floor, Handler
 
 INSTALL: tuple[Callable[[Floor], None], ...] = (
+    assignment.install,
     release.install,
     stores.install,
     kits.install,
@@ -35,11 +43,17 @@ INSTALL: tuple[Callable[[Floor], None], ...] = (
     cards.install,
     base_stock.install,
     quality.install,
+    work_sharing.install,
     hands.install,
     failures.install,
     preemption.install,
+    opening.install,
     conveyors.install,
     transporters.install,
+    lines.install,
+    duty.install,
+    crews.install,
+    rotations.install,
 )
 """Each looks at its own part of the plan, and does nothing where that is empty."""
 
@@ -48,6 +62,10 @@ HANDLERS: dict[str, Handler] = {
     **release.HANDLERS,
     **batches.HANDLERS,
     **failures.HANDLERS,
+    **opening.HANDLERS,
     **conveyors.HANDLERS,
     **transporters.HANDLERS,
+    **lines.HANDLERS,
+    **rotations.HANDLERS,
+    **duty.HANDLERS,
 }

@@ -38,13 +38,18 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
     if job.kind == SETUP:
         _set_up(floor, job, worker)
     elif task_done(job):
-        operation_done(floor, job)
-        if (job.plan.carried or floor.plan.when_blocked == "held") and job.number in floor.jobs and _stays(floor, job):
-            hold(floor, worker, job)
-        else:
-            set_free(floor, worker)
+        operation_over(floor, job, worker)
     else:
         next_task(floor, job, worker)
+
+
+def operation_over(floor: Floor, job: Job, worker: Worker) -> None:
+    """The operation is done, by a worker who stays with the job where it is carried, or held, and has to wait."""
+    operation_done(floor, job)
+    if (job.plan.carried or floor.plan.when_blocked == "held") and job.number in floor.jobs and _stays(floor, job):
+        hold(floor, worker, job)
+    else:
+        set_free(floor, worker)
 
 
 def _stays(floor: Floor, job: Job) -> bool:

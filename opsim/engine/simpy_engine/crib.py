@@ -1,6 +1,7 @@
 """The crib: where tools are taken from and given back to, and who waits for which."""
 
 from bisect import insort
+from collections.abc import Container
 from dataclasses import replace
 
 from opsim.engine.rules.tools import enough
@@ -120,16 +121,23 @@ class Crib:
 
     def break_off(self, _floor: Floor, job: Job) -> None:
         """The job's work is broken off: what was in hand for it is put back, what the station needs stays."""
+        self._call_back(job, (IN_HAND,))
         self.put_back_tasks(job)
         self.put_back(job, IN_HAND)
 
-    def call_off(self, floor: Floor, job: Job) -> bool:
+    def call_off(self, _floor: Floor, job: Job) -> bool:
         """The job, which may not begin yet, waits for the tools of its task no more; True where it did."""
-        mine = [pair for pair in self.waiting if pair[0][3] is job and pair[1].purpose >= 0]
+        return self._call_back(job, range(len(job.station.tasks)))
+
+    def _call_back(self, job: Job, purposes: Container[int]) -> bool:
+        """The job waits no more for tools for some purposes; True where it did."""
+        if not self.waiting:
+            return False
+        mine = [pair for pair in self.waiting if pair[0][3] is job and pair[1].purpose in purposes]
         for pair in mine:
             self.waiting.remove(pair)
             del self.since_s[job.number, pair[1].purpose]
-            log_wait(floor, job, pair[1].task)
+            log_wait(self.floor, job, pair[1].task)
         return bool(mine)
 
     def leave(self, _floor: Floor, job: Job, _station: Station) -> None:

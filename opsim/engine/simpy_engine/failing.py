@@ -16,7 +16,9 @@ from opsim.log import BREAKDOWN, HELD, IS_DOWN, SCRAP, SETUP, WORK
 
 @dataclass(slots=True, eq=False)
 class Failing:
-    """now : because of which it stands; due : stops that are to come; held : jobs on servers that wait for them
+    """closed : whether it is out of its hours
+
+    now : because of which it stands; due : stops that are to come; held : jobs on servers that wait for them
 
     pending : all stations with stops that are due, by rank; shared by all
     """
@@ -27,6 +29,15 @@ class Failing:
     now: Stop | None = None
     due: list[Stop] = field(default_factory=list)
     held: list[Job] = field(default_factory=list)
+    closed: bool = False
+
+    def switch(self, floor: Floor, closed: bool) -> None:
+        """The station closes, or opens: while it is closed the clock of what wears it out stands still."""
+        self.closed = closed
+        if closed:
+            self.wear.stand_still(floor)
+        elif self.now is None:
+            self.wear.go_on(floor)
 
     def fall_due(self, stop: Stop) -> None:
         """The stop begins as soon as it may; who waits already is not doubled."""
@@ -72,7 +83,8 @@ class Failing:
         if stop is not None:
             self._take(floor, stop)
             return
-        self.wear.go_on(floor)
+        if not self.closed:
+            self.wear.go_on(floor)
         start_station(floor, self.station)
         held, self.held = self.held, []
         for job in sorted(held, key=lambda job: job.number):

@@ -71,6 +71,7 @@ def _open(floor: Floor, failing: Failing) -> None:
     if wear.busy or wear.cycles:
         station.meter = wear
     station.add_stage(ORDER, failing.may_begin)
+    station.switched.append(failing.switch)
     wear.go_on(floor)
 
 

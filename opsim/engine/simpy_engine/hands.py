@@ -12,7 +12,7 @@ from opsim.engine.simpy_engine.teams import Teams
 from opsim.engine.simpy_engine.tools import at_hand, for_task, tasks_done
 from opsim.plan.tasks import TaskPlan
 
-ACT = 50
+ACT = READY = 50
 """Among the ways to begin a task: after those that look at who begins it."""
 ORDER = 5
 """Among what is asked when an operation is done: tools are given back before a job is looked at, or is split."""
@@ -79,7 +79,7 @@ def install(floor: Floor) -> None:
 def _hang(hands: Hands, floor: Floor, station: Station) -> None:
     here = [floor.plan.tasks[task] for task in station.tasks]
     if any(task.needs or task.team > 1 for task in here):
-        station.ready = hands.ready
+        station.add_ready(READY, hands.ready)
     if any(task.needs for task in here) and hands.crib is not None:
         station.add_after(ORDER, partial(tasks_done, hands.crib))
     if any(_asks(task) for task in here):

@@ -2,9 +2,9 @@
 
 from opsim.engine.simpy_engine.floor import Floor, cancel, progress
 from opsim.engine.simpy_engine.state import Job, Station, Worker
-from opsim.engine.simpy_engine.station import call_off, go_on, perform, quiet, stand_still
+from opsim.engine.simpy_engine.station import call_off, go_on, next_task, perform, quiet, stand_still
 from opsim.engine.simpy_engine.worker import log_worker, set_free, stop
-from opsim.log import HELD, IS_DOWN, NO_WORKER, SETUP, WORK
+from opsim.log import HELD, NO_WORKER, SETUP, WORK
 
 
 def stop_station(floor: Floor, station: Station) -> None:
@@ -12,17 +12,20 @@ def stop_station(floor: Floor, station: Station) -> None:
 
     The station needs ``seated``: a block that stops stations gives them an empty list when it is installed.
     """
+    shut_station(floor, station)
+    for job in station.seated or ():
+        if job.kind == WORK or job.kind == SETUP:
+            interrupt(floor, job, station.stands_for)
+            station.standing.append(job)
+
+
+def shut_station(floor: Floor, station: Station) -> None:
+    """One reason more to stand still, once what is under way is done: nobody is called, nothing begins."""
     station.down += 1
-    if station.down > 1:
-        return
     for _, _, _, job in station.calling:
         stand_still(floor, station, job)
     station.calling.clear()
     quiet(floor, station)
-    for job in station.seated or ():
-        if job.kind == WORK or job.kind == SETUP:
-            interrupt(floor, job, IS_DOWN)
-            station.standing.append(job)
 
 
 def start_station(floor: Floor, station: Station) -> None:
@@ -78,7 +81,10 @@ def take_over(floor: Floor, job: Job, worker: Worker) -> None:
     else:
         call_off(floor, job.station, job)
     worker.job, worker.station = job, job.station
-    perform(floor, job, worker)
+    if job.setup_task < 0:
+        next_task(floor, job, worker)
+    else:
+        perform(floor, job, worker)
 
 
 def forget_progress(job: Job) -> None:

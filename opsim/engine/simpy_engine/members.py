@@ -36,3 +36,10 @@ def comes_again(job: Job) -> bool:
     station = job.station
     times = station.repeats[job.task_position] * (1 if job.lot == 1 else units(job))
     return job.repeats_done + 1 < times
+
+
+def all_may_stay(floor: Floor, job: Job) -> bool:
+    """Whether the whole team is there, and each of them may still be sent to where it works."""
+    team: list[Worker] = job.team  # type: ignore[assignment]
+    n = floor.plan.tasks[job.station.tasks[job.task_position]].team
+    return len(team) == n and all(worker.may_serve(job.station) for worker in team)

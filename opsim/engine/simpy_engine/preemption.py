@@ -9,7 +9,7 @@ from opsim.engine.simpy_engine.material import give_up_place
 from opsim.engine.simpy_engine.setup import take_up
 from opsim.engine.simpy_engine.state import GOES_ON, Job, Station
 from opsim.engine.simpy_engine.station import call_off, next_in_line, seat
-from opsim.log import HELD, NO_WORKER, PREEMPTED, QUEUE, WALK, WORK
+from opsim.log import AWAY, HELD, NO_WORKER, PREEMPTED, QUEUE, WALK, WORK
 
 RESTART = "restart"
 
@@ -44,7 +44,7 @@ def _victim(station: Station) -> Job | None:
 
 def _can_stop(job: Job) -> bool:
     """In work, or waiting for a worker: who waits for a place, parts or a tool, or is set up for, keeps the server."""
-    return job.kind == WORK or (job.kind == HELD and job.cause == NO_WORKER)
+    return job.kind == WORK or (job.kind == HELD and job.cause in (NO_WORKER, AWAY))
 
 
 def _give_up_server(floor: Floor, station: Station, job: Job, restart: bool) -> None:

@@ -2,15 +2,17 @@
 
 from collections import Counter
 
-from opsim.engine.rules.quality import leaves_defect, reworked, turned_down
+from opsim.engine.rules.quality import leaves_defect, reworked, share_of_good, turned_down
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.material import go_to, leave_floor, leave_station, withdraw
-from opsim.engine.simpy_engine.state import Job
+from opsim.engine.simpy_engine.state import Job, Worker
 from opsim.log import BAD, FALSE_ALARM, REWORK, SCRAP
 from opsim.plan.quality import NOWHERE, QualityPlan
 
 ORDER = 10
 """Among what is asked when an operation is done."""
+ACT = 15
+"""Among the ways to begin a task: after those who do not begin it."""
 
 
 def install(floor: Floor) -> None:
@@ -20,7 +22,11 @@ def install(floor: Floor) -> None:
     counted = _Counted()
     floor.left_floor.append(counted.forget)
     for plan in floor.plan.quality:
-        floor.stations[plan.station].add_after(ORDER, _Gauge(plan, counted))
+        station, gauge = floor.stations[plan.station], _Gauge(plan, counted)
+        station.add_after(ORDER, gauge)
+        if plan.by_worker:
+            station.add_act(ACT, gauge.note)
+            floor.left_floor.append(gauge.forget)
 
 
 class _Counted:
@@ -49,11 +55,13 @@ class _Gauge:
 
     def __init__(self, plan: QualityPlan, counted: _Counted):
         self.plan, self.counted = plan, counted
+        self.worst: dict[int, float] = {}
 
     def __call__(self, floor: Floor, job: Job) -> bool:
         plan, visit = self.plan, self.counted.visit(job)
         where = job.operation.name, floor.plan.sources[job.source].name, visit
-        if plan.yield_share < 1 and leaves_defect(floor.draws.chance(("yield", *where), job.n), plan.yield_share):
+        good = share_of_good(plan.yield_share, self.worst.pop(job.number, 1.0)) if plan.by_worker else plan.yield_share
+        if good < 1 and leaves_defect(floor.draws.chance(("yield", *where), job.n), good):
             job.bad = True
         if not plan.inspects:
             return True
@@ -62,6 +70,17 @@ class _Gauge:
             return True
         self.turn_down(floor, job, BAD if job.bad else FALSE_ALARM)
         return False
+
+    def note(self, _floor: Floor, job: Job, worker: Worker) -> bool:
+        """Somebody works on the job, and on those that are with it: of several, the worst counts. Never sees to it."""
+        station, qualities = job.station, worker.plan.quality
+        if qualities and not station.down and job.setup_task < 0:
+            for one in (job, *job.members):
+                self.worst[one.number] = min(self.worst.get(one.number, 1.0), qualities[station.rank])
+        return False
+
+    def forget(self, _floor: Floor, job: Job) -> None:
+        self.worst.pop(job.number, None)
 
     def turn_down(self, floor: Floor, job: Job, cause: int) -> None:
         """The job goes back, or is scrapped."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import simpy
 
-from opsim.log import AFTER, WAIT
+from opsim.log import AFTER, IS_DOWN, WAIT
 from opsim.plan import Operation, ProductPlan, SourcePlan, StationPlan, WorkerPlan
 
 if TYPE_CHECKING:
@@ -26,6 +26,7 @@ class Source:
     """Where jobs come from. n_released : jobs so far; product : the rank of the product that the n-th job is
 
     next_gate, next_want : of a saturated source, the gate that its next job wants in by, its product and step
+    closed : whether it asks for nothing now, being out of its hours
     """
 
     plan: SourcePlan
@@ -34,6 +35,7 @@ class Source:
     n_released: int = 0
     next_gate: Gate | None = None
     next_want: tuple[int, int] = (-1, -1)
+    closed: bool = False
 
 
 @dataclass(slots=True, eq=False)
@@ -78,6 +80,8 @@ Hook = Callable[["Floor", "Job"], bool]
 """Asked when a job's operation is done; False where the job is gone, or sent elsewhere."""
 
 
+Ready = Callable[["Floor", "Job"], bool]
+"""Asked before each task; False where the job waits for something, or its operation is over."""
 Act = Callable[["Floor", "Job", "Worker"], bool]
 """Another way to begin a task than to perform it alone; True where it was seen to."""
 
@@ -97,12 +101,13 @@ class Station:
     calling : jobs on servers for which nobody was sent yet; wanted_by : gates of jobs that want in
     luck    : by task, durations of automatic runs to come; next_k : how many there were
     down    : for how many reasons it stands still; standing : jobs on servers that wait until it goes on
+    stands_for : the cause that they wait for
     seated  : jobs on servers, where a block has to find them; else None
     per_lot : of each task, whether it is done once for a lot; else for each of its units
 
     What blocks hang in, each empty or None where none does:
     stages  : preparations of a seated job, in their order
-    ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``
+    ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``, or is left
     sent    : told of a job with ``with_tools`` that a worker is sent to
     before  : of such a job, the stations whose first call has waited longer for the same tools
     act, acted : other ways to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
@@ -112,6 +117,7 @@ class Station:
     receive, vacate : in place of arriving at a server or the queue, and of giving the server back
     meter   : counts performances and operations
     setup_attended : whether a worker sets it up; setups : what its servers are set up for
+    switched : told when the station closes (True) or opens
     clear   : told of each finished job that has to go on, which may leave its server; put_away : those that have
     """
 
@@ -131,9 +137,11 @@ class Station:
     next_k: dict[int, int] = field(default_factory=dict)
     down: int = 0
     standing: list[Job] = field(default_factory=list)
+    stands_for: int = IS_DOWN
+    switched: list[Callable[[Floor, bool], None]] = field(default_factory=list)
     seated: list[Job] | None = None
     stages: tuple[Stage, ...] = ()
-    ready: Callable[[Floor, Job], bool] | None = None
+    ready: Ready | None = None
     sent: Callable[[Floor, Job], None] | None = None
     before: Callable[[Floor, Job], list[Station]] | None = None
     act: Act | None = None
@@ -152,6 +160,7 @@ class Station:
     ordered_stages: list[tuple[int, Stage]] = field(default_factory=list)
     ordered_hooks: list[tuple[int, Hook]] = field(default_factory=list)
     ordered_acts: list[tuple[int, Act]] = field(default_factory=list)
+    ordered_readies: list[tuple[int, Ready]] = field(default_factory=list)
 
     def add_stage(self, order: int, stage: Stage) -> None:
         """One more preparation; they come in the order of their numbers."""
@@ -162,6 +171,12 @@ class Station:
         """One more question when an operation is done; they come in the order of their numbers."""
         self.ordered_hooks.append((order, hook))
         self.after = tuple(found for _, found in sorted(self.ordered_hooks, key=lambda pair: pair[0]))
+
+    def add_ready(self, order: int, ready: Ready) -> None:
+        """One more question before each task; they are asked in the order of their numbers, until one says no."""
+        self.ordered_readies.append((order, ready))
+        asked = [found for _, found in sorted(self.ordered_readies, key=lambda pair: pair[0])]
+        self.ready = asked[0] if len(asked) == 1 else lambda floor, job: all(one(floor, job) for one in asked)
 
     def add_act(self, order: int, act: Act) -> None:
         """One more way to begin a task; they are asked in the order of their numbers, until one has seen to it."""
@@ -295,9 +310,10 @@ class Worker:
     limits   : by block, the stations that it leaves him, as bits: ``skills`` are those with a rating that all leave
     luck     : by task, durations to come at rating 1
     next_k   : by task, how often it was done
-    round    : where the worker is on the round he patrols
+    round    : where the worker is on the round he patrols; served : whether he has worked at that stop
     walks_left : that he must still make, there and back, to bring all of the job he carries
     stint    : his part of a team's performance under way, which has a row of its own
+    going    : whether he goes off shift as soon as he is done with what he is at
     """
 
     plan: WorkerPlan
@@ -317,8 +333,10 @@ class Worker:
     walk_from: int = -1
     round: int = -1
     walks_left: int = 0
+    served: bool = False
     process: simpy.Process | None = None
     stint: Any = None
+    going: bool = False
     limits: dict[str, int] = field(default_factory=dict)
 
     def restrict(self, block: str, stations: int | None) -> None:

@@ -9,7 +9,7 @@ from opsim.engine.rules import COMPLETION
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import GOES_ON, Job, Station, Worker
 from opsim.engine.simpy_engine.worker import set_free
-from opsim.log import HELD, IS_DOWN, NO_WORKER, SETUP, WORK
+from opsim.log import HELD, NO_WORKER, SETUP, WORK
 
 AUTOMATIC_DONE = "automatic task done"
 OPERATION_DONE = "operation done"
@@ -94,8 +94,8 @@ def next_task(floor: Floor, job: Job, worker: Worker | None) -> None:
 
 
 def _not_yet(floor: Floor, station: Station, job: Job, worker: Worker | None) -> None:
-    """The station stands still, a tool is missing, or there is nothing to do here."""
-    if worker is not None:
+    """The station stands still, a tool is missing, or there is nothing (more) to do here."""
+    if worker is not None and job.held_by is not worker:
         set_free(floor, worker)
     if station.down:
         stand_still(floor, station, job)
@@ -105,7 +105,7 @@ def _not_yet(floor: Floor, station: Station, job: Job, worker: Worker | None) ->
 
 def stand_still(floor: Floor, station: Station, job: Job) -> None:
     """The job waits on its server until the station goes on."""
-    floor.job_now(job, HELD, IS_DOWN)
+    floor.job_now(job, HELD, station.stands_for)
     station.standing.append(job)
 
 

@@ -7,7 +7,7 @@ from opsim.clock import on_grid
 from opsim.engine.simpy_engine.crib import Crib
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.grips import Want
-from opsim.engine.simpy_engine.members import chosen, comes_again, disband
+from opsim.engine.simpy_engine.members import all_may_stay, chosen, comes_again, disband
 from opsim.engine.simpy_engine.state import OUTSIDE, Claim, Job, Station, Worker, claim_of
 from opsim.engine.simpy_engine.station import begin, drawn_run_s, drawn_s, ended, perform, stand_still, task_done
 from opsim.engine.simpy_engine.stints import Stint
@@ -119,7 +119,7 @@ class Teams:
         if progress.working:
             wait_by(floor, worker, TEAM)
             return True
-        if comes_again(job):
+        if comes_again(job) and all_may_stay(floor, job):
             ended(floor, job)
             task_done(job)
             self._begin(floor, job, team)

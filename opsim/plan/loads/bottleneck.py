@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+from opsim.plan.hours import Hours
 from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
 from opsim.plan.loads.rates import Flows, flows_of
 from opsim.plan.loads.shared import REPAIR_TEAM, SharedLoad, shared_loads
@@ -61,10 +62,10 @@ class Loads:
 
 def loads_of(plan: Plan) -> Loads:
     """All loads of a Plan."""
-    flows = flows_of(plan)
-    stations = station_loads(plan, flows)
+    flows, hours = flows_of(plan), Hours(plan)
+    stations, skills = station_loads(plan, flows, hours), skill_loads(plan, flows, hours)
     shared = shared_loads(plan, flows, stations)
-    return Loads(flows, tuple(stations), tuple(skill_loads(plan, flows)), crew_load(plan, flows), tuple(shared))
+    return Loads(flows, tuple(stations), tuple(skills), crew_load(plan, flows, hours), tuple(shared))
 
 
 def _people(workers: tuple[str, ...]) -> str:

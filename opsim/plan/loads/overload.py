@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import inf
 
 from opsim.plan.loads.bottleneck import Loads, loads_of
+from opsim.plan.loads.people import Crew, SkillLoad
 from opsim.plan.loads.visits import visits_of
 from opsim.plan.loads.work import visit_s
 from opsim.plan.plan import Plan
@@ -19,25 +20,42 @@ def overloads(plan: Plan, loads: Loads | None = None) -> list[str]:
 
 def _stations(loads: Loads) -> Iterator[str]:
     for load in loads.stations:
+        if load.hours == 0:
+            continue  # told by ``opsim.plan.risks``
         if load.most_per_h == 0:
             yield f"{load.station} never works: its maintenance takes all of its time"
         elif load.load is not None and load.load >= 1:
-            yield f"{load.station} cannot keep up: {load.load:.0%} of its time is wanted"
+            which = "its time" if load.hours == 1 else f"its time, {load.hours:.0%} of the run,"
+            yield f"{load.station} cannot keep up: {load.load:.0%} of {which} is wanted"
 
 
 def _people(loads: Loads) -> Iterator[str]:
     if loads.flows.saturated:
         return
-    over = [load for load in loads.skills if load.load is not None and load.load >= 1]
+    over = [load for load in loads.skills if load.load is not None and load.load >= 1 and load.there > 0]
     for load in over:
         who = "1 worker who can" if load.able == 1 else f"{load.able} workers who can"
-        yield f"work at {load.skill} cannot be done: {load.load:.0%} of the time of the {who}, walks not counted"
+        yield (
+            f"work at {load.skill} cannot be done: {load.load:.0%} of the time of the {who}, walks not counted"
+            f"{_there(load)}{_overtime(load)}"
+        )
     crew = loads.crew
     if crew is not None and crew.share >= 1 and not over:
         yield (
             f"the {len(crew.workers)} workers of {len(crew.skills)} stations cannot keep up: however they share the "
             f"work, {crew.share:.0%} of their time is wanted, walks not counted ({', '.join(crew.skills[:6])})"
+            f"{_overtime(crew)}"
         )
+
+
+def _there(load: SkillLoad) -> str:
+    """How many are at work on average, where they have shifts, breaks or days off."""
+    return f"; {load.there:.2g} of them are at work on the mean of the run" if load.there < load.able else ""
+
+
+def _overtime(load: SkillLoad | Crew) -> str:
+    """What all the overtime that is allowed would make of it."""
+    return "" if load.with_overtime is None else f"; {load.with_overtime:.0%} with all the overtime that is allowed"
 
 
 def _shared(loads: Loads) -> Iterator[str]:

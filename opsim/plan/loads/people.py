@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import compress
+from math import inf
 
+from opsim.plan.hours import Hours
 from opsim.plan.loads.rates import Flows, flows_of
 from opsim.plan.loads.sharing import best_share
 from opsim.plan.loads.work import batch_size, setup_of, setup_s, task_s
@@ -18,6 +19,8 @@ class SkillLoad:
     """A skill is the work at a station. able : how many have it; work_s : work of people a visit at rating 1;
     wanted : how many of them it keeps busy (a day's work a day), for each job an hour where the floor decides what
     comes in; load : share of their time, if they did nothing else; None where the floor decides. Walks do not count.
+    there : how many of the able are at work on the mean of the run: shifts, breaks and absence are taken out;
+    with_overtime : the load if they stayed for all the overtime that they may; None where that changes nothing.
     """
 
     skill: str
@@ -25,50 +28,59 @@ class SkillLoad:
     work_s: float
     wanted: float
     load: float | None
+    there: float = 0.0
+    with_overtime: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Crew:
-    """share : of their time that the busiest people work however well work is shared; skills, workers : of whom that
-    is true; for each job an hour where the floor decides what comes in.
+    """share : of their time at work that the busiest people work however well work is shared; skills, workers : of whom
+    that is true; for each job an hour where the floor decides what comes in. with_overtime : as of a skill.
     """
 
     share: float
     skills: tuple[str, ...]
     workers: tuple[str, ...]
+    with_overtime: float | None = None
 
 
-def skill_loads(plan: Plan, flows: Flows | None = None) -> list[SkillLoad]:
+def skill_loads(plan: Plan, flows: Flows | None = None, hours: Hours | None = None) -> list[SkillLoad]:
     """Load of each skill that is needed, in natural order."""
-    flows = flows_of(plan) if flows is None else flows
-    found, able = [], _able(plan)
+    flows, hours = flows_of(plan) if flows is None else flows, Hours(plan) if hours is None else hours
+    found = []
     for rank, (work_s, wanted) in sorted(_wanted(plan, flows).items()):
-        ratings = able[rank].values()
-        load = None if flows.saturated or not ratings else wanted / sum(ratings)
-        found.append(SkillLoad(plan.stations[rank].name, len(ratings), work_s, wanted, load))
+        able = sorted(hours.able(rank))
+        there = sum(hours.share[worker] for worker in able)
+        loads = [None, None] if flows.saturated or not able else _shares(plan, hours, rank, wanted)
+        found.append(SkillLoad(plan.stations[rank].name, len(able), work_s, wanted, loads[0], there, loads[1]))
     return found
 
 
-def crew_load(plan: Plan, flows: Flows | None = None) -> Crew | None:
-    """The people who are worked hardest; None where nobody is needed."""
-    wanted = _wanted(plan, flows_of(plan) if flows is None else flows)
-    able = {rank: people for rank, people in _able(plan).items() if rank in wanted and people}
-    work = {rank: wanted[rank][1] / _mean(people.values()) for rank, people in able.items()}
-    found = best_share(work, {rank: tuple(people) for rank, people in able.items()})
+def _shares(plan: Plan, hours: Hours, rank: int, wanted: float) -> list[float | None]:
+    """(share of the time of the able, the same with overtime; None where there is none)."""
+    able, loads = hours.able(rank), []
+    for share in (hours.share, hours.share_with_overtime):
+        there = sum(plan.workers[worker].rating[rank] * share[worker] for worker in sorted(able))
+        loads.append(wanted / there if there > 0 else inf)
+    return [loads[0], loads[1] if loads[1] < loads[0] else None]
+
+
+def crew_load(plan: Plan, flows: Flows | None = None, hours: Hours | None = None) -> Crew | None:
+    """The people who are worked hardest; None where nobody is needed, or nobody is ever there."""
+    flows, hours = flows_of(plan) if flows is None else flows, Hours(plan) if hours is None else hours
+    wanted = {rank: n for rank, (_, n) in _wanted(plan, flows).items()}
+    there = {number for number, share in enumerate(hours.share) if share > 0}
+    able = {rank: people for rank in wanted if (people := sorted(hours.able(rank) & there))}
+    work = {rank: wanted[rank] / _mean_rating(plan, rank, people) for rank, people in able.items()}
+    found = best_share(work, able, hours.share)
     if found is None:
         return None
     share, skills = found
     people = sorted({n for rank in skills for n in able[rank]})
-    return Crew(share, tuple(plan.stations[rank].name for rank in skills), tuple(plan.workers[n].name for n in people))
-
-
-def _able(plan: Plan) -> dict[int, dict[int, float]]:
-    """By station: who can work there, each with the rating."""
-    able: dict[int, dict[int, float]] = {rank: {} for rank in range(len(plan.stations))}
-    for number, worker in enumerate(plan.workers):
-        for rank in compress(range(len(worker.rating)), worker.rating):  # NOTE: workers x stations, and most are 0
-            able[rank][number] = worker.rating[rank]
-    return able
+    more = best_share(work, able, hours.share_with_overtime)
+    names = tuple(plan.stations[rank].name for rank in skills)
+    with_overtime = more[0] if more is not None and more[0] < share * (1 - 1e-9) else None
+    return Crew(share, names, tuple(plan.workers[n].name for n in people), with_overtime)
 
 
 def _wanted(plan: Plan, flows: Flows) -> dict[int, tuple[float, float]]:
@@ -92,5 +104,5 @@ def by_hand_s(plan: Plan, station: int, product: int) -> float:
     return sum(task_s(plan, rank, product) * task.team for rank, task in tasks if task.attended or not task.automatic)
 
 
-def _mean(values: Collection[float]) -> float:
-    return sum(values) / len(values)
+def _mean_rating(plan: Plan, rank: int, people: Sequence[int]) -> float:
+    return sum(plan.workers[number].rating[rank] for number in people) / len(people)

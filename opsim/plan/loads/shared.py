@@ -68,7 +68,8 @@ def _repair_teams(plan: Plan, loads: dict[str, StationLoad], flows: Flows) -> It
         for stop in plan.breakdowns:
             if stop.team == rank:
                 load = loads[plan.stations[stop.station].name]
-                busy = 1.0 if stop.by == CLOCK or load.load is None else min(1.0, load.load)
+                at_work = load.hours if load.load is None else load.hours * min(1.0, load.load)
+                busy = 1.0 if stop.by == CLOCK else at_work
                 wanted += load.up * busy * down_per_up(plan, stop, load.work_s + load.setup_s)
         yield SharedLoad(team.name, REPAIR_TEAM, team.n, wanted, wanted / team.n)
 

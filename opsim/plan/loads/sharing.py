@@ -9,33 +9,44 @@ from itertools import pairwise
 SMALLEST = 1e-12
 
 
-def best_share(work: Mapping[int, float], able: Mapping[int, Sequence[int]]) -> tuple[float, tuple[int, ...]] | None:
+def best_share(
+    work: Mapping[int, float], able: Mapping[int, Sequence[int]], time: Sequence[float] | None = None
+) -> tuple[float, tuple[int, ...]] | None:
     """The least share of everybody's time in which all work can be done, and the kinds of work that ask for it.
 
-    work : by kind, in people; able : by kind, who can do it. The share is the largest of work(S) / people(S) over
-    all sets S of kinds (Hall 1935); it is found by trying a share, and taking the set that shows it to be too small
-    (Dinkelbach 1967). None where there is no work.
+    work : by kind, in people; able : by kind, who can do it; time : of each person, by number, 1 where he is always
+    there. The share is the largest of work(S) / time of people(S) over all sets S of kinds (Hall 1935); it is found by
+    trying a share, and taking the set that shows it to be too small (Dinkelbach 1967). None where there is no work.
     """
     kinds = tuple(sorted(kind for kind in work if work[kind] > 0 and able[kind]))
     if not kinds:
         return None
-    tight, share = kinds, _ratio(kinds, work, able)
+    if time is None:
+        time = [1.0] * (1 + max(person for kind in kinds for person in able[kind]))
+    tight, share = kinds, _ratio(kinds, work, able, time)
     while True:
-        more = _too_much(share * (1 + 1e-9), kinds, work, able)
-        if not more or _ratio(more, work, able) <= share:
+        more = _too_much(share * (1 + 1e-9), kinds, work, able, time)
+        if not more or _ratio(more, work, able, time) <= share:
             return share, tight
-        tight, share = more, _ratio(more, work, able)
+        tight, share = more, _ratio(more, work, able, time)
 
 
-def _ratio(kinds: Sequence[int], work: Mapping[int, float], able: Mapping[int, Sequence[int]]) -> float:
-    return sum(work[kind] for kind in kinds) / len({person for kind in kinds for person in able[kind]})
+def _ratio(
+    kinds: Sequence[int], work: Mapping[int, float], able: Mapping[int, Sequence[int]], time: Sequence[float]
+) -> float:
+    people = {person for kind in kinds for person in able[kind]}
+    return sum(work[kind] for kind in kinds) / sum(time[person] for person in sorted(people))
 
 
 def _too_much(
-    share: float, kinds: Sequence[int], work: Mapping[int, float], able: Mapping[int, Sequence[int]]
+    share: float,
+    kinds: Sequence[int],
+    work: Mapping[int, float],
+    able: Mapping[int, Sequence[int]],
+    time: Sequence[float],
 ) -> tuple[int, ...]:
     """Kinds whose work does not fit into a share of the time of all who can do it; empty where everything fits."""
-    spare = {person: share for kind in kinds for person in able[kind]}
+    spare = {person: share * time[person] for kind in kinds for person in able[kind]}
     done: dict[int, dict[int, float]] = {person: {} for person in spare}
     stuck: set[int] = set()
     for kind in kinds:

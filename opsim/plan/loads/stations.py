@@ -6,6 +6,7 @@ from collections import defaultdict
 from dataclasses import dataclass
 from math import inf
 
+from opsim.plan.hours import Hours
 from opsim.plan.loads.outages import up_share
 from opsim.plan.loads.rates import Flow, Flows, flows_of
 from opsim.plan.loads.work import batch_size, setup_s, visit_s
@@ -17,7 +18,8 @@ from opsim.plan.station import CONVEYOR, STORE
 class StationLoad:
     """work_s : mean work a visit at rating 1, a batch shared by its jobs; visits : for each job released (stations of
     one step share evenly); arrivals_per_h : None where the floor decides; setup_s : mean set-up a visit; up : share of
-    the time that it can work; most_per_h : visits that it can do; load : share of that which is wanted, None as above.
+    its hours that it can work, stops taken out; hours : share of the run in which it is open, and its people are at
+    work; most_per_h : visits that it can do on the mean of the run; load : share of that wanted, None as above.
     """
 
     station: str
@@ -29,29 +31,35 @@ class StationLoad:
     most_per_h: float
     setup_s: float = 0.0
     up: float = 1.0
+    hours: float = 1.0
 
 
-def station_loads(plan: Plan, flows: Flows | None = None) -> list[StationLoad]:
+def station_loads(plan: Plan, flows: Flows | None = None, hours: Hours | None = None) -> list[StationLoad]:
     """Load of each station and conveyor in natural order; a load above 1 cannot be worked off."""
-    flows = flows_of(plan) if flows is None else flows
+    flows, hours = flows_of(plan) if flows is None else flows, Hours(plan) if hours is None else hours
     by_station: defaultdict[int, list[Flow]] = defaultdict(list)
     for flow in flows.steps:
         by_station[flow.station].append(flow)
     ranks = [rank for rank, station in enumerate(plan.stations) if station.kind != STORE]
-    return [_load(plan, rank, by_station[rank], flows) for rank in ranks]
+    return [_load(plan, rank, by_station[rank], flows, hours) for rank in ranks]
 
 
-def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows) -> StationLoad:
+def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows, hours: Hours) -> StationLoad:
     station = plan.stations[rank]
     per_h, per_job = sum(flow.per_h for flow in here), sum(flow.per_job for flow in here)
     visits = per_job if flows.saturated else per_h / flows.per_h if flows.per_h else 0.0
     known = None if per_job > 0 or (flows.saturated and not per_h) else per_h
     work_s, change_s = _work_s(plan, rank, here), setup_s(plan, rank, here)
     up = up_share(plan, rank, work_s + change_s)
-    on_server_s = work_s + change_s
-    most = max(1, station.servers) * 3600 * up / on_server_s if on_server_s > 0 else inf
+    on_server_s, share = work_s + change_s, hours.working_share(rank, _by_hand(plan, rank))
+    most = max(1, station.servers) * 3600 * up * share / on_server_s if on_server_s > 0 else inf
     load = None if known is None else known / most if most > 0 else inf
-    return StationLoad(station.name, station.servers, work_s, visits, known, load, most, change_s, up)
+    return StationLoad(station.name, station.servers, work_s, visits, known, load, most, change_s, up, share)
+
+
+def _by_hand(plan: Plan, station: int) -> bool:
+    """Whether a station does nothing without a worker: one of its tasks is not automatic."""
+    return any(not plan.tasks[task].automatic for task in plan.stations[station].tasks)
 
 
 def _work_s(plan: Plan, rank: int, here: list[Flow]) -> float:

@@ -8,7 +8,7 @@ from opsim.problems import Problem, shown
 from opsim.scenario.checks.cards import passes, values
 from opsim.scenario.checks.releases import made_by, releases
 from opsim.scenario.checks.ways import first_of
-from opsim.scenario.positions import Node, child, entries, problem, text
+from opsim.scenario.positions import Node, child, entries, items, problem, text
 from opsim.scenario.schema.release import MOST_AT_ONCE
 
 
@@ -16,11 +16,12 @@ def saturated_problems(tree: Node) -> Iterator[Problem]:
     """Saturated sources into buffers that would never be full, or only after very many jobs."""
     products = entries(tree, "products")
     firsts: dict[str, str] = {}
+    paced = {one.value for line in entries(tree, "lines").values() for one in items(line, "stations")}
     for release in releases(tree).values():
         if text(release, "kind") == "saturated":
             made = {name: products[name] for name in made_by(tree, release) if name in products}
             free = {name: node for name, node in made.items() if not _limited(tree, name, node)}
-            firsts |= {station: name for name, node in free.items() for station in first_of(node)}
+            firsts |= {one: name for name, node in free.items() for one in first_of(node) if one not in paced}
     for name, product in firsts.items():
         station = child(tree, "stations", name)
         if station is not None and isinstance(station.value, dict):

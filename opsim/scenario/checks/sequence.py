@@ -18,11 +18,11 @@ def sequence_problems(tree: Node) -> Iterator[Problem]:
     asked: dict[tuple[Part, ...], Node | None] = {("flow", "dispatch"): child(tree, "flow", "dispatch")}
     asked |= {("stations", name, "dispatch"): child(station, "dispatch") for name, station in stations.items()}
     for path, rule in asked.items():
-        yield from _rule(rule, path, "opsim.sequencing", SEQUENCING_RULES)
+        yield from rule_problems(rule, path, "opsim.sequencing", SEQUENCING_RULES)
         if rule is not None and rule.value in _BY_DUE and not _has_due_dates(tree):
             hint = "give a product one, such as 'due: 4 h', or a schedule with a column due"
             yield problem(rule.place, path, f"{rule.value} goes by due dates, and no job has one", hint)
-    yield from _rule(child(tree, "flow", "routing"), ("flow", "routing"), "opsim.routing", ROUTING_RULES)
+    yield from rule_problems(child(tree, "flow", "routing"), ("flow", "routing"), "opsim.routing", ROUTING_RULES)
     for name, station in stations.items():
         yield from _preempt(station, ("stations", name))
         yield from _batch_before(tree, station, ("stations", name))
@@ -36,7 +36,8 @@ def setup_times(station: Node) -> list[Node]:
     return times if otherwise is None else [*times, otherwise]
 
 
-def _rule(rule: Node | None, path: tuple[Part, ...], group: str, ours: dict) -> Iterator[Problem]:
+def rule_problems(rule: Node | None, path: tuple[Part, ...], group: str, ours: dict) -> Iterator[Problem]:
+    """A rule that is none of ours, and no plug-in that can be used."""
     if rule is None or not isinstance(rule.value, str) or rule.value in ours:
         return
     from opsim.plugins import NoSuchPlugin, PluginError, plugins, rule_of

@@ -4,6 +4,7 @@ from opsim.scenario.schema.assembly import Batch, Store
 from opsim.scenario.schema.base import Block
 from opsim.scenario.schema.bounded import Beta, Empirical, Normal, Triangular, Uniform
 from opsim.scenario.schema.cards import Card
+from opsim.scenario.schema.crews import Crew
 from opsim.scenario.schema.cycles import GeometricCycles, UniformCycles
 from opsim.scenario.schema.distributions import (
     Erlang,
@@ -22,6 +23,7 @@ from opsim.scenario.schema.release import Release
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
 from opsim.scenario.schema.sequence import Flow, Setup
+from opsim.scenario.schema.shifts import Shift
 from opsim.scenario.schema.task_kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Task
 from opsim.scenario.schema.tasks import Emulated, Fixed, Plugged, Recorded, TaskBlock
 from opsim.scenario.schema.walking import Walking
@@ -38,6 +40,7 @@ __all__ = [
     "Block",
     "Breakdown",
     "Card",
+    "Crew",
     "Empirical",
     "Emulated",
     "Erlang",
@@ -62,6 +65,7 @@ __all__ = [
     "Run",
     "Scenario",
     "Setup",
+    "Shift",
     "Station",
     "Step",
     "Store",

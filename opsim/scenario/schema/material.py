@@ -14,7 +14,9 @@ from opsim.scenario.schema.failures import Breakdown, Maintenance
 from opsim.scenario.schema.quality import Inspect, LessThanAll, Yield, one_word_on_scrap
 from opsim.scenario.schema.routing import Onward
 from opsim.scenario.schema.sequence import Blocking, Setup
+from opsim.scenario.schema.shifts import ShiftNames
 from opsim.scenario.schema.tools import Needs
+from opsim.scenario.schema.work_sharing import Share
 
 
 class Station(Block):
@@ -71,6 +73,26 @@ class Station(Block):
     )
     inspect: Inspect | None = Field(
         None, description="a look at each job when its work here is done", examples=["{finds: 0.98, then: scrap}"]
+    )
+
+    shift: ShiftNames | None = Field(
+        None,
+        description="the shift, or all shifts, in which the station is open; absent: always",
+        examples=["day", "[early, late]"],
+    )
+    at_close: Literal["finish", "resume"] = Field(
+        "finish",
+        description="the tasks under way when it closes: finish: are done first, and the next task waits for the "
+        "opening; resume: stop at once, and go on with the rest at the opening",
+    )
+
+    priority: Whole = Field(
+        0, ge=-1000, le=1000, description="workers go to stations of a higher one first, before the rule of allocation"
+    )
+    share: Share | None = Field(
+        None,
+        description="its last tasks, where the next station may do them instead",
+        examples=["{tasks: [lid], with: closing, when: half_full}"],
     )
 
     @model_validator(mode="after")

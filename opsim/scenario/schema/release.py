@@ -10,6 +10,7 @@ from opsim.scenario.fields import NameText, Seconds, Whole, plain_error
 from opsim.scenario.schema.base import Block
 from opsim.scenario.schema.mix import Sequence, Shares
 from opsim.scenario.schema.motions import Motions
+from opsim.scenario.schema.shifts import ShiftNames
 from opsim.scenario.schema.task_kinds import Task
 from opsim.scenario.schema.tasks import Emulated, Plugged, TaskBlock
 
@@ -66,6 +67,13 @@ class Release(Block):
         "wait", description="what a job does that finds the first buffer full, or no card"
     )
 
+    shift: ShiftNames | None = Field(
+        None,
+        description="the shift, or all shifts, in which jobs come in; gaps between arrivals count these hours alone, "
+        "and an order of another hour comes when the next of them begins; absent: always",
+        examples=["early", "[early, late]"],
+    )
+
     @property
     def gap(self) -> TaskBlock | None:
         """Where the times between arrivals come from (renewal), as a time of a task; else None."""
@@ -110,7 +118,7 @@ def _check_keys(release: Release) -> None:
         raise plain_error("a saturated release has no 'every': a job enters whenever there is room", on="every")
     if release.when_full == "lose" and "when_full" not in _KEYS[release.kind]:
         raise plain_error(f"a {release.kind} release loses nothing", "remove 'when_full'", on="when_full")
-    beyond = release.model_fields_set - _KEYS[release.kind] - {"kind", "when_full"}
+    beyond = release.model_fields_set - _KEYS[release.kind] - {"kind", "when_full", "shift"}
     if beyond:
         key = min(beyond)
         if getattr(release, key) is not None:

@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from opsim.clock import DAYS
 from opsim.problems import shown
 from opsim.scenario.fields import Seconds, SecondsOrZero, Whole, plain_error
 from opsim.scenario.schema.base import Block
 
-DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
 _DAY_WORDS = {*DAYS, "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"}
 
 

@@ -8,17 +8,22 @@ from pydantic import BeforeValidator, Field
 
 from opsim.kpi.names import KPIS, USUAL
 from opsim.problems import did_you_mean, shown
-from opsim.scenario.fields import Name, Rating, plain_error
+from opsim.scenario.fields import Name, plain_error
 from opsim.scenario.schema.assembly import Store
 from opsim.scenario.schema.base import Block
 from opsim.scenario.schema.cards import Card
 from opsim.scenario.schema.conveyors import Conveyor
+from opsim.scenario.schema.crews import Crew
 from opsim.scenario.schema.failures import RepairTeam
 from opsim.scenario.schema.layout import Layout
+from opsim.scenario.schema.lines import Line
 from opsim.scenario.schema.material import Product, Station
 from opsim.scenario.schema.release import Release
+from opsim.scenario.schema.rotations import Rotation
 from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.sequence import Flow
+from opsim.scenario.schema.shifts import Shift
+from opsim.scenario.schema.skills import SkillLevels
 from opsim.scenario.schema.task_kinds import Task
 from opsim.scenario.schema.tools import Tool
 from opsim.scenario.schema.transporters import Transporter
@@ -95,13 +100,35 @@ class Scenario(Block):
     repair_teams: dict[Name, RepairTeam] = Field(
         {}, description="teams that repair and maintain stations, by name", examples=["{mechanics: {n: 1}}"]
     )
-    skill_levels: dict[Name, Rating] = Field(
-        {}, description="ratings by name, for the skills of workers", examples=["{learner: 0.8, expert: 1.15}"]
+    shifts: dict[Name, Shift] = Field(
+        {},
+        description="hours of the week, by name, for workers, stations and sources",
+        examples=["{early: {from: '06:00', to: '14:00', breaks: {lunch: {at: '10:00', lasts: 30 min}}}}"],
+    )
+    skill_levels: SkillLevels = Field(
+        {},
+        description="skills by name, for those of workers: a pace, or pace and quality",
+        examples=["{learner: {pace: 0.8, quality: 0.95}, expert: 1.15}"],
     )
     workforce: Workforce | None = Field(None, description="workers drawn beside the named ones", examples=["{n: 12}"])
     workers: dict[Name, Worker] = Field({}, description="the people who work here")
+    rotations: dict[Name, Rotation] = Field(
+        {},
+        description="people who change posts, by name",
+        examples=["{packers: {workers: [ana, ben], posts: [pack, label], every: 2 h}}"],
+    )
+    crews: dict[Name, Crew] = Field(
+        {},
+        description="people who share a line by a rule of their own, by name",
+        examples=["{line: {kind: bucket_brigade, stations: [a, b, c], workers: [slow, fast]}}"],
+    )
     walking: Walking | None = Field(
         None, description="how people walk between places", examples=["{emulator: walking/walk}"]
+    )
+    lines: dict[Name, Line] = Field(
+        {},
+        description="paced lines: consecutive stations of a route whose jobs move together, by name",
+        examples=["{final: {kind: indexed, stations: [door, seat, wheel], takt: 60 s}}"],
     )
     flow: Flow = Field(Flow.model_validate({}), description="the rules by which jobs go on, of all stations")
     allocation: Allocation = Field(Allocation.model_validate({}), description="the rules by which workers choose")
@@ -121,8 +148,12 @@ BLOCKS: dict[str, type[Block]] = {
     "release": Release,
     "tools": Tool,
     "repair_teams": RepairTeam,
+    "shifts": Shift,
+    "lines": Line,
     "workforce": Workforce,
     "workers": Worker,
+    "rotations": Rotation,
+    "crews": Crew,
     "walking": Walking,
     "flow": Flow,
     "allocation": Allocation,

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from opsim.scenario.fields import Load, Seconds, Whole, plain_error
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.shifts import RULES
 from opsim.scenario.schema.tools import ATTENDED, Automatic, Hold, Needs
 
 
@@ -28,6 +29,11 @@ class TaskBlock(Block):
         None,
         description="a tool in the hands from one moment of each performance to another",
         examples=["{tool: torque_gun, from: grasp, to: release}"],
+    )
+    interruption: RULES | None = Field(
+        None,
+        description="how it is left at breaks and at the end of the shift, whatever the shift says (at_break, at_end)",
+        examples=["finish"],
     )
     per: Literal["unit", "lot"] = Field("unit", description="done for each unit of a lot, or once for the lot")
 

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
-from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Rating, Speed, Whole
+from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Speed, Whole, plain_error
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.routing import Probability
+from opsim.scenario.schema.shifts import ShiftNames
+from opsim.scenario.schema.skills import Skills
 
 MOST_WORKERS = 500
 """That a workforce may have."""
 PREFIX = "w"
+
+
+def _once(names: list[str]) -> list[str]:
+    twice = [number for number, name in enumerate(names) if name in names[:number]]
+    if twice:
+        raise plain_error(f"{names[twice[0]]!r} is named twice", on=twice[0])
+    return names
 
 
 class Person(Block):
@@ -33,10 +43,32 @@ class Person(Block):
         description="what the worker carries at once from station to station; more needs several walks",
         examples=["15 kg"],
     )
-    skills: dict[str, Rating] = Field(
+    skills: Skills = Field(
         {},
-        description="rating by station, a number (1.1: a tenth faster) or the name of a skill level",
+        description="by station: a pace (1.1: a tenth faster), the name of a skill level, or pace and quality",
         examples=["{pack: 1.0}"],
+    )
+    zone: Annotated[list[NameText], AfterValidator(_once)] | None = Field(
+        None,
+        min_length=1,
+        description="his own stations: he goes to another one that he has the skill for only where none of these "
+        "calls, and nobody is free whose own it is; absent: all of them are his own",
+        examples=["[pack, label]"],
+    )
+    floater: bool = Field(
+        False, description="he is sent only where nobody else who is free could go: one who steps in, for all stations"
+    )
+    shift: ShiftNames | None = Field(
+        None,
+        description="when the worker is there: a shift, or several that follow each other week by week, the first in "
+        "the week of the start; absent: always",
+        examples=["early", "[early, late]"],
+    )
+    absence: Probability = Field(
+        0.0,
+        description="share of his shifts that he does not come to, each drawn by itself; his jobs left for him are then "
+        "for anybody",
+        examples=[0.05],
     )
     home: NameText | None = Field(None, description="the place where the worker stands at the start")
     patrol: list[NameText] | None = Field(
@@ -71,11 +103,22 @@ class Allocation(Block):
     rule: NameText = Field(
         "longest_queue",
         description="which of the stations that call a free worker goes to; a plug-in may bring more rules",
-        examples=["longest_queue", "nearest", "oldest_job"],
+        examples=["longest_queue", "nearest", "oldest_job", "most_downstream", "best_skill"],
+    )
+    priorities: Annotated[list[Literal["stations", "products"]], AfterValidator(_once)] = Field(
+        ["stations"],
+        description="what comes before the rule, in this order: the priority of stations, that of the jobs that call "
+        "there; zones and floaters come before both",
+        examples=["[products, stations]"],
     )
     idle: Literal["stay", "home", "patrol"] = Field(
         "stay",
         description="what a worker does whom nobody calls: stay, go home, or go round the stations of his patrol",
+    )
+    serve: Literal["exhaustive", "one"] = Field(
+        "exhaustive",
+        description="what somebody on patrol does at a station before he walks on: all jobs until nobody calls there, "
+        "or one operation",
     )
     when_blocked: Literal["free", "held"] = Field(
         "free", description="whether a worker whose job cannot move on is free, or stays with it"

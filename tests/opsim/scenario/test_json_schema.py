@@ -69,6 +69,9 @@ RIGHT = [
     GOOD.replace("release: {kind: poisson, every: 55 s}", "sources: {a: {kind: saturated, sequence: [carton]}}"),
     GOOD.replace("workers:\n", "cards: {loop: {n: 3, from: pack, to: [pack], products: carton}}\nworkers:\n"),
     GOOD.replace("{pack: 1.1}", "{pack: expert}").replace("workers:\n", "skill_levels: {expert: 1.15}\nworkers:\n"),
+    GOOD.replace("{pack: 1.1}", "{pack: {quality: 0.9}}").replace(
+        "workers:\n", "skill_levels: {expert: {pace: 1.15, quality: 1}}\nworkers:\n"
+    ),
 ]
 WRONG = [
     (GOOD.replace("horizon: 8 h", "horizon: 8"), ".run.horizon: not a string"),
@@ -78,7 +81,7 @@ WRONG = [
     (GOOD.replace("name: One bench\n", ""), ": name is missing"),
     (GOOD.replace("walked_m", "walked"), ".outputs[0]: 'walked' is not among"),
     (GOOD.replace("start: Mon 06:00", "start: '06:00'"), ".run.start: '06:00' does not look right"),
-    (GOOD.replace("{pack: 1.1}", "{pack: 11}"), ".workers.ana.skills.pack: 11 is beyond 10"),
+    (GOOD.replace("{pack: 1.1}", "{pack: 11}"), ".workers.ana.skills.pack: none of 2 fits"),
     (GOOD.replace("{route: [pack]}", "{share: 1}"), ".products.carton: none of 2 fits"),
     (GOOD.replace("workers:\n", "walking: {}\nworkers:\n"), ".walking: emulator is missing"),
     (GOOD.replace("workers:\n", "walking: {emulator: w/walk, by: foot}\nworkers:\n"), ".walking: unknown key by"),

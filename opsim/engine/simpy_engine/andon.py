@@ -1,0 +1,114 @@
+"""Andon: somebody is called to a job of a paced line that is not done in time; he takes over, or helps."""
+
+from __future__ import annotations
+
+from bisect import insort
+from functools import partial
+from typing import Any
+
+from opsim.engine.simpy_engine.allocation import send
+from opsim.engine.simpy_engine.floor import Floor, pair_key
+from opsim.engine.simpy_engine.helping import Helping, can_help
+from opsim.engine.simpy_engine.interruption import take_over
+from opsim.engine.simpy_engine.sent_on import turn_away
+from opsim.engine.simpy_engine.state import Claim, Job, Station, Worker, claim_of
+from opsim.engine.simpy_engine.worker import set_free
+from opsim.log import AWAY, HELD, NO_WORKER, SETUP, WORK
+
+ORDER = 5
+"""Among the ways to begin a task: the first, since who comes to a job that somebody is at begins none."""
+LINES = "lines"
+
+
+class Andon:
+    """waiting : jobs for which somebody is wanted; coming : by the rank of who is on his way, the job he goes to."""
+
+    def __init__(self, floor: Floor, line: Any):
+        self.line = line
+        self.floaters = [floor.workers[rank] for rank in line.plan.floaters]
+        self.waiting: list[Claim] = []
+        self.coming: dict[int, Job] = {}
+        self.helping = Helping(floor, line.stations) if line.plan.helps else None
+        for station in line.stations:
+            station.add_act(ORDER, self.act)
+        for worker in self.floaters:
+            left = worker.limits.get(LINES, (1 << len(floor.stations)) - 1)
+            worker.restrict(LINES, left & ~sum(1 << station.rank for station in line.stations))
+        floor.dispatchers.append(self.send)
+
+    def call(self, floor: Floor, job: Job) -> None:
+        """Somebody is wanted at a job."""
+        insort(self.waiting, claim_of(job, floor.now))
+
+    def done(self, _floor: Floor, job: Job) -> None:
+        """The job is done, or sent on: nobody is wanted, and who is on his way comes all the same."""
+        self.waiting = [claim for claim in self.waiting if claim[3] is not job]
+        for rank in [rank for rank, other in self.coming.items() if other is job]:
+            del self.coming[rank]
+            worker = self.floaters[self.line.plan.floaters.index(rank)]
+            if worker.job is job:
+                worker.job = worker.station = None
+
+    def send(self, floor: Floor) -> bool:
+        """Send who is free to the jobs that have waited longest; True where somebody goes."""
+        sent = False
+        for claim in list(self.waiting):
+            job, station = claim[3], claim[3].station
+            if not self.line.is_open(job):
+                self.waiting.remove(claim)
+                continue
+            able = [one for one in self.floaters if one.rank in floor.free and _may(one, station)]
+            if able and _can_be_taken(floor, job):
+                self.waiting.remove(claim)
+                worker = min(able, key=partial(_key, floor, station, job))
+                self.coming[worker.rank] = job
+                send(floor, worker, station, job)
+                sent = True
+        return sent
+
+    def act(self, floor: Floor, job: Job, worker: Worker) -> bool:
+        """Somebody who was called is there, or at the beginning of the stretch: he does what he was called for."""
+        if self.coming.get(worker.rank) is not job:
+            return False
+        if self.line.walks_to(floor, job, worker):
+            return True
+        del self.coming[worker.rank]
+        worker.since_s = floor.now
+        if not (_may(worker, job.station) and _can_be_taken(floor, job)):
+            set_free(floor, worker)
+            self.call(floor, job)
+        elif self.helping is not None and can_help(floor, job):
+            self.helping.begin(floor, job, worker)
+            self.call(floor, job)  # for the tasks that follow
+        else:
+            self._take(floor, job, worker)
+        return True
+
+    def _take(self, floor: Floor, job: Job, worker: Worker) -> None:
+        if job.kind == HELD:
+            self.line.stop_walks(floor, job, but=worker.rank)
+            turn_away(floor, job, but=worker.rank)
+            for told in floor.lost_server if job.cause == AWAY else ():
+                told(floor, job, job.station)
+        take_over(floor, job, worker)
+
+
+def _may(worker: Worker, station: Station) -> bool:
+    """Whether somebody who is called may go to a station: he has the skill, and no other block keeps him."""
+    masks = [mask for block, mask in worker.limits.items() if block != LINES]
+    return worker.rating[station.rank] > 0 and all(mask >> station.rank & 1 for mask in masks)
+
+
+def _can_be_taken(floor: Floor, job: Job) -> bool:
+    """Whether one worker alone is at the job and is not being helped, or nobody is and somebody is wanted."""
+    if job.station.down or job.team is not None:
+        return False
+    if job.kind in (WORK, SETUP):
+        return job.worker >= 0
+    tasks = job.station.tasks
+    task = tasks[job.task_position] if job.setup_task < 0 else job.setup_task
+    return job.kind == HELD and job.cause in (NO_WORKER, AWAY) and floor.plan.tasks[task].team == 1
+
+
+def _key(floor: Floor, station: Station, job: Job, worker: Worker) -> tuple[float, ...]:
+    return pair_key(floor, worker, station, job, 1, job.since_s)

@@ -1,0 +1,72 @@
+"""How long people were there: on duty, in overtime, absent; and what of it they were at work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from opsim.kpi.figure import Figure
+from opsim.kpi.open_hours import duty_hours, open_time_s
+from opsim.kpi.values import SECONDS_PER_HOUR, inside_s
+from opsim.log import ABSENT, BREAK, OFF, SETUP, WALK, WORK, WORKER_KINDS, EventLog
+from opsim.plan import Plan
+from opsim.plan.hours.spans import Spans, without
+
+
+def duty(log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """Of each worker who has shifts, and of all of them together (no subject), in the window:
+
+    on_duty_h : hours he was there, breaks, meetings and overtime included
+    duty_use  : of that time, breaks and meetings aside, how much he worked, set up or walked
+    overtime_h : hours he was there outside of his shifts, in overtime or to finish what he had begun
+    absent_share : of the hours of his shifts, how many he missed because he was absent
+    """
+    on_shifts = [rank for rank, worker in enumerate(plan.workers) if worker.duties is not None]
+    if not on_shifts:
+        return
+    rows = np.flatnonzero(np.isin(log["kind"], WORKER_KINDS) & (log["worker"] >= 0))
+    found = {rank: _times_s(log, plan, rows[log["worker"][rows] == rank], rank) for rank in on_shifts}
+    together = np.sum(list(found.values()), axis=0)
+    for name, times_s in [("", together), *((plan.workers[rank].name, found[rank]) for rank in on_shifts)]:
+        there_s, rested_s, busy_s, over_s, missed_s, planned_s = times_s.tolist()
+        yield Figure("on_duty_h", name, "", "h", there_s / SECONDS_PER_HOUR)
+        yield Figure("duty_use", name, "", "share", busy_s / (there_s - rested_s) if there_s > rested_s else np.nan)
+        yield Figure("overtime_h", name, "", "h", over_s / SECONDS_PER_HOUR)
+        yield Figure("absent_share", name, "", "share", missed_s / planned_s if planned_s else np.nan)
+
+
+def _times_s(log: EventLog, plan: Plan, rows: np.ndarray, rank: int) -> np.ndarray:
+    """Seconds in the window of one worker: there, resting, busy, there outside of his shifts, absent, planned."""
+    kind, spent_s = log["kind"][rows], inside_s(log, rows, plan)
+    there = ~np.isin(kind, (OFF, ABSENT))
+    planned = duty_hours(plan, rank)
+    outside = without(((0.0, plan.horizon_s),), planned)
+    busy = np.isin(kind, (WORK, SETUP, WALK))
+    return np.array(
+        [
+            spent_s[there].sum(),
+            spent_s[kind == BREAK].sum(),
+            spent_s[busy].sum(),
+            _meet_s(log, rows[there], plan, outside),
+            spent_s[kind == ABSENT].sum(),
+            open_time_s(plan, planned),
+        ]
+    )
+
+
+def _meet_s(log: EventLog, rows: np.ndarray, plan: Plan, spans: Spans) -> float:
+    """Seconds of some rows that lie in the window and in some times."""
+    low, high = plan.window_s
+    begins, ends = np.maximum(log["start_s"][rows], low), np.minimum(log["end_s"][rows], high)
+    return sum(
+        float(np.maximum(np.minimum(ends, to_s) - np.maximum(begins, from_s), 0).sum()) for from_s, to_s in spans
+    )
+
+
+def present_s(log: EventLog, plan: Plan) -> np.ndarray:
+    """(workers,) seconds of the window in which each was there: neither off nor absent."""
+    length_s = plan.window_s[1] - plan.window_s[0]
+    rows = np.flatnonzero(np.isin(log["kind"], (OFF, ABSENT)) & (log["worker"] >= 0))
+    gone_s = np.bincount(log["worker"][rows], weights=inside_s(log, rows, plan), minlength=len(plan.workers))
+    return length_s - gone_s

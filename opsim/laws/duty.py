@@ -1,0 +1,86 @@
+"""The law of duty: people work in their shifts, and after them only for as long as a rule keeps them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from opsim.clock import ticks
+from opsim.laws.stays import Stays, words
+from opsim.log import ABSENT, BREAK, OFF, SETUP, WORK, WORKER_KINDS, EventLog
+from opsim.plan import Duty, Plan
+
+AT_ONCE = ("resume", "resume_any", "restart")
+"""Rules under which a task is left when the time has come."""
+
+
+def duty(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
+    """Nobody is off in his shift or there outside of it, but for what he stays for; a missed shift is missed whole.
+
+    Breaks of a shift last no longer than they are planned to.
+    """
+    on_shifts = [rank for rank, worker in enumerate(plan.workers) if worker.duties is not None]
+    rows = np.flatnonzero(np.isin(log["kind"], WORKER_KINDS) & np.isin(log["worker"], on_shifts))
+    rows = rows[np.lexsort([log["start_s"][rows], log["worker"][rows]])]
+    for rank in on_shifts:
+        own = log.where(rows[log["worker"][rows] == rank])
+        for found in _of_worker(own, plan, plan.workers[rank].duties or ()):
+            yield f"worker {plan.workers[rank].name}: {found}"
+
+
+def _of_worker(own: EventLog, plan: Plan, duties: tuple[Duty, ...]) -> Iterator[str]:
+    begins, ends = ticks(own["start_s"]), ticks(own["end_s"])
+    from_, to = (ticks([getattr(one, edge) for one in duties]) for edge in ("start_s", "end_s"))
+    kind = own["kind"]
+    for at in np.flatnonzero((kind == OFF) & (_inside(begins, ends, from_, to) > 0))[:1]:
+        yield f"off at {words(begins[at])}, in his shift"
+    missed = {(int(b), int(e)) for b, e in zip(begins[kind == ABSENT], ends[kind == ABSENT])}
+    for begin, end in sorted(missed - set(zip(from_.tolist(), to.tolist())))[:1]:
+        yield f"absent from {words(begin)} to {words(end)}, which is no shift of his"
+    yield from _outside(own, begins, ends, from_, to)
+    until = np.r_[from_[1:], ticks(own.horizon_s)]
+    for one, begin, end, next_begin in zip(duties, from_, to, until):
+        if (int(begin), int(end)) not in missed:
+            after = own.where((begins >= begin) & (begins < next_begin))
+            yield from _rested(after, one)
+            if not one.cut and ticks(one.end_s + plan.shifts[one.shift].overtime_s) < next_begin:
+                yield from _too_long(after, plan, one)
+
+
+def _inside(begins: np.ndarray, ends: np.ndarray, from_: np.ndarray, to: np.ndarray) -> np.ndarray:
+    """(rows,) ticks of each row that lie in some shift."""
+    overlap = np.minimum(ends[:, None], to) - np.maximum(begins[:, None], from_)
+    return np.maximum(overlap, 0).sum(axis=1)
+
+
+def _outside(own: EventLog, begins: np.ndarray, ends: np.ndarray, from_: np.ndarray, to: np.ndarray) -> Iterator[str]:
+    """Who is there outside of his shifts has stayed on after one of them."""
+    there = ~np.isin(own["kind"], (OFF, ABSENT))
+    comes = there & ~np.r_[False, there[:-1]]
+    in_shift = np.any((begins[:, None] >= from_) & (begins[:, None] < to), axis=1)
+    for at in np.flatnonzero(comes & ~in_shift)[:1]:
+        yield f"comes at {words(begins[at])}, outside of his shifts"
+
+
+def _rested(own: EventLog, one: Duty) -> Iterator[str]:
+    rested = ticks(own.duration_s[own["kind"] == BREAK]).sum()
+    planned = sum(int(ticks(pause.end_s - pause.start_s)) for pause in one.pauses)
+    if rested > planned:
+        yield f"breaks of {words(rested)} in the shift from {one.start_s:g} s, planned are {words(planned)}"
+
+
+def _too_long(own: EventLog, plan: Plan, one: Duty) -> Iterator[str]:
+    """Of what he works after a shift and its overtime: no more than the rule of interruption lets him finish."""
+    shift = plan.shifts[one.shift]
+    limit = int(ticks(one.end_s + shift.overtime_s))
+    works = np.isin(own["kind"], (WORK, SETUP))
+    late = works & (ticks(own["end_s"]) > limit)
+    performance, job, rule = -1, max(own["job"][works & (ticks(own["end_s"]) == limit)], default=-1), ""
+    for at in np.flatnonzero(late):
+        begin = int(ticks(own["start_s"][at]))
+        if begin < limit:
+            performance, job = own["performance_id"][at], own["job"][at]
+        rule = rule or plan.tasks[own["task"][at]].interruption or shift.at_end  # that of the task which his end met
+        same = own["performance_id"][at] == performance or (rule == "finish_job" and own["job"][at] == job >= 0)
+        if rule in AT_ONCE or not same:
+            yield f"still at work at {words(max(limit, begin))}, though his shift and its overtime are over"
+            return

@@ -1,0 +1,5 @@
+"""When people and stations are there."""
+
+from opsim.plan.hours.people import Hours
+
+__all__ = ["Hours"]

@@ -1,0 +1,120 @@
+"""People through the day: a strip a worker, on which each stretch of time is filled by what he did in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+
+from opsim.report.palette import GRID, INK, MUTED, OTHER, STATES, WORDS
+from opsim.report.words import clock
+
+WIDE, LEFT, RIGHT, STRIP, ROW, TOP = 1180, 128, 14, 22, 40, 34
+"""Of the picture, in its own units: all of it, its margins, a strip, a strip with the words below it, and above all."""
+GONE = ("off",)
+"""A line instead of a strip: who is not there leaves the place white, so that those who are stand out."""
+LETTER = 6.0
+LONGEST_NAME = 18
+FONT = "system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif"
+
+
+@dataclass(frozen=True, eq=False)
+class Strip:
+    """One worker. shares : by state, (C,) of each of C even stretches of the time shown; bottom first
+
+    posts : (from, to, words) of stretches in which he was mostly in one place, as shares of the time shown
+    shifts : (from, to) of his shifts, as such shares
+    """
+
+    worker: str
+    shares: dict[str, np.ndarray]
+    posts: Sequence[tuple[float, float, str]] = ()
+    shifts: Sequence[tuple[float, float]] = ()
+
+
+def draw_day(strips: Sequence[Strip], start: str, from_s: float, to_s: float) -> bytes:
+    """The strips one below the other over a clock, as SVG; the same bytes for the same strips.
+
+    start : when the run began, as the scenario says it; from_s, to_s : the time shown, in seconds from there
+    """
+    tall = TOP + ROW * len(strips) + 10
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {tall}" width="{WIDE}" height="{tall}" '
+        f'font-family="{FONT}">',
+        f'<rect width="{WIDE}" height="{tall}" fill="#ffffff"/>',
+        *_clock(start, from_s, to_s, tall),
+    ]
+    for row, strip in enumerate(strips):
+        parts += _strip(strip, TOP + ROW * row + 4)
+    return "\n".join([*parts, "</svg>"]).encode()
+
+
+def _x(share: float) -> float:
+    return LEFT + share * (WIDE - LEFT - RIGHT)
+
+
+def _clock(start: str, from_s: float, to_s: float, tall: int) -> Iterator[str]:
+    """A line an hour, and its words where there is room."""
+    length_s = to_s - from_s
+    every_s = next((s for s in (600, 1800, 3600, 7200, 14400, 21600, 43200, 86400) if length_s / s <= 17), 86400)
+    at_s = from_s + (-_seconds_of_day(start, from_s)) % every_s
+    while at_s <= to_s:
+        x = _x((at_s - from_s) / length_s)
+        yield f'<path d="M{x:.1f} {TOP - 6}V{tall - 8}" stroke="{GRID}"/>'
+        day, _, time = clock(start, at_s).partition(" ")
+        words = f"{day} {time}" if time == "00:00" or at_s - from_s < every_s else time
+        yield _text(words or day, x, TOP - 12, MUTED, "end" if x > WIDE - 3 * RIGHT else "middle", 12)
+        at_s += every_s
+
+
+def _seconds_of_day(start: str, at_s: float) -> float:
+    """Seconds since the last full hour that everybody knows: midnight, where the start says a time of the day."""
+    words = clock(start, 0).split()
+    hours, _, minutes = words[-1].partition(":")
+    known = len(words) == 2 and hours.isdigit() and minutes.isdigit()
+    return (int(hours) * 3600 + int(minutes) * 60 if known else 0) + at_s
+
+
+def _strip(strip: Strip, top: float) -> Iterator[str]:
+    short = strip.worker if len(strip.worker) <= LONGEST_NAME else strip.worker[: LONGEST_NAME - 1] + "…"
+    yield _text(short, LEFT - 10, top + STRIP - 6, INK, "end", 13)
+    below: np.ndarray | float = 0.0
+    for state, shares in strip.shares.items():
+        above = below + shares
+        gone = state in GONE
+        low, high = (0.5 - 0.12 * shares, 0.5 + 0.12 * shares) if gone else (below, above)
+        yield f'<path d="{_area(low, high, top)}" fill="{STATES.get(state, OTHER)[0]}"/>'
+        below = below if gone else above
+    for begin, end in strip.shifts:
+        yield f'<path d="M{_x(begin):.1f} {top + STRIP + 2}H{_x(end):.1f}" stroke="{INK}" stroke-width="1.5"/>'
+    for begin, end, words in strip.posts:
+        room = int((_x(end) - _x(begin)) / LETTER)
+        if len(words) <= room:
+            yield _text(words, (_x(begin) + _x(end)) / 2, top + STRIP + 13, MUTED, "middle", 11)
+
+
+def _area(below: np.ndarray | float, above: np.ndarray, top: float) -> str:
+    """The steps between two courses of shares: a rectangle for each run of stretches that are alike."""
+    low, high = np.broadcast_to(below, above.shape), above
+    n = above.size
+    edges = np.flatnonzero(np.r_[True, (np.abs(np.diff(low)) > 1e-3) | (np.abs(np.diff(high)) > 1e-3)])
+    path = []
+    for begin, end in zip(edges, [*edges[1:], n]):
+        if high[begin] - low[begin] > 1e-3:
+            y, height = top + STRIP * (1 - high[begin]), STRIP * (high[begin] - low[begin])
+            path.append(f"M{_x(begin / n):.1f} {y:.1f}H{_x(end / n):.1f}v{height:.1f}H{_x(begin / n):.1f}z")
+    return "".join(path)
+
+
+def _text(words: str, x: float, y: float, colour: str, anchor: str, size: int) -> str:
+    said = escape(words, quote=False)
+    return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" text-anchor="{anchor}" font-size="{size}">{said}</text>'
+
+
+def legend(strips: Sequence[Strip]) -> list[tuple[str, str]]:
+    """(colour, words) of the states that the strips show, bottom first."""
+    seen = {state for strip in strips for state, shares in strip.shares.items() if shares.any()}
+    order = dict.fromkeys(state for strip in strips for state in strip.shares)
+    return [(STATES.get(state, OTHER)[0], WORDS.get(state, state)) for state in order if state in seen]
