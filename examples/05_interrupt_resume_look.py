@@ -54,3 +54,18 @@ for task, performances, seconds, pieces in rows:
 hand = done.skeleton.index("right_hand")
 way_m = np.linalg.norm(np.diff(done.positions_m()[:, hand], axis=0), axis=1).sum()
 print(f"right hand: {way_m:.1f} m in {done.duration_s:.1f} s")
+
+
+# %% A piece of a performance is a piece of its movement: who comes back from tea goes on from the posture he stopped in.
+def tea(env, ana):
+    doing = ana.perform("fasten")
+    yield env.timeout(2.0)
+    doing.interrupt("tea")
+    before = yield doing
+    yield env.timeout(600.0)
+    return before, (yield ana.resume(before))
+
+
+before, after = env.run(env.process(tea(env, ana)))
+jump_mm = 1000 * np.abs(before.positions_m()[-1] - after.positions_m()[0]).max()
+print(f"fasten in two pieces, parted at {after.progress_from:.0%}: {jump_mm:.3f} mm from one posture to the next")

@@ -10,7 +10,8 @@ import numpy as np
 
 KINDS = (
     *("work", "walk", "wait", "break", "off", "absent", "blocked", "starved", "queue", "held", "setup", "down"),
-    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool", "sent_on", "stands"),
+    *("repair", "transport", "create", "join", "split", "finish", "scrap", "lost", "rework", "tool"),
+    *("sent_on", "stands"),
 )
 WORK, WALK, WAIT, BREAK, OFF, ABSENT, BLOCKED, _STARVED, QUEUE, HELD, SETUP, DOWN = range(12)
 REPAIR, TRANSPORT, CREATE, JOIN, SPLIT, FINISH, SCRAP, LOST, REWORK, TOOL, SENT_ON, STANDS = range(12, 24)

@@ -120,6 +120,7 @@ def moving_line(floor: Floor) -> None:
 def _line(floor: Floor, line: dict) -> None:
     pick = floor.pick
     steps = _way_of_its_own(floor, line["kind"][0])
+    floor["flow"].pop("blocking", None)
     for step in steps:
         del floor["stations"][step]["buffer"]
     andon = {"andon": {"workers": ["w0"], "at": f"{pick.whole(5, 14)} s", "does": pick.one_of(["take_over", "help"])}}

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from made_blocks import BLOCKS
 from made_crews import CREWS
-from made_floors import Floor
+from made_floors import PLACES, Floor
 
 RULES = ("finish", "finish_job", "resume", "resume_any", *3 * ("hand_over",), "restart")
 """Rules of interruption; for a hand-over somebody has to be free, so it is drawn more often."""
@@ -22,7 +22,7 @@ ALWAYS = ("shifts", "breaks")
 
 
 class PeopleFloor(Floor):
-    """A floor of one hour, with tasks of six to thirty seconds and every worker in a shift.
+    """A floor of one hour, with tasks of six to thirty seconds; on a third of floors they end where pauses begin.
 
     begins_min : the minute of the day at which it begins; slots : minutes in each shift at which a pause may begin
     """
@@ -33,8 +33,9 @@ class PeopleFloor(Floor):
         start = pick.one_of([*STARTS, "Mon 06:00"])
         self.begins_min = STARTS[start]
         self.scenario["run"] = {"start": start, "horizon": "3600 s", "warm_up": "60 s", "seed": 3}
+        step_s = pick.one_of([1, 1, 10])
         for name, task in self["tasks"].items():
-            task["fixed"] = "4 s" if name == "m" else f"{pick.whole(6, 30)} s"
+            task["fixed"] = "4 s" if name == "m" else f"{step_s * pick.whole(-(-6 // step_s), 30 // step_s)} s"
             if pick.whole(0, 2):
                 task.pop("automatic", None)
         for station in self["stations"].values():
@@ -60,7 +61,7 @@ def shifts(floor: PeopleFloor) -> None:
     for worker in floor["workers"].values():
         shift = pick.one_of(["early", "early", "early", "late", "late", "late", ["early", "late"], None])
         if shift is not None:
-            worker["shift"] = shift
+            worker.update(shift=shift, home=pick.one_of(list(PLACES)))
 
 
 def breaks(floor: PeopleFloor) -> None:
@@ -91,7 +92,9 @@ def task_rules(floor: PeopleFloor) -> None:
 
 def absence(floor: PeopleFloor) -> None:
     for worker in floor["workers"].values():
-        worker["absence"] = floor.pick.one_of([0, 0.2, 0.5])
+        if "shift" in worker:
+            if "shift" in worker:
+            worker["absence"] = floor.pick.one_of([0, 0.2, 0.5])
 
 
 def overtime(floor: PeopleFloor) -> None:

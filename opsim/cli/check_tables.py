@@ -26,7 +26,14 @@ def print_loads(variant: str, loads: Any) -> None:
 
 def _limit(one: Any) -> str:
     said = f"{one.most_per_h:.1f} jobs per h at most"
-    return f"{one.what} ({said})" if one.load is None else f"{one.what} ({one.load:.0%}, {said})"
+    return f"{one.what} ({said})" if one.load is None else f"{one.what} ({_share(one.load)}, {said})"
+
+
+def _share(load: float | None) -> str:
+    """A load; of what never works, there is none."""
+    if load is None:
+        return "–"
+    return f"{load:.0%}" if load < float("inf") else "never there"
 
 
 def _print_stations(variant: str, loads: list[Any]) -> None:
@@ -59,7 +66,7 @@ def _cells(load: Any, setups: bool, stops: bool, hours: bool) -> tuple[str, ...]
         f"{load.visits:.2f}" if load.visits or not load.arrivals_per_h else "–",  # of sources beside a saturated one
         f"{load.most_per_h:.1f}" if load.most_per_h < float("inf") else "–",
         "saturated" if load.arrivals_per_h is None else f"{load.arrivals_per_h:.1f}",
-        "–" if load.load is None else f"{load.load:.0%}",
+        _share(load.load),
     )
 
 
@@ -86,7 +93,7 @@ def _print_people(variant: str, skills: Any, crew: Any) -> None:
 
 
 def _skill_cells(load: Any, rated: bool, hours: bool) -> tuple[str, ...]:
-    wanted = (f"{load.wanted:.2f}", "–" if load.load is None else f"{load.load:.0%}") if rated else ()
+    wanted = (f"{load.wanted:.2f}", _share(load.load)) if rated else ()
     there = (f"{load.there:.2f}",) if hours else ()
     return (load.skill, str(load.able), *there, f"{load.work_s:.1f} s", *wanted)
 

@@ -7,15 +7,18 @@ from typing import Any
 
 _ALWAYS = ("work", "blocked", "loaded")
 _WHERE_LARGE = {
-    "station_states": ("setup", "down", "repair", "parts", "tool", "place", "pickup", "away", "takt", "line_stop", "waiting"),
-    "worker_states": ("setup", "walk", "held", "team", "tool", "absent"),
+    "station_states": (
+        *("setup", "down", "repair", "parts", "tool", "place", "pickup", "away", "takt", "line_stop", "waiting"),
+    ),
+    "worker_states": ("setup", "walk", "held", "behind", "team", "tool", "absent"),
 }
 """States beside those of ``_ALWAYS``, shown where some variant has more of them than ``_LARGE``; the report has all."""
 _LARGE = 0.05
 _BY_STOP = (
-    *("stops_per_h", "down_s", "wait_for_repair_s", "stop_share", "interruptions_per_h"),
-    *("incomplete_share", "line_stopped_share"),
+    *("stops_per_h", "down_s", "wait_for_repair_s", "stop_share"),
+    *("incomplete_share", "line_stopped_share", "handoff_position"),
 )
+_WHERE_ANY = ("interruptions_per_h",)
 Cells = dict[str, dict[str, Any]]
 
 
@@ -44,6 +47,8 @@ def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool
     """Whether a row is shown. cells : by variant, the row of its summary."""
     if not part or part in _ALWAYS or kpi in _BY_STOP:
         return True
+    if kpi in _WHERE_ANY:
+        return any((row["mean"] or 0) > 0 for row in cells.values())
     return part in _WHERE_LARGE.get(kpi, ()) and any((row["mean"] or 0) > _LARGE for row in cells.values())
 
 

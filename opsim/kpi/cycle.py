@@ -7,7 +7,7 @@ import numpy as np
 
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import by_rank, changes, in_window, mean, quantiles
-from opsim.log import SETUP, WORK, EventLog
+from opsim.log import LEAVING_KINDS, SETUP, WORK, EventLog
 from opsim.plan import Plan
 
 
@@ -41,12 +41,34 @@ def visits(log: EventLog, plan: Plan) -> Visits:
     first = changes(stay)
     done_before = np.cumsum(done) - done
     done_before -= done_before[first][np.cumsum(first) - 1]
-    begins = changes(stay, done_before // needed)
+    number, shared = done_before // needed, np.isin(station, [r for s in plan.shares for r in (s.station, s.partner)])
+    if shared.any():
+        coming, over = _comings(log, work, station)
+        number = np.where(shared, coming, number)
+    begins = changes(stay, number)
     visit, start = np.cumsum(begins) - 1, np.flatnonzero(begins)
     last = np.r_[start[1:], work.size][: start.size] - 1
     work_s = np.bincount(visit, weights=log["end_s"][work] - log["start_s"][work], minlength=start.size)
     n_done = np.bincount(visit[done], minlength=start.size)
-    return Visits(station[start], work_s, log["end_s"][work[last]], n_done == needed[start])
+    whole = n_done == needed[start]
+    if shared.any():
+        whole = np.where(shared[start], done[last] & over[last], whole)
+    return Visits(station[start], work_s, log["end_s"][work[last]], whole)
+
+
+def _comings(log: EventLog, work: np.ndarray, station: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(rows,) which coming to a station each row of work belongs to, and whether the job has gone on from there.
+
+    Where two stations share work, no number of performances says when a visit is over.
+    """
+    job = log["job"][work]
+    order = np.lexsort([work, job])
+    coming = np.empty(work.size, dtype=np.int64)
+    coming[order] = np.cumsum(changes(job[order], station[order]))
+    _, of = np.unique(job, return_inverse=True)
+    latest = np.zeros(of.max() + 1, dtype=np.int64)
+    np.maximum.at(latest, of, coming)
+    return coming, (coming < latest[of]) | np.isin(job, log.of(*LEAVING_KINDS)["job"])
 
 
 def _performances(plan: Plan) -> np.ndarray:

@@ -14,8 +14,8 @@ from opsim.kpi.duty import duty
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
 from opsim.kpi.interruptions import interruptions
-from opsim.kpi.names import needs_postures
 from opsim.kpi.lines import lines
+from opsim.kpi.names import needs_postures
 from opsim.kpi.oee import oee
 from opsim.kpi.outages import outages
 from opsim.kpi.posture import trunk_flexion

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
+from opsim.laws.away import away
 from opsim.laws.closed import closed
 from opsim.laws.duty import duty
 from opsim.laws.jobs import conserved, integral, tiled
@@ -25,6 +26,7 @@ LAWS: dict[str, Law] = {
     "no station, store or conveyor holds more jobs than it has room for": rooms,
     "every second of every worker has a place, and nobody moves but by walking": places,
     "people work in their shifts, and after them only for what they stay for": duty,
+    "a job waits for one worker only while he is away": away,
     "the pieces of a performance follow one another and add up to one": progress,
     "nobody works at a station that is down": outages,
     "nothing begins at a station that its calendar closes": closed,

@@ -75,12 +75,14 @@ def _too_long(own: EventLog, plan: Plan, one: Duty) -> Iterator[str]:
     works = np.isin(own["kind"], (WORK, SETUP))
     late = works & (ticks(own["end_s"]) > limit)
     performance, job, rule = -1, max(own["job"][works & (ticks(own["end_s"]) == limit)], default=-1), ""
+    helped = -1, -1
     for at in np.flatnonzero(late):
         begin = int(ticks(own["start_s"][at]))
         if begin < limit:
             performance, job = own["performance_id"][at], own["job"][at]
+            helped = own["task"][at], own["k"][at]  # who is helped goes on with the same at another pace
         rule = rule or plan.tasks[own["task"][at]].interruption or shift.at_end  # that of the task which his end met
-        same = own["performance_id"][at] == performance or (rule == "finish_job" and own["job"][at] == job >= 0)
+        same = own["performance_id"][at] == performance or helped == (own["task"][at], own["k"][at]) or (rule == "finish_job" and own["job"][at] == job >= 0)
         if rule in AT_ONCE or not same:
             yield f"still at work at {words(max(limit, begin))}, though his shift and its overtime are over"
             return

@@ -18,9 +18,10 @@ def progress(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
 
     Who leaves the floor has nothing left to do, and the pieces of one performance all go at one pace.
     """
-    yield from _in_bounds(log)
+    out_of_bounds = list(_in_bounds(log))
+    yield from out_of_bounds
     pieces = job_pieces(log)
-    if pieces.row.size:
+    if pieces.row.size and not out_of_bounds:
         yield from _one_after_another(log, plan, pieces)
         yield from _nothing_left(log, plan, pieces)
         yield from _one_pace(log, pieces)

@@ -63,10 +63,19 @@ def plan_shifts(scenario: Any) -> tuple[ShiftPlan, ...]:
     )
 
 
-def duties_of(worker: Any, scenario: Any, ranks: Any) -> tuple[Duty, ...] | None:
-    """The shifts of a worker within the run, in order; None where he is always there."""
-    if worker.shift is None:
-        return None
+def plan_duties(scenario: Any, ranks: Any) -> dict[str, tuple[Duty, ...] | None]:
+    """By worker, his shifts within the run, in order; None where he is always there.
+
+    Those who follow the same shifts share them: a year of a hundred workers would else take seconds.
+    """
+    known: dict[tuple[str, ...], tuple[Duty, ...]] = {}
+    for worker in scenario.workers.values():
+        if worker.shift is not None and tuple(worker.shift) not in known:
+            known[tuple(worker.shift)] = _duties(worker.shift, scenario, ranks)
+    return {name: None if one.shift is None else known[tuple(one.shift)] for name, one in scenario.workers.items()}
+
+
+def _duties(names: list[str], scenario: Any, ranks: Any) -> tuple[Duty, ...]:
     shift_ranks, horizon_s = ranked(scenario.shifts), scenario.run.horizon_s
     return tuple(
         Duty(
@@ -77,7 +86,7 @@ def duties_of(worker: Any, scenario: Any, ranks: Any) -> tuple[Duty, ...] | None
             _pauses(scenario.shifts[name], day, start_s, horizon_s, ranks.places),
             end_s > horizon_s,
         )
-        for number, (start_s, end_s, day, name) in enumerate(begun(worker.shift, scenario))
+        for number, (start_s, end_s, day, name) in enumerate(begun(names, scenario))
     )
 
 

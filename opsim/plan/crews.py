@@ -10,7 +10,7 @@ BUCKET_BRIGADE, RABBIT_CHASE = "bucket_brigade", "rabbit_chase"
 
 @dataclass(frozen=True, slots=True)
 class CrewPlan:
-    """stations, workers : ranks, in the order of the line; of a bucket brigade, from who begins jobs to who ends them."""
+    """stations, workers : ranks, in the order of the line; of a brigade, from who begins jobs to who ends them."""
 
     name: str
     kind: str

@@ -67,7 +67,8 @@ def buffer_of(name: str, buffer: float, scenario) -> float:
 
 def _line(name: str, line, scenario, ranks: Ranks) -> LinePlan:
     stations = tuple(ranks.stations[station] for station in line.stations)
-    common = LinePlan(name, line.kind, stations, on_grid(line.takt_s), line.unfinished == SEND_ON, *_andon(line, scenario))
+    sends_on = line.unfinished == SEND_ON
+    common = LinePlan(name, line.kind, stations, on_grid(line.takt_s), sends_on, *_andon(line, scenario))
     return _moving(common, line) if line.kind == MOVING else common
 
 

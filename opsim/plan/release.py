@@ -48,6 +48,10 @@ class SourcePlan:
     level: int = 0
     open_s: OPEN | None = None
 
+    def is_open_at(self, end_s: float) -> bool:
+        """Whether it is open until a time."""
+        return self.open_s is None or any(from_s < end_s <= to_s for from_s, to_s in self.open_s)
+
     def job_every_s(self, horizon_s: float) -> float | None:
         """Mean seconds from one job to the next, where it makes them by time or by order; else None."""
         if self.kind == SCHEDULE:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from opsim.bodies import BODY_KEYS
 from opsim.names import natural_key
-from opsim.plan.calendar import Duty, duties_of
+from opsim.plan.calendar import Duty, plan_duties
 from opsim.plan.ranks import Ranks
 
 
@@ -57,6 +57,7 @@ class WorkerPlan:
 
 def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
     """Workers in natural order. Who has no ``home`` starts at the first of his stations in natural order."""
+    duties = plan_duties(scenario, ranks)
     return tuple(
         WorkerPlan(
             name,
@@ -66,7 +67,7 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
             Body(**{key: getattr(worker, key) for key in BODY_KEYS}, walk_m_per_s=worker.walk_m_per_s),
             tuple(ranks.stations[name] for name in worker.patrol or ()),
             worker.most_load_kg,
-            duties_of(worker, scenario, ranks),
+            duties[name],
             worker.absence,
             zone=tuple(sorted(ranks.stations[name] for name in worker.zone or ())),
             floater=worker.floater,

@@ -63,10 +63,18 @@ def _clock(start: str, from_s: float, to_s: float, tall: int) -> Iterator[str]:
     while at_s <= to_s:
         x = _x((at_s - from_s) / length_s)
         yield f'<path d="M{x:.1f} {TOP - 6}V{tall - 8}" stroke="{GRID}"/>'
-        day, _, time = clock(start, at_s).partition(" ")
-        words = f"{day} {time}" if time == "00:00" or at_s - from_s < every_s else time
-        yield _text(words or day, x, TOP - 12, MUTED, "end" if x > WIDE - 3 * RIGHT else "middle", 12)
+        last = x > WIDE - 3 * RIGHT
+        words = _hour(start, at_s, first=at_s - from_s < every_s, last=last)
+        yield _text(words, x, TOP - 12, MUTED, "end" if last else "middle", 12)
         at_s += every_s
+
+
+def _hour(start: str, at_s: float, *, first: bool, last: bool) -> str:
+    """``07:00``, with the day at first and where one begins; hours since a start that says no time of the day."""
+    day, _, time = clock(start, at_s).partition(" ")
+    if time.count(":") != 1 or len(time) != 5:
+        return f"{at_s / 3600:g} h"
+    return f"{day} {time}" if (first or time == "00:00") and not last else time
 
 
 def _seconds_of_day(start: str, at_s: float) -> float:

@@ -30,7 +30,8 @@ def with_interval(row: Row) -> str:
 def sentences(summary: Mapping[str, Any]) -> list[str]:
     """What came out, how long it stayed, who and what was busiest, and how surely this is known."""
     rows = summary["kpis"]
-    said = [_output(rows), _busiest(rows, "worker_states", "worker"), _busiest(rows, "station_states", "station")]
+    worker = _busiest_on_duty(rows) or _busiest(rows, "worker_states", "worker")
+    said = [_output(rows), worker, _busiest(rows, "station_states", "station"), _overtime(rows)]
     return [text for text in [*said, _certainty(summary)] if text]
 
 
@@ -60,6 +61,29 @@ def _busiest(rows: Sequence[Row], kpi: str, noun: str) -> str:
     if most is not None and most["mean"] >= 0.01:
         text += f"; the one most often blocked is {most['subject']}: {with_interval(most)}"
     return text + "."
+
+
+def _busiest_on_duty(rows: Sequence[Row]) -> str:
+    """Where people work in shifts, time off is nobody's idleness."""
+    on_shifts = [row for row in rows if row["kpi"] == "duty_use" and row["subject"] and is_number(row["mean"])]
+    if not on_shifts:
+        return ""
+    top = max(on_shifts, key=lambda row: row["mean"])
+    return (
+        f"The busiest worker is {top['subject']}: at work or on the way for {with_interval(top)} of the time on duty, "
+        "breaks aside."
+    )
+
+
+def _overtime(rows: Sequence[Row]) -> str:
+    """Overtime and absence of all together, where there was some."""
+    over, missed = find(rows, "overtime_h"), find(rows, "absent_share")
+    said = []
+    if over is not None and over["mean"] > 0:
+        said.append(f"people stay on for {with_interval(over)} in all")
+    if missed is not None and missed["mean"] > 0:
+        said.append(f"{with_interval(missed)} of the time of shifts is missed")
+    return listing(said)[:1].upper() + listing(said)[1:] + "." if said else ""
 
 
 def _certainty(summary: Mapping[str, Any]) -> str:

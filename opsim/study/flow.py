@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.plan.station import STATION
+from opsim.study.assignment import assignment, qualities
+from opsim.study.crews import crews
 from opsim.study.released import released
 from opsim.study.station_model import by_themselves, station_model, vehicles
 from opsim.study.stopped import stopped
@@ -21,11 +23,14 @@ def flow(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     yield from _transport(plan)
     yield from station_model(plan)
     yield from stopped(plan)
-    if plan.workers:
+    if len(plan.workers) > sum(len(crew.workers) for crew in plan.crews):
         rule, blocked = plan.rule.replace("_", " "), plan.when_blocked
         chosen = "chosen" if "allocation.rule" in loaded.given else "default"
         yield "allocation", f"free workers go by {rule} ({chosen}); with a blocked job a worker is {blocked}"
         yield "allocation", f"idle workers {_IDLE[plan.idle]}"
+        yield from assignment(plan)
+        yield from qualities(plan)
+    yield from crews(plan)
     stations = [station for station in plan.stations if station.kind == STATION]
     unlimited = [station.name for station in stations if station.buffer == float("inf")]
     if unlimited:

@@ -10,6 +10,7 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.unread import tasks_of, unknown_there
 from opsim.plan.worker import WorkerPlan, start_place
 from opsim.streams import stream
+from opsim.study.rotations import rotations
 from opsim.study.working_time import working_time
 
 _OWN_PACE = ("full", "between_only", "shuffled")
@@ -32,15 +33,17 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     """Lines of (topic, what is assumed)."""
     if not plan.workers:
         yield "workers", "none: every task is automatic"
+        yield from working_time(plan)
         return
     yield from _workforce(loaded.scenario.workforce)
     yield from _bodies(plan, loaded.scenario.run.variability)
     yield from _recorded(plan)
     levels = loaded.scenario.skill_levels
     if levels:
-        given = listed(f"{name} {rating:g}" for name, rating in levels.items())
+        given = listed(f"{name} {_skill_said(skill)}" for name, skill in levels.items())
         yield "skills", f"the ratings of the skill levels are the scenario's own, not measured: {given}"
     yield from _standing(loaded, plan)
+    yield from rotations(plan)
     yield from working_time(plan)
     if loaded.scenario.run.variability in _OWN_PACE and any(_differ(task) for task in plan.tasks):
         drawn = {
@@ -49,6 +52,11 @@ def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
         }
         yield "workers", drawn[plan.staffing]
         yield "workers", _ACROSS[plan.across_tasks]
+
+
+def _skill_said(skill) -> str:
+    """A rating alone, or with the share of good work."""
+    return f"{skill.pace:g} (good work {skill.quality:g})" if hasattr(skill, "quality") else f"{skill:g}"
 
 
 def asked_for_pace(plan: Plan) -> list[str]:

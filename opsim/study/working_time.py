@@ -13,7 +13,7 @@ from opsim.study.station_model import Line
 _BROKEN_OFF = {
     "finish": "who has to go finishes the task under way first",
     "finish_job": "who has to go finishes all tasks of his job at the station first",
-    "resume": "who has to go stops at once, and goes on with the rest when he is back; the job keeps its place and waits",
+    "resume": "who has to go stops at once, and goes on with the rest when he is back; the job waits for him",
     "resume_any": "who has to go stops at once; whoever is free first goes on, another one with his own next time",
     "hand_over": "who has to go works on until somebody free has come and takes over, with his own next time",
     "restart": "who has to go stops at once, what was done is lost, and anybody begins anew",
@@ -37,6 +37,8 @@ def working_time(plan: Plan) -> Iterator[Line]:
 
 
 def _presence(plan: Plan) -> Iterator[Line]:
+    if not plan.workers:
+        return
     always = [worker.name for worker in plan.workers if worker.duties is None]
     if len(always) == len(plan.workers):
         yield "workers", "everybody is present and equally fresh all the time: no breaks, absence, learning or fatigue"
@@ -56,11 +58,15 @@ def _presence(plan: Plan) -> Iterator[Line]:
 
 
 def _interruptions(plan: Plan) -> Iterator[Line]:
-    worked = sorted({duty.shift for worker in plan.workers for duty in worker.duties or ()})
-    shifts = [plan.shifts[rank] for rank in worked]
-    for when, of in (("at breaks and meetings", "at_break"), ("at the end of a shift", "at_end")):
+    duties = [duty for worker in plan.workers for duty in worker.duties or ()]
+    shifts = [plan.shifts[rank] for rank in sorted({duty.shift for duty in duties})]
+    with_breaks = [plan.shifts[rank] for rank in sorted({duty.shift for duty in duties if duty.pauses})]
+    for when, of, those in (
+        ("at breaks and meetings", "at_break", with_breaks),
+        ("at the end of a shift", "at_end", shifts),
+    ):
         for rule in _BROKEN_OFF:
-            names = [shift.name for shift in shifts if getattr(shift, of) == rule]
+            names = [shift.name for shift in those if getattr(shift, of) == rule]
             if names:
                 yield "interruption", f"{when} of {listed(names)}: {_BROKEN_OFF[rule]}"
     for rule in _BROKEN_OFF:

@@ -59,7 +59,7 @@ SPEED_AT_A = {"one": 1.0, "two": 0.8}
 def helped() -> dict[str, float]:
     """Jobs done a second, and jobs inside, of the N-model: states (jobs at a, at b, whether one works, what two does).
 
-    Who is free takes the oldest job at a; two does b first, and helps at a only where one is busy. Nobody is interrupted.
+    Who is free takes the oldest job at a; two does b first, helps at a only where one is busy, and is not interrupted.
     """
 
     def moves(state):
@@ -85,7 +85,8 @@ def helped() -> dict[str, float]:
 
     shares = shares_of_time((0, 0, False, ""), moves)
     inside = sum(share * (at_a + at_b) for (at_a, at_b, _, _), share in shares.items())
-    done = sum(share * (one + SPEED_AT_A["two"] * (two == "a") + (two == "b")) for (_, _, one, two), share in shares.items())
+    rate = {"": 0.0, "a": SPEED_AT_A["two"], "b": 1.0}
+    done = sum(share * (SPEED_AT_A["one"] * one + rate[two]) for (_, _, one, two), share in shares.items())
     return {"throughput": done, "inside": inside}
 
 
@@ -97,12 +98,18 @@ def limited_wait_s(n: int, arrivals_per_s: float, walk_s: float) -> float:
     return right / (load * (1 - arrivals_per_s * round_s / (1 - load)))
 
 
+_SHARED = {"half_full": (4, 0.5), "full": (4, 1.0), "one_place": (1, 0.5), "no_place": (0, 0.5)}
 CASES = (
     *(
-        Case("work_sharing", variant, "throughput_per_h", sharing_rate(room, filled), scale=3600.0)
-        for variant, room, filled in (("half_full", 4, 0.5), ("full", 4, 1.0), ("one_place", 1, 0.5), ("no_place", 0, 0.5))
+        Case("work_sharing", variant, "throughput_per_h", sharing_rate(*rule), scale=3600.0, few=6)
+        for variant, rule in _SHARED.items()
     ),
     Case("n_model", "base", "throughput_per_h", helped()["throughput"], scale=3600.0),
     Case("n_model", "base", "work_in_progress", helped()["inside"], most_half_width=0.02),
-    Case("polling", "limited", "time_in_system_s", limited_wait_s(4, 0.2, 0.1), shift=1.0, most_half_width=0.02, few=40),
+    Case(
+        *("polling", "limited", "time_in_system_s", limited_wait_s(4, 0.2, 0.1)),
+        shift=1.0,
+        most_half_width=0.02,
+        few=40,
+    ),
 )

@@ -4,7 +4,7 @@ The expected numbers are those of ``known_answers.json`` (each with its formula 
 from the closed form or the Markov chain named there), or come from the Markov chain of ``chains.py``.
 """
 
-from known_answers import assembly, assignment, failures, pull, sequence
+from known_answers import assembly, assignment, duty, failures, lines, pull, sequence
 from known_answers.case import HERE, Case
 from known_answers.chains import line_rate
 
@@ -74,5 +74,7 @@ CASES = (
     *assembly.CASES,
     *pull.CASES,
     *sequence.CASES,
+    *duty.CASES,
     *assignment.CASES,
+    *lines.CASES,
 )

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from opsim.log import BLOCKED, CREATE, DOWN, FINISH, JOB_KINDS, QUEUE, REPAIR, STOCK, EventLog
+from opsim.kpi.lines import lines
+from opsim.log import ABSENT, BLOCKED, CREATE, DOWN, FINISH, JOB_KINDS, QUEUE, REPAIR, STOCK, EventLog
 from opsim.plan import Plan
 
 
@@ -68,6 +69,37 @@ def stay_of_second_s(log: EventLog, plan: Plan) -> float:
     return _stay_s(log, plan, "second")
 
 
+def jobs_finished(log: EventLog, _plan: Plan) -> float:
+    """Jobs that left the floor as done."""
+    return float(len(log.of(FINISH)))
+
+
+def absent_at_once(log: EventLog, plan: Plan) -> float:
+    """Workers who miss a shift, on average over the shifts of the first of them."""
+    return float(_missing(log, plan).mean())
+
+
+def shifts_missed_by_none(log: EventLog, plan: Plan) -> float:
+    """Share of the shifts that nobody misses."""
+    return float((_missing(log, plan) == 0).mean())
+
+
+def shifts_missed_by_two(log: EventLog, plan: Plan) -> float:
+    """Share of the shifts that two miss."""
+    return float((_missing(log, plan) == 2).mean())
+
+
+def incomplete_share(log: EventLog, plan: Plan) -> float:
+    """Share of the jobs that left a paced line unfinished at some station of it."""
+    return next(figure.value for figure in lines(log, plan) if figure.kpi == "incomplete_share" and not figure.part)
+
+
+def _missing(log: EventLog, plan: Plan) -> np.ndarray:
+    """(shifts,) how many miss each; all have the same shifts."""
+    begins = [duty.start_s for duty in plan.workers[0].duties or ()]
+    return np.array([np.sum(log.of(ABSENT)["start_s"] == begin) for begin in begins])
+
+
 FROM_LOG: dict[str, Callable[[EventLog, Plan], float]] = {
     "machines_down": machines_down,
     "repairs_under_way": repairs_under_way,
@@ -79,6 +111,11 @@ FROM_LOG: dict[str, Callable[[EventLog, Plan], float]] = {
     "pieces_in_stock": pieces_in_stock,
     "stay_of_first_s": stay_of_first_s,
     "stay_of_second_s": stay_of_second_s,
+    "jobs_finished": jobs_finished,
+    "absent_at_once": absent_at_once,
+    "shifts_missed_by_none": shifts_missed_by_none,
+    "shifts_missed_by_two": shifts_missed_by_two,
+    "incomplete_share": incomplete_share,
 }
 
 

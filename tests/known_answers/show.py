@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from known_answers import emulated_staffing, staffing
+from known_answers import crews, emulated_staffing, staffing
 from known_answers.cases import CASES, Case
 from known_answers.simulate import simulate
 from recordings import data_folder
@@ -34,6 +34,7 @@ def main() -> int:
     for case in emulated:
         rates = emulated_staffing.rates(runs, case, mean_s[case.variant])
         staffed.append(_staffing("staffing, emulated", case.variant, rates))
+    staffed += [crews.told(variant) for variant in crews.VELOCITIES]
     return int(outside[0] > MOST_OUTSIDE_95 * len(CASES) or any(outside[1:]) or not all(staffed))
 
 

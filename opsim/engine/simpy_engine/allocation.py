@@ -2,7 +2,7 @@
 
 from opsim.engine.simpy_engine.floor import Floor, pair_key
 from opsim.engine.simpy_engine.state import Job, Station, Worker
-from opsim.engine.simpy_engine.station import call_off, perform, quiet
+from opsim.engine.simpy_engine.station import call_off, perform
 from opsim.engine.simpy_engine.worker import log_worker, walk
 
 
@@ -74,7 +74,9 @@ def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
     calls = station.calling
     if calls and calls[0][3] is job:  # NOTE: most often
         del calls[0]
-        quiet(floor, station)
+        if not calls:
+            del floor.calling[station.rank]
+            floor.calls ^= 1 << station.rank
     else:
         call_off(floor, station, job)
     if job.with_tools:

@@ -8,7 +8,7 @@ from typing import Any
 
 from opsim.engine.simpy_engine.allocation import send
 from opsim.engine.simpy_engine.floor import Floor, pair_key
-from opsim.engine.simpy_engine.helping import Helping, can_help
+from opsim.engine.simpy_engine.helping import can_help, helping_at
 from opsim.engine.simpy_engine.interruption import take_over
 from opsim.engine.simpy_engine.sent_on import turn_away
 from opsim.engine.simpy_engine.state import Claim, Job, Station, Worker, claim_of
@@ -21,14 +21,18 @@ LINES = "lines"
 
 
 class Andon:
-    """waiting : jobs for which somebody is wanted; coming : by the rank of who is on his way, the job he goes to."""
+    """waiting : jobs for which somebody is wanted; coming : by the rank of who is on his way, the job he goes to
+
+    left_s : when a call was last left to those who work here all the time, once in an instant
+    """
 
     def __init__(self, floor: Floor, line: Any):
         self.line = line
         self.floaters = [floor.workers[rank] for rank in line.plan.floaters]
         self.waiting: list[Claim] = []
         self.coming: dict[int, Job] = {}
-        self.helping = Helping(floor, line.stations) if line.plan.helps else None
+        self.left_s = -1.0
+        self.helping = helping_at(floor, line.stations) if line.plan.helps else None
         for station in line.stations:
             station.add_act(ORDER, self.act)
         for worker in self.floaters:
@@ -58,13 +62,23 @@ class Andon:
                 self.waiting.remove(claim)
                 continue
             able = [one for one in self.floaters if one.rank in floor.free and _may(one, station)]
-            if able and _can_be_taken(floor, job):
+            if able and self._others_first(floor, job):
+                sent = True
+            elif able and _can_be_taken(floor, job):
                 self.waiting.remove(claim)
                 worker = min(able, key=partial(_key, floor, station, job))
                 self.coming[worker.rank] = job
                 send(floor, worker, station, job)
                 sent = True
         return sent
+
+    def _others_first(self, floor: Floor, job: Job) -> bool:
+        """Whether whoever works here all the time is free for the job, and may be sent in this instant."""
+        calls = any(claim[3] is job for claim in job.station.calling)
+        if self.left_s == floor.now or not calls or not any(w.may_serve(job.station) for w in floor.free.values()):
+            return False
+        self.left_s = floor.now
+        return True
 
     def act(self, floor: Floor, job: Job, worker: Worker) -> bool:
         """Somebody who was called is there, or at the beginning of the stretch: he does what he was called for."""
@@ -103,11 +117,12 @@ def _can_be_taken(floor: Floor, job: Job) -> bool:
     """Whether one worker alone is at the job and is not being helped, or nobody is and somebody is wanted."""
     if job.station.down or job.team is not None:
         return False
-    if job.kind in (WORK, SETUP):
-        return job.worker >= 0
-    tasks = job.station.tasks
-    task = tasks[job.task_position] if job.setup_task < 0 else job.setup_task
-    return job.kind == HELD and job.cause in (NO_WORKER, AWAY) and floor.plan.tasks[task].team == 1
+    if job.kind in (WORK, SETUP):  # else who is at it is done in this very instant
+        return job.worker >= 0 and job.since_s + job.duration_s > floor.now
+    if job.kind != HELD or job.cause not in (NO_WORKER, AWAY):
+        return False
+    task = job.station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
+    return floor.plan.tasks[task].team == 1
 
 
 def _key(floor: Floor, station: Station, job: Job, worker: Worker) -> tuple[float, ...]:

@@ -24,9 +24,14 @@ from opsim.log import (
     WORK,
 )
 
+UNBROKEN = ("finish", "finish_job", "restart")
+"""The rules of interruption of a task that nobody takes over in the middle."""
+
 
 def caught_up(floor: Floor, job: Job) -> bool:
-    """Whether somebody who stands at the station of a job meets it there: it is not on its way to it any more."""
+    """Whether somebody who stands at the station of a job may take it there: it has come, and can be left now."""
+    if job.kind == WORK and job.worker >= 0 and floor.plan.tasks[job.task].interruption in UNBROKEN:
+        return False
     return job.kind != TRANSPORT and not (job.with_tools and _on_his_way(floor, job) is not None)
 
 

@@ -5,23 +5,22 @@ from __future__ import annotations
 from opsim.engine.rules.crews import overtakes
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Claim, Gate, Job, Station
-from opsim.log import BLOCKED, QUEUE, TRANSPORT
-
-NOT_SEATED = (QUEUE, TRANSPORT)
-"""What a job does that is on its way to a server."""
+from opsim.log import AFTER, BLOCKED, QUEUE, TRANSPORT
 
 
 class CrewLine:
     """jobs : on servers of the crew's stations or on their way between them, those that are furthest on first
 
-    place : of each station's rank, where in the line it is
+    place   : of each station's rank, where in the line it is
+    carried : numbers of the jobs that somebody carries
     """
 
-    __slots__ = ("floor", "gates", "jobs", "place")
+    __slots__ = ("carried", "floor", "gates", "jobs", "place")
 
     def __init__(self, floor: Floor, ranks: tuple[int, ...]):
         self.floor = floor
         self.jobs: list[Job] = []
+        self.carried: set[int] = set()
         self.place = {rank: place for place, rank in enumerate(ranks)}
         self.gates = [gate for gate in floor.gates.values() if self._first_place(gate) >= 0]
 
@@ -43,7 +42,11 @@ class CrewLine:
         """
         there = self.floor.jobs
         jobs = [job for job in self.jobs if job.number in there and self.at(job) >= 0]
-        self.jobs = sorted(jobs, key=lambda job: (-self.at(job), job.kind in NOT_SEATED))
+        self.jobs = sorted(jobs, key=lambda job: (-self.at(job), _comes(job)))
+        carried = {job.number for job in jobs if job.kind == TRANSPORT and job.plan.carried}
+        if self.carried - carried:  # somebody has come: who is behind him may set out
+            self.floor.stirred.update(gate for gate in self.gates if gate.claims)
+        self.carried = carried
 
     def ahead(self, job: Job) -> Job | None:
         """The job that is next ahead of one in the line; None where there is none, or the job is not in it."""
@@ -56,11 +59,9 @@ class CrewLine:
         return None
 
     def may_leave(self, job: Job) -> bool:
-        """Whether a job that is done at a station leaves nobody there behind who was ahead of it."""
+        """Whether a job that is done at a station leaves nobody there who was ahead of it, and is not done."""
         ahead = self.ahead(job)
-        return (
-            ahead is None or self.at(ahead) > self.at(job) or (ahead.station is job.station and ahead.kind == BLOCKED)
-        )
+        return ahead is None or self.at(ahead) > self.at(job) or _is_done(ahead)
 
     def guard(self) -> None:
         """Have every gate into the line keep the order too, where jobs may skip stations."""
@@ -69,9 +70,12 @@ class CrewLine:
         self.floor.left_station.append(self._stir)
 
     def may_enter(self, gate: Gate, job: Job) -> bool:
-        """Whether a job that comes in by a gate stays behind the one that is ahead of it."""
+        """Whether a job that comes in by a gate stays behind the one ahead of it, which may still be carried there."""
         ahead = self.ahead(job)
-        return ahead is None or not overtakes(self._first_place(gate), self.at(ahead))
+        if ahead is None:
+            return True
+        place, on_its_way = self._first_place(gate), ahead.kind == TRANSPORT and ahead.plan.carried
+        return not overtakes(place + on_its_way, self.at(ahead))
 
     def _first_place(self, gate: Gate) -> int:
         return min((self.place[s.rank] for s in gate.stations if s.rank in self.place), default=-1)
@@ -80,6 +84,16 @@ class CrewLine:
         """Who was behind a job that goes on may go on too."""
         if station.rank in self.place:
             floor.stirred.update(gate for gate in self.gates if gate.claims)
+
+
+def _comes(job: Job) -> bool:
+    """Whether a job is on its way to a server, or waits for one."""
+    return job.kind == TRANSPORT or (job.kind == QUEUE and job.cause != AFTER)
+
+
+def _is_done(job: Job) -> bool:
+    """Whether a job is done where it is, and wants on."""
+    return job.kind == BLOCKED or (job.kind == QUEUE and job.cause == AFTER)
 
 
 def _keep_order(line: CrewLine, gate: Gate) -> None:

@@ -7,6 +7,8 @@ from opsim.engine.simpy_engine.floor import Floor
 
 COMES, DONE = -10, 90
 """Among the preparations of a job the first; among what is asked when an operation is done the last."""
+MEMBER, NO_MEMBER = "crews", "the crews of others"
+"""The limits of who is in a crew, sent by his crew alone, and of who is in none."""
 
 
 def install(floor: Floor) -> None:
@@ -17,7 +19,10 @@ def install(floor: Floor) -> None:
     members = {rank for plan in floor.plan.crews for rank in plan.workers}
     theirs = sum(1 << rank for plan in floor.plan.crews for rank in plan.stations)
     for worker in floor.workers:
-        worker.restrict("crews", 0 if worker.rank in members else ~theirs)
+        if worker.rank in members:
+            worker.restrict(MEMBER, 0)
+        else:
+            worker.restrict(NO_MEMBER, ~theirs)
     for crew in crews:
         for station in crew.stations:
             station.add_stage(COMES, crew.line.came)

@@ -38,6 +38,7 @@ class Floor:
     lost_server  : told of each job that loses its server to another one and stays at the station
     closing      : asked for their open rows at the horizon, before those of workers and jobs are written
     stock, kits  : what lies in the stores, and who waits for parts, where there are some
+    helping      : who helps others at their work, where somebody may be called to
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
     prefix       : of a worker, a station and the job that calls there: what comes before the rule's own key
     """
@@ -77,6 +78,7 @@ class Floor:
         self.closing: list[Callable[[Floor], None]] = []
         self.stock: Any = None
         self.kits: Any = None
+        self.helping: Any = None
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.prefix: Callable[[Worker, Station, Job], tuple[float, ...]] | None = None
         self.now = 0.0

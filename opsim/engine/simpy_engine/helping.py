@@ -18,11 +18,13 @@ from opsim.log import WORK
 class Helping:
     """slower : by the number of a job that is helped with, how much longer the rest would take one alone."""
 
-    def __init__(self, floor: Floor, stations: Iterable[Station]):
+    def __init__(self, floor: Floor):
         self.slower: dict[int, float] = {}
         floor.broken_off.append(self._broken_off)
-        for station in stations:
-            station.acted = self._and_then(station.acted)
+
+    def hang(self, station: Station) -> None:
+        """Who helps at a station is free when the task is done."""
+        station.acted = self._and_then(station.acted)
 
     def begin(self, floor: Floor, job: Job, worker: Worker) -> None:
         """From now on two are at the task, whose rest goes by the sum of their paces."""
@@ -30,18 +32,19 @@ class Helping:
         done, alone_s = progress(job, now), job.since_s + job.duration_s - now
         his_s, k = drawn_s(floor, station, worker, job.task)
         rest_s = on_grid(together_s(alone_s, his_s * (1.0 - done)))
-        floor.log_job(job)
-        job.since_s, job.progress_from, job.rest_s, job.duration_s = now, done, rest_s, rest_s
         self.slower[job.number] = alone_s / rest_s
-        first = floor.workers[job.worker]
-        stop(floor, first)
-        first.since_s = now
-        floor.at_end_of(rest_s, first.stretch_over)
-        job.performance_id, number = _another(floor), _another(floor)
+        _go_on_at_another_pace(floor, job, done, rest_s)
+        number = _another(floor)
         worker.stint = Stint(station.rank, job.product, job.operation_rank, job.task, number, k, rest_s, done)
         worker.job, worker.station = job, station
         worker.kind, worker.since_s = WORK, now
         job.team = [worker]
+
+    def end(self, floor: Floor, job: Job) -> None:
+        """Who helps has to go, and the other one goes on alone."""
+        rest_s = (job.since_s + job.duration_s - floor.now) * self.slower.pop(job.number)
+        _go_on_at_another_pace(floor, job, progress(job, floor.now), on_grid(rest_s))
+        release_team(floor, job)
 
     def _broken_off(self, floor: Floor, job: Job) -> None:
         """Who goes on alone needs longer for the rest."""
@@ -57,6 +60,26 @@ class Helping:
             return acted is not None and acted(floor, job, worker)
 
         return over
+
+
+def helping_at(floor: Floor, stations: Iterable[Station]) -> Helping:
+    """The help of a floor, which can be had at some stations too."""
+    if floor.helping is None:
+        floor.helping = Helping(floor)
+    for station in stations:
+        floor.helping.hang(station)
+    return floor.helping
+
+
+def _go_on_at_another_pace(floor: Floor, job: Job, done: float, rest_s: float) -> None:
+    """Who works at the job goes on, and needs another time for the rest: a piece of its own begins."""
+    worker = floor.workers[job.worker]
+    floor.log_job(job)
+    job.since_s, job.progress_from, job.rest_s, job.duration_s = floor.now, done, rest_s, rest_s
+    job.performance_id = _another(floor)
+    stop(floor, worker)
+    worker.since_s = floor.now
+    floor.at_end_of(rest_s, worker.stretch_over)
 
 
 def _another(floor: Floor) -> int:

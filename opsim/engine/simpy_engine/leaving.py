@@ -82,6 +82,9 @@ class Leaving:
             which = _rule_of(floor, job, rule)
             begun = floor.now > job.since_s
             if not works_on(which, begun, begun):
+                if job.worker >= 0:  # he only helps: the other one goes on alone
+                    floor.helping.end(floor, job)
+                    return
                 _stop(floor, worker, job, NO_WORKER)
                 if is_lost(which):
                     forget_progress(job)

@@ -46,9 +46,13 @@ class Spot:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A worker on his way along the line to a job: he was at from_m at since_s; downstream : which way he walks."""
+    """A worker on his way along the line to a job at the at-th station: he was at from_m at since_s.
+
+    downstream : which way he walks
+    """
 
     job: Job
+    at: int
     from_m: float
     since_s: float
     downstream: bool
@@ -81,7 +85,7 @@ class LineWalks:
             here_m = self._where_m(floor, worker, at)
             if self._meeting_s(worker, there_m - here_m) > STEP_S:
                 worker.kind, worker.since_s, worker.walk_from = WALK, floor.now, worker.place
-                self._walk(floor, worker, Way(job, here_m, floor.now, there_m > here_m), there_m - here_m)
+                self._walk(floor, worker, Way(job, at, here_m, floor.now, there_m > here_m), there_m - here_m)
                 return True
         self.spots.pop(rank, None)
         self.with_job[rank] = job, began_s, at
@@ -91,11 +95,7 @@ class LineWalks:
         """Nobody, but for one, is to walk to a job any more: whoever does is free where he is."""
         for rank, way in list(self.ways.items()):
             if way.job is job and rank != but:
-                worker, at = floor.workers[rank], self.line.at[job.station.rank]
-                del self.ways[rank]
-                self._stand(worker, at, _on_the_way_m(worker, way, floor.now), floor.now)
-                stop(floor, worker)
-                set_free(floor, worker)
+                self._stop(floor, rank, way)
 
     def look(self, floor: Floor) -> bool:
         """Who has left his job stands where it is now, and walks back while nobody sends him."""
@@ -104,6 +104,9 @@ class LineWalks:
             if worker.job is not job:
                 del self.with_job[rank]
                 self._stand(worker, at, self.line.job_m(began_s, floor.now), floor.now)
+        for rank, way in list(self.ways.items()) if self.ways else ():
+            if floor.workers[rank].job is not way.job:  # the job calls for somebody else, since he has to go
+                self._stop(floor, rank, way)
         for rank, spot in list(self.spots.items()) if self.spots else ():
             worker = spot.worker
             if worker.place != spot.place:
@@ -121,7 +124,7 @@ class LineWalks:
             here_m = _on_the_way_m(worker, way, floor.now)
             there_m = self.line.job_m(self.line.began_s[way.job.number], floor.now)
             stop(floor, worker)
-            self._walk(floor, worker, Way(way.job, here_m, floor.now, there_m > here_m), there_m - here_m)
+            self._walk(floor, worker, Way(way.job, way.at, here_m, floor.now, there_m > here_m), there_m - here_m)
 
     def strolled(self, floor: Floor, spot: Spot) -> None:
         """He is where he may begin, if he was not sent or called away before."""
@@ -149,6 +152,14 @@ class LineWalks:
         seconds = self._meeting_s(worker, gap_m)
         if seconds < INFINITE_S:  # else he follows the job until the line stands, or it is sent on
             floor.at_end_of(on_grid(seconds), worker.stretch_over)
+
+    def _stop(self, floor: Floor, rank: int, way: Way) -> None:
+        """He walks no further, and is free."""
+        worker = floor.workers[rank]
+        del self.ways[rank]
+        self._stand(worker, way.at, _on_the_way_m(worker, way, floor.now), floor.now)
+        stop(floor, worker)
+        set_free(floor, worker)
 
     def _stand(self, worker: Worker, at: int, here_m: float, now: float) -> None:
         """He is at no job any more, on the stretch of a station; elsewhere it does not matter where on the line."""

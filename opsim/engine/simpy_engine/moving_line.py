@@ -103,6 +103,7 @@ class MovingLine(PacedLine):
         """On to the next station; from the last one the job rides to the end of the line, off its server."""
         del self.open_at[job.number]
         self.late.discard(job.number)
+        self.walks.stop(floor, job)
         if self.andon is not None:
             self.andon.done(floor, job)
         station = job.station

@@ -9,11 +9,11 @@ from opsim.log import BREAK, MEETING
 PAUSE_OVER = "a pause of a worker is over"
 
 
-def begin_pause(floor: Floor, duties: object, one: Presence) -> None:
+def begin_pause(floor: Floor, people: object, one: Presence) -> None:
     """He is free, and the first of the pauses he is owed begins: with the walk to its place, where it has one."""
     worker, pause = one.worker, one.owed.popleft()
     one.pause = pause
-    alarm(floor, one, pause_lasts_s(pause.start_s, pause.end_s), 1, PAUSE_OVER, (duties, one, pause))
+    alarm(floor, one, pause_lasts_s(pause.start_s, pause.end_s), 1, PAUSE_OVER, (people, one, pause))
     if pause.place >= 0:
         metres = floor.plan.distance_m[worker.place][pause.place]
         if metres > 0:

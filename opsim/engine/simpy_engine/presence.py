@@ -29,7 +29,7 @@ class Presence:
     goes   : whether he is leaving because his shift is over, not for a pause
     owed   : pauses that have begun and that he has not had; pause : the one he is in
     staying : the job whose tasks he does to the end before he goes
-    overtime : whether he stays on after his shift
+    overtime : whether he stays on after his shift; undecided : whether that is still to be seen, in this instant
     """
 
     worker: Worker
@@ -42,6 +42,7 @@ class Presence:
     pause: Pause | None = None
     staying: Job | None = None
     overtime: bool = False
+    undecided: bool = False
 
 
 def moments(duties: tuple[Duty, ...]) -> Iterator[Moment]:

@@ -24,12 +24,12 @@ def bringing(
     """Each source that may bring more of a product, with the ways by which it comes in, given its starts.
 
     One of a time of its own may do so at any time, a schedule while it has orders, and a store that is kept filled asks
-    for more once somebody takes a piece. Jobs that wait outside were brought already.
+    for more once somebody takes a piece, or when its hours begin. Jobs that wait outside were brought already.
     """
     for source in plan.sources:
         if source.kind == INSIDE or all(product != made for made, _ in source.mix):
             continue
-        if source.kind == BASE_STOCK and product not in outside:
+        if source.kind == BASE_STOCK and product not in outside and source.is_open_at(plan.horizon_s):
             yield source, tuple(((f"taker {product}", 1), *start) for start in starts)
         elif source.kind != SCHEDULE or source.n_late or product in outside:
             yield source, tuple(starts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from itertools import compress
@@ -36,6 +37,13 @@ class Hours:
         ]
 
     @cached_property
+    def with_overtime(self) -> list[Spans]:
+        """Of each worker: as ``at_work``, if he stayed for all the overtime that his shifts allow."""
+        if not any(shift.overtime_s for shift in self.plan.shifts):
+            return self.at_work
+        return [at_least(1, (spans, self._overtime(rank))) for rank, spans in enumerate(self.at_work)]
+
+    @cached_property
     def share(self) -> list[float]:
         """Of each worker: the share of the run that he is at work; days that he misses count as missed."""
         return [self._share(spans) * (1 - w.absence) for w, spans in zip(self.plan.workers, self.at_work)]
@@ -43,10 +51,7 @@ class Hours:
     @cached_property
     def share_with_overtime(self) -> list[float]:
         """Of each worker: as ``share``, if he stayed for all the overtime that his shifts allow."""
-        return [
-            min(1.0, share + self._overtime_s(rank) * (1 - self.plan.workers[rank].absence) / self.plan.horizon_s)
-            for rank, share in enumerate(self.share)
-        ]
+        return [self._share(spans) * (1 - w.absence) for w, spans in zip(self.plan.workers, self.with_overtime)]
 
     @cached_property
     def somebody(self) -> Spans:
@@ -54,12 +59,16 @@ class Hours:
         return at_least(1, self.on_duty)
 
     def able(self, station: int) -> frozenset[int]:
-        """Ranks of those who may ever be sent to a station: with the skill, and of its crew where it has one."""
+        """Ranks of those who may be sent to a station: with the skill, and of its crew where it has one.
+
+        Who comes to a paced line only when he is called is not among them.
+        """
         if station not in self._able:
             crews = [crew for crew in self.plan.crews if station in crew.stations]
             elsewhere = _in_crews(crew for crew in self.plan.crews if crew not in crews)
             members = _in_crews(crews)
-            skilled = self._skilled[station]
+            on_call = {worker for line in self.plan.lines if station in line.stations for worker in line.floaters}
+            skilled = self._skilled[station] - on_call
             self._able[station] = frozenset(skilled & members if crews else skilled - elsewhere)
         return self._able[station]
 
@@ -80,20 +89,30 @@ class Hours:
         there = self.at_work if at_work else self.on_duty
         return at_least(self.team(station), [there[worker] for worker in self.able(station)])
 
-    def working_share(self, station: int, by_hand: bool) -> float:
-        """The share of the run in which a station is open, and its people are at work; days missed count as missed.
+    def working_share(self, station: int, hand_s: float, alone_s: float, *, overtime: bool = False) -> float:
+        """The share of the run in which a station can work: it is open, and its people are at work, or what it does
+        without them lasts; days missed count as missed.
 
-        by_hand : whether it needs people; where nobody is able at all, which is told elsewhere, it is not asked.
+        hand_s, alone_s : seconds of a visit with people and without. Where nobody is able, which is told elsewhere,
+        only its own hours count.
         """
-        is_open = self.open(station)
-        able = sorted(self.able(station)) if by_hand else []
-        missed = [self.plan.workers[worker].absence for worker in able]
+        is_open, there = self.open(station), self.with_overtime if overtime else self.at_work
+        able = sorted(self.able(station)) if hand_s > 0 else []
+        if not able:
+            return self._share(is_open)
+        team, missed = self.team(station), [self.plan.workers[worker].absence for worker in able]
+        manned = self._when_open(at_least(team, [there[worker] for worker in able]), is_open)
+        on = alone_s / (hand_s + alone_s) * sum(runs_on_s(b - a, alone_s) for a, b in without(is_open, manned))
         if not any(missed):
-            return self._share(both(is_open, self.manned(station, at_work=True)) if able else is_open)
-        there = [both(is_open, self.at_work[worker]) for worker in able]
-        team = self.team(station)
-        found = ((end_s - start_s, [missed[n] for n in who]) for start_s, end_s, who in together(there))
-        return sum(seconds * chance_of(team, missing) for seconds, missing in found) / self.plan.horizon_s
+            return self._share(manned) + on / self.plan.horizon_s
+        seconds: defaultdict[frozenset[int], float] = defaultdict(float)
+        for a, b, who in together([self._when_open(there[worker], is_open) for worker in able]):
+            seconds[who] += b - a
+        work_s = sum(s * chance_of(team, [missed[n] for n in sorted(who)]) for who, s in seconds.items())
+        return (work_s + on) / self.plan.horizon_s
+
+    def _when_open(self, spans: Spans, is_open: Spans) -> Spans:
+        return spans if is_open is self.always else both(spans, is_open)
 
     def open(self, station: int) -> Spans:
         """When a station is open."""
@@ -111,12 +130,18 @@ class Hours:
     def _share(self, spans: Spans) -> float:
         return total_s(spans) / self.plan.horizon_s
 
-    def _overtime_s(self, worker: int) -> float:
+    def _overtime(self, worker: int) -> Spans:
         """All overtime that a worker may have in the run, ended by his next shift."""
-        duties, total = self.plan.workers[worker].duties or (), 0.0
+        duties, found = self.plan.workers[worker].duties or (), []
         for duty, after in zip(duties, [*(duty.start_s for duty in duties[1:]), self.plan.horizon_s]):
-            total += max(0.0, min(self.plan.shifts[duty.shift].overtime_s, after - duty.end_s))
-        return total
+            end_s = min(duty.end_s + self.plan.shifts[duty.shift].overtime_s, after)
+            found.append((duty.end_s, max(end_s, duty.end_s)))
+        return tuple(found)
+
+
+def runs_on_s(gap_s: float, alone_s: float) -> float:
+    """How long a machine that is in the middle of a run of ``alone_s`` goes on in a gap without people, on average."""
+    return alone_s / 2 if gap_s >= alone_s else gap_s - gap_s**2 / (2 * alone_s)
 
 
 def chance_of(team: int, missing: Sequence[float]) -> float:

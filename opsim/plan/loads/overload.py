@@ -7,6 +7,7 @@ from math import inf
 
 from opsim.plan.loads.bottleneck import Loads, loads_of
 from opsim.plan.loads.people import Crew, SkillLoad
+from opsim.plan.loads.stations import StationLoad
 from opsim.plan.loads.visits import visits_of
 from opsim.plan.loads.work import visit_s
 from opsim.plan.plan import Plan
@@ -26,7 +27,7 @@ def _stations(loads: Loads) -> Iterator[str]:
             yield f"{load.station} never works: its maintenance takes all of its time"
         elif load.load is not None and load.load >= 1:
             which = "its time" if load.hours == 1 else f"its time, {load.hours:.0%} of the run,"
-            yield f"{load.station} cannot keep up: {load.load:.0%} of {which} is wanted"
+            yield f"{load.station} cannot keep up: {load.load:.0%} of {which} is wanted{_overtime(load)}"
 
 
 def _people(loads: Loads) -> Iterator[str]:
@@ -41,9 +42,11 @@ def _people(loads: Loads) -> Iterator[str]:
         )
     crew = loads.crew
     if crew is not None and crew.share >= 1 and not over:
+        alone = len(crew.workers) == 1
+        who = crew.workers[0] if alone else f"the {len(crew.workers)} workers of {len(crew.skills)} stations"
         yield (
-            f"the {len(crew.workers)} workers of {len(crew.skills)} stations cannot keep up: however they share the "
-            f"work, {crew.share:.0%} of their time is wanted, walks not counted ({', '.join(crew.skills[:6])})"
+            f"{who} cannot keep up: {'' if alone else 'however they share the work, '}{crew.share:.0%} of "
+            f"{'the' if alone else 'their'} time is wanted, walks not counted ({', '.join(crew.skills[:6])})"
             f"{_overtime(crew)}"
         )
 
@@ -53,7 +56,7 @@ def _there(load: SkillLoad) -> str:
     return f"; {load.there:.2g} of them are at work on the mean of the run" if load.there < load.able else ""
 
 
-def _overtime(load: SkillLoad | Crew) -> str:
+def _overtime(load: StationLoad | SkillLoad | Crew) -> str:
     """What all the overtime that is allowed would make of it."""
     return "" if load.with_overtime is None else f"; {load.with_overtime:.0%} with all the overtime that is allowed"
 

@@ -10,7 +10,7 @@ from math import inf
 from opsim.plan.hours import Hours
 from opsim.plan.loads.rates import Flows, flows_of
 from opsim.plan.loads.sharing import best_share
-from opsim.plan.loads.work import batch_size, setup_of, setup_s, task_s
+from opsim.plan.loads.work import batch_size, setup_of, setup_s, task_s, tasks_at
 from opsim.plan.plan import Plan
 
 
@@ -100,8 +100,9 @@ def _wanted(plan: Plan, flows: Flows) -> dict[int, tuple[float, float]]:
 
 def by_hand_s(plan: Plan, station: int, product: int) -> float:
     """Time of people that a visit takes: of each member of a team, and of who stands by a machine."""
-    tasks = [(rank, plan.tasks[rank]) for rank in plan.stations[station].tasks]
-    return sum(task_s(plan, rank, product) * task.team for rank, task in tasks if task.attended or not task.automatic)
+    tasks = [(rank, part, plan.tasks[rank]) for rank, part in tasks_at(plan, station)]
+    by_hand = [(rank, part * task.team) for rank, part, task in tasks if task.attended or not task.automatic]
+    return sum(task_s(plan, rank, product) * times for rank, times in by_hand)
 
 
 def _mean_rating(plan: Plan, rank: int, people: Sequence[int]) -> float:

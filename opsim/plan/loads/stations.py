@@ -9,7 +9,7 @@ from math import inf
 from opsim.plan.hours import Hours
 from opsim.plan.loads.outages import up_share
 from opsim.plan.loads.rates import Flow, Flows, flows_of
-from opsim.plan.loads.work import batch_size, setup_s, visit_s
+from opsim.plan.loads.work import batch_size, setup_s, task_s, tasks_at, visit_s
 from opsim.plan.plan import Plan
 from opsim.plan.station import CONVEYOR, STORE
 
@@ -19,7 +19,8 @@ class StationLoad:
     """work_s : mean work a visit at rating 1, a batch shared by its jobs; visits : for each job released (stations of
     one step share evenly); arrivals_per_h : None where the floor decides; setup_s : mean set-up a visit; up : share of
     its hours that it can work, stops taken out; hours : share of the run in which it is open, and its people are at
-    work; most_per_h : visits that it can do on the mean of the run; load : share of that wanted, None as above.
+    work; most_per_h : visits that it can do on the mean of the run; load : share of that wanted, None as above;
+    with_overtime : the load if people stayed for all the overtime that they may; None where that changes nothing.
     """
 
     station: str
@@ -32,6 +33,7 @@ class StationLoad:
     setup_s: float = 0.0
     up: float = 1.0
     hours: float = 1.0
+    with_overtime: float | None = None
 
 
 def station_loads(plan: Plan, flows: Flows | None = None, hours: Hours | None = None) -> list[StationLoad]:
@@ -51,15 +53,28 @@ def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows, hours: Hours) -
     known = None if per_job > 0 or (flows.saturated and not per_h) else per_h
     work_s, change_s = _work_s(plan, rank, here), setup_s(plan, rank, here)
     up = up_share(plan, rank, work_s + change_s)
-    on_server_s, share = work_s + change_s, hours.working_share(rank, _by_hand(plan, rank))
+    on_server_s, parts = work_s + change_s, hand_and_alone_s(plan, rank, here)
+    share = hours.working_share(rank, *parts)
+    more = share if hours.with_overtime is hours.at_work else hours.working_share(rank, *parts, overtime=True)
     most = max(1, station.servers) * 3600 * up * share / on_server_s if on_server_s > 0 else inf
+    most = min([most, *(3600 * up * share / line.takt_s for line in plan.lines if rank in line.stations)])
     load = None if known is None else known / most if most > 0 else inf
-    return StationLoad(station.name, station.servers, work_s, visits, known, load, most, change_s, up, share)
+    late = load * share / more if load is not None and more > share > 0 else None
+    return StationLoad(station.name, station.servers, work_s, visits, known, load, most, change_s, up, share, late)
 
 
-def _by_hand(plan: Plan, station: int) -> bool:
-    """Whether a station does nothing without a worker: one of its tasks is not automatic."""
-    return any(not plan.tasks[task].automatic for task in plan.stations[station].tasks)
+def hand_and_alone_s(plan: Plan, station: int, here: list[Flow]) -> tuple[float, float]:
+    """Seconds of a mean visit in which people are needed, and of what a station does without them."""
+    weights = {flow.product: flow.per_h or flow.per_job for flow in here}
+    total, hand_s, alone_s = sum(weights.values()), 0.0, 0.0
+    for product, weight in weights.items():
+        for task, part in tasks_at(plan, station):
+            seconds = weight / total * part * task_s(plan, task, product) if total else 0.0
+            if plan.tasks[task].automatic:
+                alone_s += seconds
+            else:
+                hand_s += seconds
+    return hand_s, alone_s
 
 
 def _work_s(plan: Plan, rank: int, here: list[Flow]) -> float:

@@ -9,6 +9,7 @@ from itertools import pairwise
 from opsim.plan.loads.rates import Flow
 from opsim.plan.plan import Plan
 from opsim.plan.setup import SetupPlan
+from opsim.plan.work_sharing import SharePlan
 
 LEAST_SETUP = "least_setup"
 
@@ -21,7 +22,33 @@ def task_s(plan: Plan, task: int, product: int) -> float:
 
 def visit_s(plan: Plan, station: int, product: int) -> float:
     """Mean time of a job on a server, at rating 1."""
-    return sum(task_s(plan, task, product) for task in plan.stations[station].tasks)
+    return sum(part * task_s(plan, task, product) for task, part in tasks_at(plan, station))
+
+
+def tasks_at(plan: Plan, station: int) -> list[tuple[int, float]]:
+    """The tasks of a station, each with the share of visits in which it is done there.
+
+    Work that two stations share is dealt out so that both take as long a server, as far as that can be.
+    """
+    tasks = [(task, 1.0) for task in plan.stations[station].tasks]
+    taken: list[tuple[int, float]] = []
+    for share in plan.shares:
+        if share.station == station:
+            kept = _kept(plan, share)
+            tasks = [*tasks[: -len(share.tasks)], *((task, kept) for task in share.tasks)]
+        elif share.partner == station:
+            taken = [(task, 1.0 - _kept(plan, share)) for task in share.tasks]
+    return [*taken, *tasks]
+
+
+def _kept(plan: Plan, share: SharePlan) -> float:
+    """How much of the shared work the first of two stations would do, for equal times a server."""
+    here, there = plan.stations[share.station], plan.stations[share.partner]
+    shared_s, here_s, there_s = (
+        sum(plan.tasks[task].mean_s() for task in tasks) for tasks in (share.tasks, here.tasks, there.tasks)
+    )
+    most = (there_s + shared_s) * here.servers - (here_s - shared_s) * there.servers
+    return min(1.0, max(0.0, most / (shared_s * (here.servers + there.servers))))
 
 
 def batch_size(plan: Plan, station: int) -> int:

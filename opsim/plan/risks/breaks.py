@@ -6,14 +6,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from opsim.plan.hours import Hours
+from opsim.plan.hours.people import runs_on_s
 from opsim.plan.hours.spans import Spans, both, total_s, without
 from opsim.plan.loads.bottleneck import Loads
-from opsim.plan.loads.stations import StationLoad
+from opsim.plan.loads.stations import StationLoad, hand_and_alone_s
 from opsim.plan.plan import Plan
 from opsim.plan.risks.words import lasting, worker_names
 
 BUSY = 0.8
 """Share of the time of a station from which on a stop of it is output that is lost."""
+WORTH = 0.01
+"""Share of its hours from which on it is worth a word that it stands."""
 
 
 def starving_breaks(plan: Plan, hours: Hours, loads: Loads, by_hand: set[int]) -> Iterator[str]:
@@ -22,20 +25,38 @@ def starving_breaks(plan: Plan, hours: Hours, loads: Loads, by_hand: set[int]) -
     if found is None:
         return
     rank, load = found
-    lost = _pauses(plan, hours, rank) if rank in by_hand else ()
-    if lost:
-        who, team = worker_names(plan, hours.able(rank)), hours.team(rank)
-        together = (
-            f"all who can work at {load.station}, the bottleneck, have their breaks at once ({who})"
-            if team == 1
-            else f"breaks leave fewer than the {team} people that {load.station}, the bottleneck, takes ({who})"
-        )
-        yield (
-            f"{together}: it stands for {lasting(total_s(lost))} of the run; let them have breaks one after the other, "
-            "or give somebody else the skill"
-        )
+    if any(rank in line.stations for line in plan.lines):  # a line stands while all its people have a break, and nothing runs dry
+        return
+    pauses = _pauses(plan, hours, rank) if rank in by_hand else ()
+    yield from _all_at_once(plan, hours, loads, rank, pauses)
     for before in sorted(_before(plan, rank) & by_hand):
-        yield from _starved(plan, hours, rank, load, before, lost)
+        yield from _starved(plan, hours, rank, load, before, pauses)
+
+
+def _all_at_once(plan: Plan, hours: Hours, loads: Loads, rank: int, pauses: Spans) -> Iterator[str]:
+    """Breaks of all who can work at the bottleneck; what it does by itself goes on meanwhile."""
+    hand_s, alone_s = hand_and_alone_s(plan, rank, [flow for flow in loads.flows.steps if flow.station == rank])
+    if hand_s <= 0:
+        return
+    on_s = alone_s / (hand_s + alone_s) * sum(runs_on_s(end_s - start_s, alone_s) for start_s, end_s in pauses)
+    lost_s = total_s(pauses) - on_s
+    if lost_s <= WORTH * total_s(hours.manned(rank)):
+        return
+    remedy = "" if len(hours.able(rank)) == 1 else "let them have breaks one after the other, or "
+    yield (
+        f"{_who(plan, hours, rank)}: it stands for {lasting(lost_s)} of the run; {remedy}give somebody else the skill"
+    )
+
+
+def _who(plan: Plan, hours: Hours, station: int) -> str:
+    """Whose breaks stop the bottleneck."""
+    name, able, team = plan.stations[station].name, hours.able(station), hours.team(station)
+    if len(able) == 1:
+        return f"nobody works at {name}, the bottleneck, in the breaks of {worker_names(plan, able)}"
+    if team > 1:
+        who = worker_names(plan, able)
+        return f"breaks leave fewer than the {team} people that {name}, the bottleneck, takes ({who})"
+    return f"all who can work at {name}, the bottleneck, have their breaks at once ({worker_names(plan, able)})"
 
 
 def _bottleneck(plan: Plan, loads: Loads) -> tuple[int, StationLoad] | None:
@@ -65,11 +86,11 @@ def _before(plan: Plan, station: int) -> set[int]:
     return found - {station}
 
 
-def _starved(plan: Plan, hours: Hours, rank: int, load: StationLoad, before: int, lost: Spans) -> Iterator[str]:
+def _starved(plan: Plan, hours: Hours, rank: int, load: StationLoad, before: int, pauses: Spans) -> Iterator[str]:
     """A station in front whose people all pause for longer than what waits at the bottleneck lasts."""
     n_waiting = plan.stations[rank].buffer + plan.stations[before].buffer_after
     each_s = (load.work_s + load.setup_s) / max(1, load.servers)
-    stops = without(_pauses(plan, hours, before), lost)
+    stops = without(_pauses(plan, hours, before), pauses)
     longest_s = max((end_s - start_s for start_s, end_s in stops), default=0.0)
     if longest_s > n_waiting * each_s:
         yield (

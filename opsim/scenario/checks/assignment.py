@@ -34,7 +34,7 @@ def _zone(tree: Node, name: str, worker: Node) -> Iterator[Problem]:
 def _priorities(tree: Node) -> Iterator[Problem]:
     """Stations with a priority that the allocation does not look at."""
     said = child(tree, "allocation", "priorities")
-    if said is None or not isinstance(said.value, list) or any(one.value == "stations" for one in items(said)):
+    if said is None or not isinstance(said.value, list) or any(one.value != "products" for one in items(said)):
         return
     for name, station in entries(tree, "stations").items():
         priority = child(station, "priority")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from opsim.problems import Problem, shown
 from opsim.scenario.checks.references import named
 from opsim.scenario.checks.ways import one_of, onward, rework_at
-from opsim.scenario.positions import Node, Part, child, entries, items, problem
+from opsim.scenario.positions import Node, Part, child, entries, items, problem, text
 
 Path = tuple[Part, ...]
 _NOT_HERE = {
@@ -76,6 +76,7 @@ def _elsewhere(tree: Node, crew: Node, path: Path) -> Iterator[Problem]:
 def _at_stations(tree: Node, crew: Node, path: Path) -> Iterator[Problem]:
     """What the stations of a crew cannot have: batches, pre-emption, splits, tasks of teams."""
     stations = entries(tree, "stations")
+    partners = {text(station, "share", "with") for station in stations.values()}
     splits = {at for product in entries(tree, "products").values() for at in entries(product, "split")}
     for number, node in enumerate(items(crew, "stations")):
         station = stations.get(node.value) if isinstance(node.value, str) else None
@@ -85,6 +86,8 @@ def _at_stations(tree: Node, crew: Node, path: Path) -> Iterator[Problem]:
         teams = [task for task in _names(station, "tasks") if _team(tree, task) > 1]
         reasons += [f"task {shown(task)} of a team, and each job of a crew is in one pair of hands" for task in teams]
         reasons += ["a split, after which there is no job to go on with"] if node.value in splits else []
+        if node.value in partners:
+            reasons.append("tasks that it shares with another station, and nobody but its members works at a crew's")
         for reason in reasons:
             found = f"{node.value} has {reason}"
             yield problem(node.place, (*path, "stations", number), found, f"leave {node.value} out, or that")

@@ -18,7 +18,8 @@ def line_way_problems(tree: Node) -> Iterator[Problem]:
     """Ways that leave a line, or come onto it, in the middle; and what would move a job otherwise than the line."""
     lines = {name: [one.value for one in items(line, "stations")] for name, line in entries(tree, "lines").items()}
     for name, stations in lines.items():
-        if not stations or not all(isinstance(one, str) for one in stations) or len(set(stations)) < len(stations):
+        known = all(isinstance(one, str) and one in entries(tree, "stations") for one in stations)
+        if not stations or not known or len(set(stations)) < len(stations):
             continue
         for product, node in entries(tree, "products").items():
             steps = [step for step in _steps(node) if set(stations) & {step[0], step[1]}]
@@ -39,8 +40,8 @@ def _way(line: str, stations: list[str], product: str, steps: list[Step]) -> Ite
             continue
         if before == stations[-1] and after not in stations[1:]:
             continue
-        came = "begins" if before == START else f"comes from {before}"
-        found = f"{product} {came} to {after}" if after != OUT else f"{product} leaves from {before}"
+        came = f"begins at {after}" if before == START else f"comes from {before} to {after}"
+        found = f"{product} {came}" if after != OUT else f"{product} leaves from {before}"
         yield problem(
             node.place,
             ("products", product),
@@ -103,7 +104,8 @@ def _rework(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:
         rework = child(station, "inspect", "then", "rework")
         if rework is not None and rework.value in stations and name not in stations:
             found = f"a job cannot come back to {shown(rework.value)}, on the line {line}"
-            yield problem(rework.place, ("stations", name, "inspect", "then"), found, "rework it at a station of its own")
+            hint = "rework it at a station of its own"
+            yield problem(rework.place, ("stations", name, "inspect", "then"), found, hint)
 
 
 def _kept(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:

@@ -9,6 +9,7 @@ from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.references import named
 from opsim.scenario.positions import Node, child, entries, items, problem, text
 from opsim.scenario.schema.lines import INDEXED, MOVING
+from opsim.scenario.schema.workers import USUAL_WALK_M_PER_S
 
 Path = tuple[str | int, ...]
 _NOT_ON_A_LINE = {
@@ -21,7 +22,8 @@ _NOT_ON_A_LINE = {
 
 def line_problems(tree: Node) -> Iterator[Problem]:
     """Names that lead nowhere, stations that cannot be on a line, and lines on which nobody works."""
-    stations, seen, blocking = entries(tree, "stations"), {}, child(tree, "flow", "blocking")
+    stations, blocking = entries(tree, "stations"), child(tree, "flow", "blocking")
+    seen: dict[str, str] = {}
     if blocking is not None and blocking.value == "before" and entries(tree, "lines"):
         found = "on a paced line a job has its next place when the line moves"
         yield problem(blocking.place, ("flow", "blocking"), found, "say it at the stations that are on no line")
@@ -36,12 +38,12 @@ def line_problems(tree: Node) -> Iterator[Problem]:
                     yield problem(station.place, where, found, "a station is on one line, once")
                 seen.setdefault(station.value, name)
         on_it = [one.value for one in items(line, "stations") if isinstance(one.value, str) and one.value in stations]
-        for station in dict.fromkeys(on_it):
-            yield from _station(tree, station, name, text(line, "kind"))
-        for station, length in entries(line, "lengths").items():
-            if on_it and station not in on_it:
-                hint = did_you_mean(station, on_it, otherwise="its stations")
-                yield problem(length.name_place, (*path, "lengths"), f"no station {shown(station)} on {name}", hint)
+        for known in dict.fromkeys(on_it):
+            yield from _station(tree, known, name, text(line, "kind"))
+        for said, length in entries(line, "lengths").items():
+            if on_it and said not in on_it:
+                hint = did_you_mean(said, on_it, otherwise="its stations")
+                yield problem(length.name_place, (*path, "lengths"), f"no station {shown(said)} on {name}", hint)
         yield from _andon(tree, line, on_it, path)
         if text(line, "kind") == MOVING:
             yield from _too_slow(tree, line, on_it, path)
@@ -92,10 +94,12 @@ def _too_slow(tree: Node, line: Node, on_it: list[str], path: Path) -> Iterator[
     """Workers who could not walk after a job that moves away from them."""
     speed = _speed_m_per_s(line)
     for name, worker in entries(tree, "workers").items():
-        walk = _quantity(child(worker, "walk"), "speed")
+        said = child(worker, "walk")
+        walk = USUAL_WALK_M_PER_S if said is None else _quantity(said, "speed")
         if speed and walk and walk <= speed and set(on_it) & set(entries(worker, "skills")):
             found = f"{name} walks {walk:g} m/s, and the line moves {speed:g} m/s"
-            yield problem(child(worker, "walk").place, ("workers", name, "walk"), found, "he would never come to a job")  # type: ignore[union-attr]
+            place = worker.name_place if said is None else said.place
+            yield problem(place, ("workers", name, "walk"), found, "he could not follow a job")
 
 
 def _speed_m_per_s(line: Node) -> float | None:

@@ -24,6 +24,9 @@ def sharing_problems(tree: Node) -> Iterator[Problem]:
         yield from named(partner, stations, "station", (*path, "with"))
         if partner is None or not isinstance(partner.value, str) or partner.value not in stations:
             continue
+        if partner.value == name:
+            yield problem(partner.place, (*path, "with"), f"{name} shares work with itself", "name the next station")
+            continue
         first = takers.setdefault(partner.value, name)
         if first != name:
             found = f"{first} shares work with {shown(partner.value)} already"
@@ -49,9 +52,6 @@ def _tasks(tree: Node, name: str, station: Node, path: tuple[Part, ...]) -> Iter
 def _partner(stations: dict[str, Node], name: str, partner: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
     """The next station has a buffer to look at and work of its own; jobs at both go one by one."""
     other = stations[partner.value]
-    if partner.value == name:
-        yield problem(partner.place, path, f"{name} cannot share work with itself", "name the next station")
-        return
     buffer = child(other, "buffer")
     if buffer is None or buffer.value in (None, "unlimited"):
         found = f"{shown(partner.value)} has an unlimited buffer, which is never half full"

@@ -10,6 +10,7 @@ from opsim.names import natural_key
 from opsim.scenario.risks.ways import Ways, points_of, ways
 from opsim.scenario.risks.words import listed
 from opsim.scenario.schema import Scenario
+from opsim.scenario.schema.rotations import Rotation
 
 
 def held_risks(scenario: Scenario) -> Iterator[str]:
@@ -28,6 +29,7 @@ def held_risks(scenario: Scenario) -> Iterator[str]:
         before = near or _holders(name, people, full, stays, scenario)
         if before and any(ahead & stays.get(one, set()) for one in people.keys() - {name}):
             who, where = (listed(sorted(names, key=natural_key)) for names in (people[name], before))
+            who = f"those of {who} whose post it is" if _rotations(name, scenario) else who
             waits = f"{name} is full and" if name in full else f"work at {name}"
             yield (
                 f"with {why}, {who} can all be held at {where} while {waits} waits for one of them: then nothing moves "
@@ -62,7 +64,18 @@ def _holders(name: str, people: Ways, full: set[str], stays: Ways, scenario: Sce
     places = sum(scenario.stations[one].servers + scenario.stations[one].buffer_after for one in before)
     held = able.intersection(set().union(*(people[one] for one in before)))
     team = max((scenario.tasks[task].team for task in scenario.stations[name].tasks), default=1)
-    return before if min(len(held), places) > len(able) - team else set()
+    return before if min(len(held), places) > _at_once(name, able, scenario) - team else set()
+
+
+def _at_once(name: str, able: set[str], scenario: Scenario) -> int:
+    """How many of those who can work at a station may work there at the same time, at least."""
+    return len(able) - sum(max(0, len(able.intersection(one.workers)) - 1) for one in _rotations(name, scenario))
+
+
+def _rotations(name: str, scenario: Scenario) -> list[Rotation]:
+    """Those that may leave a station to one member for good; by the clock another one has his turn in time."""
+    turning = [one for one in scenario.rotations.values() if one.every_s is None]
+    return [one for one in turning if any(name in post for post in one.posts)]
 
 
 def _limited(scenario: Scenario) -> set[str]:
@@ -83,9 +96,10 @@ def _takers(scenario: Scenario) -> Ways:
 
 
 def _people(scenario: Scenario) -> Ways:
-    """Who works at each station; no station where everything is automatic, or nobody does."""
+    """Who works at each station; no station where everything is automatic, or of a crew, whose people go with jobs."""
     by_hand = {task for task, block in scenario.tasks.items() if block.automatic is not True}
     manned = {name for name, station in scenario.stations.items() if not by_hand.isdisjoint(station.tasks)}
+    manned -= {station for crew in scenario.crews.values() for station in crew.stations}
     able: Ways = {}
     for name, worker in scenario.workers.items():
         serves = manned.intersection(worker.skills)

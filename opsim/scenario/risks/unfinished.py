@@ -56,8 +56,16 @@ def _too_many(name: str, station: str, part: str, pieces: int, scenario: Scenari
     stores = [scenario.stores[point] for point in last_of(scenario.products[part]) if point in scenario.stores]
     room = sum(store.capacity or 0 for store in stores) * scenario.products[part].lot
     pieces *= scenario.products[name].lot
-    if stores and all(store.capacity is not None for store in stores) and room < pieces:
+    if not stores or any(store.capacity is None for store in stores):
+        return
+    batch = scenario.stations[station].batch if station in scenario.stations else None
+    if room < pieces:
         yield f"{name} cannot be finished: at {station} it takes {pieces} {part} at once, and {room} fit in store"
+    elif batch is not None and room < pieces * batch.size:
+        yield (
+            f"{batch.size} {name} in one batch at {station} take {pieces * batch.size} {part} at once, and {room} fit in "
+            "store: such a batch waits for ever; make room for more, or smaller batches"
+        )
 
 
 def _piles_up(name: str, product: Product, scenario: Scenario) -> Iterator[str]:

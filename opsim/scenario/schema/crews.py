@@ -20,7 +20,8 @@ class Crew(Block):
     bucket_brigade: who has come to the end of the line walks back along it, station by station, to the job that is
     furthest on of those of the people before him, and takes it over where it is, in the middle of a task too; whom he
     relieves does the same, and the first begins a new job. What is left takes his own next time for the same share. A
-    job that is done at the station to which he is on his last way waits there for him.
+    job that is done at the station to which he is on his last way waits there for him. A task whose own rule of
+    interruption is finish, finish_job or restart is not taken over in the middle: he waits until it is done.
 
     rabbit_chase: everybody goes with his job from the first station to the last, and straight back to the first.
 

@@ -57,7 +57,10 @@ class Pause(Block):
 
 
 class Overtime(Block):
-    """Who stays after the end of the shift while jobs on the floor still need him."""
+    """Who stays after the end of the shift: whoever jobs on the floor need, where too few of those on duty can do them.
+
+    Who is not needed goes at the end of his shift; who stays goes as soon as he is needed no more.
+    """
 
     most_s: Seconds = Field(alias="most", description="at most so long after the end of the shift", examples=["2 h"])
 

@@ -52,6 +52,9 @@ class TaskBlock(Block):
         if self.team > 1 and self.hold is not None:
             hint = "take 'needs' for what the team works with, or make it a task of its own"
             raise plain_error("a tool is held by one worker, and this task is done by a team", hint, on="hold")
+        if self.interruption is not None and self.automatic is True:
+            found = "no worker leaves what the station does alone"
+            raise plain_error(found, "remove 'interruption'", on="interruption")
         if self.hold is not None and self.automatic is True:
             hint = "take 'needs' for what the run takes as a whole"
             raise plain_error("nobody holds a tool where the station works alone", hint, on="hold")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Speed, Whole, plain_error
 from opsim.scenario.schema.base import Block
@@ -15,6 +15,7 @@ from opsim.scenario.schema.skills import Skills
 MOST_WORKERS = 500
 """That a workforce may have."""
 PREFIX = "w"
+USUAL_WALK_M_PER_S = 1.2
 
 
 def _once(names: list[str]) -> list[str]:
@@ -36,7 +37,7 @@ class Person(Block):
         description="1.1: a tenth faster than the typical person in emulated tasks; for other times say it by skills",
         examples=[1.1],
     )
-    walk_m_per_s: Speed = Field(1.2, alias="walk", description="walking speed", examples=["1.2 m/s"])
+    walk_m_per_s: Speed = Field(USUAL_WALK_M_PER_S, alias="walk", description="walking speed", examples=["1.2 m/s"])
     most_load_kg: MostLoad | None = Field(
         None,
         alias="most_load",
@@ -66,14 +67,20 @@ class Person(Block):
     )
     absence: Probability = Field(
         0.0,
-        description="share of his shifts that he does not come to, each drawn by itself; his jobs left for him are then "
-        "for anybody",
+        description="share of his shifts that he does not come to, each drawn by itself; what waits for him to go on "
+        "with is then for anybody",
         examples=[0.05],
     )
     home: NameText | None = Field(None, description="the place where the worker stands at the start")
     patrol: list[NameText] | None = Field(
         None, min_length=1, description="stations to go round when idle, in this order", examples=["[pack, check]"]
     )
+
+    @model_validator(mode="after")
+    def _absent_from_shifts(self) -> Person:
+        if self.absence > 0 and self.shift is None:
+            raise plain_error("who has no shift is always there", "name the shift that is missed", on="absence")
+        return self
 
 
 class Worker(Person):

@@ -91,3 +91,33 @@ def test_loads_of_everything_are_in_the_json():
     assert people["skills"][0]["skill"] == "balancing" and set(people["together"]["workers"]) <= {"adam", "bea"}
     limits = [one["most_per_h"] for one in said["bottleneck"]["base"]]
     assert limits == sorted(limits)
+
+
+HOURS = """
+opsim: 1
+name: Hours
+run: {start: Mon 06:00, horizon: 8 h}
+layout: {places: {here: [0 m, 0 m]}}
+shifts: {early: {from: 06:00, to: 14:00, breaks: {lunch: {at: 10:00, lasts: 30 min}}}, night: {from: 22:00, to: 06:00}}
+tasks: {hand: {fixed: 36 s}}
+stations: {pack: {at: here, tasks: [hand], shift: night}, cut: {at: here, tasks: [hand]}}
+products: {a: {route: [cut, pack]}}
+release: {kind: poisson, every: 72 s}
+workers: {ana: {shift: early, absence: 0.1, skills: {pack: 1, cut: 1}}}
+"""
+
+
+def test_hours_of_stations_and_people_are_shown_where_there_are_some(tmp_path):
+    """Ana is there for 0.9 * 7.5 h of 8; pack is open when she is not."""
+    code, shown, complaint = opsim("check", line(tmp_path, HOURS))
+    assert code == 0 and " hours " in shown and "84.4%" in shown and "never there" in shown and "inf" not in shown
+    assert "at work" in shown and "0.84" in shown
+    assert "pack is never open in this run of 8 h" in complaint
+    assert "ana cannot keep up: 119% of the time is wanted" in complaint
+    assert " hours " not in opsim("check", line(tmp_path))[1]
+
+
+def test_hours_are_in_the_json(tmp_path):
+    _, shown, _ = opsim("check", line(tmp_path, HOURS), "--json")
+    cut, pack = json.loads(shown)["variants"]["base"]
+    assert (cut["hours"], pack["hours"], pack["load"]) == (pytest.approx(0.84375), 0, None)

@@ -105,7 +105,8 @@ def test_a_set_up_is_left_like_a_task(tmp_path):
 def test_an_attended_run_goes_on_where_it_was_with_whoever_comes(tmp_path):
     text = ALONE.replace("{fixed: 10 min}", "{fixed: 10 min, automatic: attended}")
     both = text.replace("1.0}}}", "1.0}}, ben: {skills: {bench: 0.5, other: 1.0}}}")
-    both = both.replace("part: {", "else: {route: [other]}, part: {").replace("bench: {at", "other: {at: bay, tasks: [sit]}, bench: {at")
+    both = both.replace("part: {", "else: {route: [other]}, part: {")
+    both = both.replace("bench: {at", "other: {at: bay, tasks: [sit]}, bench: {at")
     both = both.replace("weld: {", "sit: {fixed: 7 min}, weld: {")
     for rule, ana, ben in (
         ("resume", [(0, 6), (11, 15)], []),
@@ -173,19 +174,16 @@ def test_a_tool_in_the_hands_is_put_back_and_taken_up_again(tmp_path):
     assert minutes(log, WORK, ANA) == [(0, 6), (11, 15)] and minutes(log, WORK, BEN) == [(1, 6), (6, 11)]
 
 
-@pytest.mark.parametrize(("rule", "ana", "pause"), [
-    ("finish", [(1, 6), (8, 13)], (13, 18)),
-    ("resume", [(1, 6), (11, 16)], (6, 11)),
-    ("restart", [(1, 6), (11, 21)], (6, 11)),
+@pytest.mark.parametrize(("rule", "ana", "pause", "waits"), [
+    ("finish", [(1, 6), (8, 13)], (13, 18), [(6, 8)]),
+    ("resume", [(1, 6), (12, 17)], (7, 12), [(6, 7)]),
+    ("restart", [(1, 6), (12, 22)], (7, 12), [(6, 7)]),
 ])  # fmt: skip
-def test_who_waits_for_a_tool_waits_on_or_goes(tmp_path, rule, ana, pause):
+def test_who_waits_for_a_tool_waits_on_or_goes(tmp_path, rule, ana, pause, waits):
     """Ben has the gun from 5 to 8 min; Ana wants it from 6 min on, and her break comes at 7."""
-    seven = ("06:06", "06:07")
-    log = left(tmp_path, HELD_TOOL, "0,else 60,part", rule, seven)
-    pause = pause if rule == "finish" else (7, 12)
-    ana = ana if rule == "finish" else [(start + 1, end + 1) if start > 6 else (start, end) for start, end in ana]
+    log = left(tmp_path, HELD_TOOL, "0,else 60,part", rule, ("06:06", "06:07"))
     assert minutes(log, WORK, ANA) == ana and minutes(log, BREAK, ANA) == [pause]
-    assert minutes(log, HELD, cause=NO_TOOL) == ([(6, 8)] if rule == "finish" else [(6, 7)])
+    assert minutes(log, HELD, cause=NO_TOOL) == waits
 
 
 def test_tools_of_a_task_go_back_in_a_break_and_are_taken_again_after_it(tmp_path):
@@ -195,7 +193,8 @@ def test_tools_of_a_task_go_back_in_a_break_and_are_taken_again_after_it(tmp_pat
 
 
 def test_tools_pass_to_who_takes_over(tmp_path):
-    text = HELD_TOOL.replace("hold: {tool: gun, from: 0.5, to: 0.8}", "needs: {gun: 1}").replace("{other: 1.0}", "{bench: 1.0, other: 1.0}")
+    text = HELD_TOOL.replace("hold: {tool: gun, from: 0.5, to: 0.8}", "needs: {gun: 1}")
+    text = text.replace("{other: 1.0}", "{bench: 1.0, other: 1.0}")
     log = left(tmp_path, text, "0,part", "hand_over")
     assert minutes(log, WORK, ANA) == [(0, 6)] and minutes(log, WORK, BEN) == [(6, 10)]
     assert minutes(log, log.names["kind"].index("tool")) == [(0, 6), (6, 10)]
@@ -234,13 +233,13 @@ def test_who_carries_brings_it_there_first(tmp_path):
 
 def test_who_patrols_walks_on_to_his_next_stop_and_goes_on_round_from_there(tmp_path):
     text = ALONE.replace("bench: {at", "yard: {at: shed, tasks: [weld]}, bench: {at")
-    text = text.replace("{bench: 1.0}", "{bench: 1.0, yard: 1.0}, patrol: [bench, yard]") + "allocation: {idle: patrol}\n"
-    log = left(tmp_path, text, "300,part", "resume", ("06:06", "06:06:30"), ("at: 06:06:30", "at: 06:04:30"))
+    text = text.replace("{bench: 1.0}", "{bench: 1.0, yard: 1.0}, patrol: [bench, yard]")
+    log = left(tmp_path, text + "allocation: {idle: patrol}\n", "300,part", "resume", ("06:06", "06:04:30"))
     assert minutes(log, WALK)[:6] == [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (10, 11)]
     assert minutes(log, BREAK) == [(5, 10)] and minutes(log, WORK) == [(11, 21)]
 
 
-def test_a_station_that_breaks_down_while_its_worker_is_away_is_gone_on_with_after_the_repair(tmp_path):
+def test_a_station_that_breaks_down_while_its_worker_is_away_goes_on_after_the_repair(tmp_path):
     """It stands from 8 to 13 min. Ana is back at 11."""
     jam = "tasks: [weld], maintenance: {oil: {every: 100 h, first: 8 min, lasts: 5 min, when: at_once}}"
     log = left(tmp_path, ALONE, "0,part", "resume", ("tasks: [weld]", jam))
@@ -249,7 +248,7 @@ def test_a_station_that_breaks_down_while_its_worker_is_away_is_gone_on_with_aft
 
 
 def test_a_job_that_is_pre_empted_while_its_worker_is_away_is_for_anybody(tmp_path):
-    """The urgent part comes at 8 min and is Ben's; the first one gets its server back at 18, and Ana goes on with it."""
+    """The urgent part comes at 8 min and is Ben's; the first has its server back at 18, and Ana goes on with it."""
     text = ALONE.replace("tasks: [weld]", "tasks: [weld], preempt: resume")
     text = text.replace("part: {route", "top: {route: [bench], priority: 2}, part: {route")
     text = text.replace("1.0}}}", "1.0}}, ben: {shift: late, skills: {bench: 1.0}}}")
@@ -260,5 +259,6 @@ def test_a_job_that_is_pre_empted_while_its_worker_is_away_is_for_anybody(tmp_pa
 
 def test_a_shift_that_ends_at_the_horizon_ends_nothing(tmp_path):
     head = HEAD.replace("horizon: 60 min", "horizon: 8 min")
-    log = left(tmp_path, ALONE, "0,part", "finish", ("to: 14:00, breaks: {tea: {at: 06:06, lasts: 5 min}}", "to: 06:08"), head=head)
+    short = ("to: 14:00, breaks: {tea: {at: 06:06, lasts: 5 min}}", "to: 06:08")
+    log = left(tmp_path, ALONE, "0,part", "finish", short, head=head)
     assert minutes(log, WORK) == [(0, 8)] and minutes(log, OFF) == []

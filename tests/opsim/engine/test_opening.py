@@ -213,3 +213,30 @@ def test_nobody_is_called_to_a_closed_station():
     held = log.of(HELD)
     called = held.where(held["cause"] == NO_WORKER)
     assert not len(called)
+
+
+WEEKS = """
+opsim: 1
+name: four weeks
+run: {start: Wed 10:00, horizon: 28 d}
+layout: {places: {hall: [0 m, 0 m]}}
+shifts: {office: {from: 08:00, to: 16:00, days: [Mon, Tue, Wed, Thu, Fri]}}
+tasks: {press: {fixed: 35 min, automatic: true}, look: {fixed: 1 s, automatic: true}}
+stations: {m: {at: hall, tasks: [press], shift: office, at_close: resume}, n: {at: hall, tasks: [look], servers: 9}}
+products: {part: {route: [m]}, call: {route: [n]}}
+sources:
+  parts: {kind: saturated, products: [part]}
+  calls: {kind: renewal, every: {fixed: 7 min}, products: [call], shift: office}
+"""
+
+
+def test_four_weeks_of_office_hours_are_counted_to_the_second():
+    # Twenty days of eight hours, the first and the last cut to one day together: 9600 minutes, six hours on the first.
+    log, plan = ran(WEEKS.replace("tasks: [press],", "tasks: [press], buffer: 1,"))
+    assert sum(to_s - from_s for from_s, to_s in plan.sources[0].open_s) == 9600 * 60
+    calls = [end_s for end_s, source in zip(created(log), log.of(CREATE)["source"]) if source == 0]
+    assert len(calls) == 9600 // 7 and calls[-1] == 28 * 86400 - (9600 % 7) * 60
+    assert calls[50:52] == [357 * 60, 22 * 3600 + 4 * 60]  # minute 364 is four minutes past eight on Thursday
+    parts = [end_s for end_s, source in zip(finished(log), log.of(FINISH)["source"]) if source == 1]
+    assert len(parts) == 9600 // 35 and parts[-1] == 28 * 86400 - (9600 % 35) * 60
+    assert parts[9:11] == [350 * 60, 22 * 3600 + 25 * 60]

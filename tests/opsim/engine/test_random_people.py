@@ -7,6 +7,7 @@ without it, or shows what only it does.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable
 from copy import deepcopy
@@ -28,26 +29,35 @@ from naive_people import jumps, unjoined
 from opsim import log as kinds
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
+from opsim.kpi.locked import locked
 from opsim.laws import CHECKS, audit
 from opsim.log import COLUMNS, EventLog
 from opsim.plan import Plan, compile_plan
-from opsim.scenario.read import scenarios_in
+from opsim.scenario.read import Loaded, scenarios_in
+from opsim.scenario.risks import risks_of
 
+LOCKS = re.compile(r"nothing moves any more|for ever|never fills")
+"""What ``opsim check`` says of a floor that may lock itself."""
 ENOUGH = 25
 AT_LEAST = 2
 """Interruptions in each scenario that counts."""
-SELDOM = ("brigade", "rabbits", "indexed_line", "moving_line", "limited", "work_sharing", "overtime", "levels")
+SELDOM = ("zones", "zones", "zones", "choice_of_work", "overtime", "overtime", "floaters", "station_priorities")
+"""Blocks that seldom matter, by how many times more they are chosen."""
 
 
 def chosen(pick) -> list[str]:
-    """Two to five blocks about people, those that seldom find room twice as often, and up to three others."""
+    """Two to five blocks about people, those that seldom matter more often, and up to three others."""
     of_people = [name for name in (*PEOPLE, *CREWS, *SELDOM) if name not in ALWAYS]
     mine = list(dict.fromkeys(pick.shuffled(of_people)))[: pick.whole(2, 5)]
     return [*ALWAYS, *mine, *pick.shuffled(list(BLOCKS))[: pick.whole(0, 3)]]
 
 
+def _loaded(text: str) -> Loaded:
+    return scenarios_in(text.encode(), FOLDER / "made.yaml")["base"]
+
+
 def _plan(text: str) -> Plan:
-    return compile_plan(scenarios_in(text.encode(), FOLDER / "made.yaml")["base"])
+    return compile_plan(_loaded(text))
 
 
 def _differ(a: EventLog, b: EventLog) -> list[str]:
@@ -58,7 +68,8 @@ def _differ(a: EventLog, b: EventLog) -> list[str]:
 
 def check(values: dict, shuffle: int) -> tuple[EventLog, Plan]:
     """The log of a scenario, once its laws hold and its order has decided nothing."""
-    p = _plan(text_of(values))
+    loaded = _loaded(text_of(values))
+    p = compile_plan(loaded)
     log = run_plan(p)
     assert audit(log, p) == CHECKS
     assert list(jumps(log, p)) == []
@@ -67,6 +78,8 @@ def check(values: dict, shuffle: int) -> tuple[EventLog, Plan]:
     again = run_plan(_plan(text_of(values, Random(shuffle))))
     assert again.names == log.names
     assert _differ(log, again) == [], "the order of declaration decides something"
+    lock = locked(log, p)
+    assert lock is None or any(LOCKS.search(risk) for risk in risks_of(loaded.scenario)), lock
     return log, p
 
 

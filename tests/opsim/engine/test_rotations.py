@@ -197,3 +197,59 @@ rotations: {{r: {{workers: [{", ".join(people)}], posts: [{", ".join(names)}], e
             assert station == names[slot % n_posts], (worker, start_s)
             begun += 1
     assert begun > 20
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_with_shifts_breaks_and_skills_everybody_begins_only_at_the_post_of_those_who_are_there(seed):
+    """What is gone on with after a break is at the old post; all else is where the plan says that his post is."""
+    rng = random.Random(100 + seed)
+    n_people, n_posts = rng.randint(2, 6), rng.randint(2, 4)
+    names, every_s = [f"s{i}" for i in range(n_posts)], rng.randint(40, 700)
+    rule = rng.choice(["finish", "finish_job", "resume", "resume_any", "hand_over", "restart"])
+    stations = "".join(f"  {name}: {{at: here, tasks: [do], buffer: 2, servers: 3}}\n" for name in names)
+    shifts = {"x": ("06:00", "06:40"), "y": ("06:20", "07:00"), "z": ("06:30", "07:30")}
+    hours = [
+        f"  {name}: {{from: '{a}', to: '{b}', at_break: {rule}, at_end: {rng.choice(['finish', rule])}, "
+        f"breaks: {{rest: {{at: '06:35', lasts: {rng.randint(1, 4)} min}}}}}}\n"
+        for name, (a, b) in shifts.items()
+    ]
+    people, members = [], ", ".join(f"w{n}" for n in range(n_people))
+    for number in range(n_people):
+        able = names if number == 0 else [name for name in names if rng.random() < 0.7] or names[:1]
+        shift = f"shift: {rng.choice(list(shifts))}, " if number else ""
+        people.append(f"  w{number}: {{{shift}skills: {{{', '.join(f'{name}: 1' for name in able)}}}}}\n")
+    text = f"""
+opsim: 1
+name: random rotation
+run: {{start: Mon 06:00, horizon: 2 h, seed: {seed}}}
+layout: {{places: {{here: [0 m, 0 m]}}}}
+shifts:
+{"".join(hours)}
+tasks: {{do: {{dist: exponential, mean: 25 s}}}}
+stations:
+{stations}
+products: {{p: {{route: [{", ".join(names)}]}}}}
+release: {{kind: saturated}}
+workers:
+{"".join(people)}
+rotations: {{r: {{workers: [{members}], posts: [{", ".join(names)}], every: {every_s} s}}}}
+"""
+    log, plan = ran(text)
+    (rotation,), duties = plan.rotations, [worker.duties for worker in plan.workers]
+    can, begun = rotation.can(plan.workers), 0
+    rows = log.where((log["kind"] == WORK) & (log["worker"] >= 0) & (log["progress_from"] == 0))
+    seen = set()
+    for start_s, worker, station, performance in zip(
+        rows["start_s"], rows["worker"], rows["station"], rows["performance_id"]
+    ):
+        there = [n for n in range(n_people) if _on_duty(duties[rotation.workers[n]], start_s)]
+        if performance not in seen:
+            at = rotation.by_turns(there, int(start_s // every_s), can)
+            assert station in rotation.posts[at[rotation.workers.index(worker)]], (start_s, worker)
+            begun += 1
+        seen.add(performance)
+    assert begun > 20
+
+
+def _on_duty(duties, now_s):
+    return duties is None or any(duty.start_s <= now_s < duty.end_s for duty in duties)

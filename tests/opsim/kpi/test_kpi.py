@@ -92,11 +92,38 @@ def test_states_sum_to_one(text):
     assert list(sums.values()) == pytest.approx([1.0] * len(sums), abs=1e-12)
 
 
+PEOPLE = """
+opsim: 1
+name: people
+run: {start: Mon 06:00, horizon: 30 min}
+layout: {places: {p1: [0 m, 0 m], p2: [1 m, 0 m], p3: [9 m, 0 m], p4: [10 m, 0 m]}}
+shifts: {day: {from: 06:00, to: 14:00}}
+tasks: {t: {fixed: 20 s}}
+stations:
+  s1: {at: p1, tasks: [t], buffer: 1}
+  s2: {at: p2, tasks: [t]}
+  s3: {at: p3, tasks: [t]}
+  s4: {at: p4, tasks: [t]}
+products: {crewed: {route: [s1, s2]}, paced: {route: [s3, s4]}}
+sources: {one: {kind: saturated, products: [crewed]}, other: {kind: poisson, every: 2 min, products: [paced]}}
+crews: {crew: {kind: bucket_brigade, stations: [s1, s2], workers: [ana, ben]}}
+lines: {line: {kind: indexed, stations: [s3, s4], takt: 60 s, unfinished: send_on}}
+workers:
+  ana: {shift: day, skills: {s1: 1.0, s2: 1.0}}
+  ben: {skills: {s1: 1.2, s2: 1.2}}
+  cem: {skills: {s3: 1.0, s4: 1.0}}
+  dan: {skills: {s4: 1.0}}
+"""
+
+
 def test_every_name_a_scenario_may_ask_for_is_computed():
-    """Walks by a cell with an emulator of walking, the blocks of the station model by the shipped plant."""
+    """Walks by a cell with an emulator of walking, the blocks of the station model by the shipped plant, and hours, a
+    crew and a paced line by a small floor.
+    """
     cell = walking(plan(CELL))
     plant = replace(shipped("pump_plant.yaml"), horizon_s=7200.0)
-    named = {figure.kpi for p in (cell, plant) for figure in figures(run_plan(p), p, KPIS if p is cell else ())}
+    asked = {cell: KPIS, plant: (), plan(PEOPLE): ()}
+    named = {figure.kpi for p, kpis in asked.items() for figure in figures(run_plan(p), p, kpis)}
     assert named == set(KPIS)
 
 

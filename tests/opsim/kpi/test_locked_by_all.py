@@ -170,3 +170,25 @@ def test_a_source_whose_cards_lie_in_a_store_for_good_is_told(kind):
 def test_a_store_from_which_nothing_takes_is_no_lock_by_itself(change):
     p = plan(DEAD_END.replace(*change))
     assert locked(run_plan(p), p) is None
+
+
+BOTH_OF_TWO = """
+opsim: 1
+name: both of two
+run: {start: Mon 06:00, horizon: 1 h}
+layout: {places: {here: [0 m, 0 m]}}
+shifts: {dawn: {from: 06:00, to: 06:05}, hour: {from: 06:00, to: 07:00}}
+tasks: {t: {fixed: 30 s, automatic: true}}
+stations: {make: {at: here, tasks: [t]}, fit: {at: here, tasks: [t]}}
+stores: {w: {at: here}}
+products: {a: {route: [make, w]}, b: {route: [fit], parts: {fit: {a: 2}}}}
+sources:
+  o: {kind: base_stock, store: w, level: 1, shift: dawn}
+  calls: {kind: renewal, every: {fixed: 10 min}, products: [b]}
+"""
+
+
+def test_a_source_that_is_closed_when_the_run_ends_may_bring_more_when_it_opens():
+    p = plan(BOTH_OF_TWO)
+    log = run_plan(p)
+    assert NO_PARTS in log.of(HELD)["cause"] and locked(log, p) is None

@@ -132,6 +132,40 @@ def test_breaks_of_all_people_of_the_bottleneck_at_once_are_told():
     assert risks(one, hand) == []  # it has time to spare: jobs come every 72 s
 
 
+def test_breaks_of_the_only_one_who_can_work_at_the_bottleneck_are_told():
+    """Only ana is there in the morning, who cuts for 36 s each; jobs come every 40 s."""
+    alone = [
+        (f"\n  {name}: {{shift: {shift}, skills: {{cut: 1, pack: 1}}}}", "")
+        for name, shift in (("ben", "early2"), ("cem", "late"), ("dan", "late"))
+    ]
+    edits = [
+        *alone,
+        ("horizon: 16 h", "horizon: 8 h"),
+        ("tasks: [hand], buffer: 10}\nproducts", "tasks: [do], buffer: 10}\nproducts"),
+    ]
+    assert risks(
+        BUSY, *edits, ("  early2: {from: '06:00', to: '14:00', breaks: {lunch: {at: '10:30', lasts: 30 min}}}\n", "")
+    ) == [
+        "nobody works at cut, the bottleneck, in the breaks of ana: it stands for 30 min of the run; give somebody else the skill"
+    ]
+
+
+def test_breaks_in_which_the_bottleneck_runs_on_by_itself_are_not_told():
+    """Runs of an hour, with a minute by hand: a break of half an hour costs next to nothing."""
+    one = ("lunch: {at: '10:30'", "lunch: {at: '10:00'")
+    edits = [
+        one,
+        ("do: {fixed: 36 s, automatic: true}", "do: {fixed: 60 min, automatic: true}"),
+        ("every: 72 s", "every: 62 min"),
+    ]
+    edits += [("oven: {at: here, tasks: [do]", "oven: {at: here, tasks: [hand, do]")]
+    edits += [("cut: 1, pack: 1}", "cut: 1, pack: 1, oven: 1}")]
+    assert risks(*edits) == []
+    by_hand = [(old, new.replace(", automatic: true", "")) for old, new in edits]
+    (said,) = risks(*by_hand)
+    assert said.startswith("all who can work at oven, the bottleneck, have their breaks at once")
+
+
 def test_breaks_in_front_of_the_bottleneck_that_last_longer_than_its_buffer_are_told():
     """Ten jobs of 40 s last 400 s, the break of all who cut 1,800 s; 60 places last 2,400 s."""
     one = ("lunch: {at: '10:30'", "lunch: {at: '10:00'")
@@ -206,6 +240,13 @@ def test_a_line_with_a_station_that_nobody_mans_on_a_shift_is_told_once():
     late = [("shift: late, skills: {cut: 1, pack: 1}", "shift: late, skills: {cut: 1}")]
     assert risks(("workers:", LINE), NO_BUFFER, *late) == [
         "nobody on shift late can work at pack of line final: the line stands for 8 h of the run in which others work"
+    ]
+
+
+def test_who_comes_to_a_line_only_when_he_is_called_does_not_man_it():
+    andon = ("takt: 40 s}", "takt: 40 s, andon: {workers: [cem, dan], at: 38 s}}")
+    assert risks(("workers:", LINE), andon, NO_BUFFER) == [
+        "nobody on shift late can work at cut and pack of line final: the line stands for 8 h of the run in which others work"
     ]
 
 

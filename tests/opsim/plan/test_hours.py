@@ -3,8 +3,9 @@
 import random
 
 import pytest
-from plans import plan
+from plans import plan, ran
 
+from opsim.log import BREAK, OFF
 from opsim.plan.hours.people import Hours, chance_of
 from opsim.plan.hours.spans import at_least, both, either, together, total_s, without
 from opsim.plan.loads import crew_load, overloads, skill_loads, station_loads
@@ -93,8 +94,27 @@ def test_absence_takes_its_share_of_the_days_and_of_the_station():
     hours = Hours(edited(("ana: {shift: early,", "ana: {shift: early, absence: 0.1,")))
     assert hours.share[0] == pytest.approx(0.9 * 7.5 / 24)
     pack = rank("pack", hours.plan)
-    assert hours.working_share(pack, by_hand=True) == pytest.approx((0.9 * 7.5 + 7.5) / 24)
-    assert hours.working_share(pack, by_hand=False) == 1
+    assert hours.working_share(pack, 36, 0) == pytest.approx((0.9 * 7.5 + 7.5) / 24)
+    assert hours.working_share(pack, 0, 36) == 1
+
+
+def test_what_a_station_does_by_itself_goes_on_in_breaks_and_after_the_last_shift():
+    """Half an hour by hand, half an hour alone: in half of all gaps a run goes on, the half of it on average, 15 min;
+    of a run of 2 h in a break of 30 min 26.25 min.
+    """
+    hours = Hours(edited())
+    pack = rank("pack", hours.plan)
+    assert hours.working_share(pack, 1800, 1800) == pytest.approx((15 + 3 * 0.5 * 0.25) / 24)
+    assert hours.working_share(pack, 7200, 7200) == pytest.approx((15 + 0.5 * (2 * 26.25 / 60 + 1)) / 24)
+
+
+def test_overtime_is_time_after_a_shift_and_ends_where_the_next_one_begins():
+    assert Hours(edited()).with_overtime[0] == ((0.0, 14400.0), (16200.0, 36000.0))
+    alone = edited(("ben: {shift: late", "ben: {shift: early"), ("every: 72 s", "every: 144 s"))
+    _, pack = station_loads(alone)
+    assert (pack.load, pack.with_overtime) == (pytest.approx(0.25 * 24 / 7.5), pytest.approx(0.25 * 24 / 9.5))
+    _, pack = station_loads(edited())
+    assert pack.with_overtime is None  # the late shift is there anyway
 
 
 # ---------------------------------------------------------------------------------------------------------------- loads
@@ -144,3 +164,15 @@ def test_too_much_work_for_the_hours_there_are_is_told_with_what_overtime_would_
 def test_somebody_always_there_is_loaded_as_before():
     always = edited(("shift: early, ", ""), ("shift: late, ", ""))
     assert [(load.hours, load.load) for load in station_loads(always)] == [(1.0, 0.5), (1.0, 0.5)]
+
+
+@pytest.mark.parametrize("start", ["Mon 06:00", "Mon 09:50", "Sun 23:00"])
+def test_people_of_a_run_are_there_as_long_as_foretold(start):
+    """Breaks that stop work at once, and nobody absent: presence in the log is the share of the plan, to the second."""
+    rules = ("early: {", "early: {at_end: resume, "), ("late: {", "late: {at_end: resume, ")
+    times = [("start: Mon 06:00", f"start: {start}"), (", overtime: {most: 2 h}", "")]
+    log, made = ran(DAY, *rules, *times)
+    away = log.of(BREAK, OFF)
+    for worker, share in enumerate(Hours(made).share):
+        mine = away.where(away["worker"] == worker)
+        assert 1 - mine.duration_s.sum() / made.horizon_s == pytest.approx(share, abs=1e-12)

@@ -22,3 +22,24 @@ def test_one_replication_is_said_to_prove_nothing():
 
 def test_without_figures_only_the_certainty_is_left():
     assert len(sentences(summary(kpis=[]))) == 1
+
+
+def test_with_shifts_the_busiest_worker_is_so_of_his_time_on_duty():
+    duty = [
+        kpi("duty_use", name, unit="share", mean=mean, half_width=0.01) for name, mean in (("ana", 0.5), ("ben", 0.9))
+    ]
+    all_of_them = kpi("duty_use", unit="share", mean=0.95, half_width=0.01)
+    found = sentences(summary(kpis=[*summary()["kpis"], all_of_them, *duty]))
+    assert found[1] == (
+        "The busiest worker is ben: at work or on the way for 90.0 % (89.0 to 91.0) of the time on duty, breaks aside."
+    )
+
+
+def test_overtime_and_absence_are_said_where_there_were_some():
+    def said(over, missed):
+        rows = [kpi("overtime_h", unit="h", mean=over, half_width=None), kpi("absent_share", unit="share", mean=missed)]
+        return sentences(summary(kpis=rows))[:-1]
+
+    assert said(0.0, 0.0) == []
+    assert said(2.5, 0.0) == ["People stay on for 2.500 h in all."]
+    assert said(0.0, 0.05)[0].startswith("5") and said(0.0, 0.05)[0].endswith("of the time of shifts is missed.")

@@ -7,7 +7,7 @@ import pytest
 
 from opsim.report.offline import HERE
 from opsim.report.write import report_html, write_report
-from tests.made_result import NAMES, SCRIPT, MadeResult, distribution, hostile, kpi, summary
+from tests.made_result import IMAGE, NAMES, SCRIPT, MadeResult, distribution, hostile, kpi, summary
 
 SECTIONS = ("summary", "figures-table", "states", "times", "movements", "made-up", "assumptions", "provenance")
 
@@ -169,3 +169,21 @@ def test_walking_has_a_section_only_where_it_has_postures():
 def test_a_hostile_walker_is_text_and_nothing_else():
     plain, harmed = (Page(report_html(summary(), {}, {}, walks(*names))) for names in ((), (SCRIPT, SCRIPT)))
     assert sorted(harmed.tags) == sorted(plain.tags) and harmed.text.count(SCRIPT) >= 2
+
+
+def days(more=0, **other):
+    made = {"picture": b"<svg/>", "legend": [("#0072B2", "work")], "stretch": "5 min", "alt": "ana: work 50 %"}
+    return {**made, "cut": False, "shifts": True, "more": more, **other}
+
+
+def test_people_through_the_day_have_a_section_only_where_there_are_people():
+    text = report_html(summary(), {}, {}, None, days(more=3))
+    assert text.count('id="days"') == 1 and text.count('href="#days"') == 1
+    assert "Each stretch of 5 min" in text and "3 more workers are not shown" in text and "marks his shift" in text
+    assert "marks his shift" not in report_html(summary(), {}, {}, None, days(shifts=False))
+    assert "days" not in [*page().ids, *page().addresses]
+
+
+def test_a_hostile_worker_in_the_words_of_the_picture_is_text_and_nothing_else():
+    plain, harmed = (Page(report_html(summary(), {}, {}, None, days(alt=alt))) for alt in ("ana", SCRIPT + IMAGE))
+    assert sorted(harmed.tags) == sorted(plain.tags)

@@ -76,6 +76,33 @@ HELD = [
 ]
 
 
+def test_a_rotation_by_count_may_leave_a_station_to_somebody_who_is_held():
+    """Three people for three stations in a row can never all be held; but he can whose post it is now."""
+    three = (
+        "ana: {skills: {cut: 1, drill: 1, out: 1}}",
+        "ana: {skills: {cut: 1, drill: 1, out: 1}}, ben: {like: ana}, cem: {like: ana}",
+    )
+    rotation = "rotations: {r: {workers: [ana, ben, cem], posts: [cut, drill, out], WHEN}}\nworkers: {"
+    assert risks(*HELD, three) == risks(*HELD, three, ("workers: {", rotation.replace("WHEN", "every: 1 h"))) == []
+    first, second = risks(*HELD, three, ("workers: {", rotation.replace("WHEN", "after: 9")))
+    assert first.startswith(
+        "with when_blocked: held, those of ana, ben and cem whose post it is can all be held at cut"
+    )
+    assert second.startswith(
+        "with when_blocked: held, those of ana, ben and cem whose post it is can all be held at drill"
+    )
+
+
+def test_a_crew_goes_with_its_jobs_and_is_held_by_none_of_them():
+    crew = (
+        "workers: {",
+        "crews: {all: {kind: rabbit_chase, stations: [cut, drill, out], workers: [ana, ben]}}\nworkers: {",
+    )
+    two = ("ana: {skills: {cut: 1, drill: 1, out: 1}}", "ana: {skills: {cut: 1, drill: 1, out: 1}}, ben: {like: ana}")
+    assert [risk for risk in risks(*HELD, two) if "can all be held" in risk]
+    assert risks(*HELD, two, crew) == []
+
+
 def test_one_worker_held_between_two_stations_may_lock():
     first, second = risks(*HELD)
     assert first.startswith("with when_blocked: held, ana can all be held at cut while drill is full")

@@ -72,6 +72,15 @@ def test_more_parts_at_once_than_a_store_holds_are_said():
     assert "b cannot be finished: at cut it takes 4 a at once, and 3 fit in store" in said
 
 
+def test_a_batch_that_takes_more_parts_at_once_than_a_store_holds_is_said():
+    batch = *STORE, ("{at: here, tasks: [do]}", "{at: here, tasks: [do], batch: {size: 2}}")
+    assert (
+        "2 b in one batch at cut take 4 a at once, and 3 fit in store: such a batch waits for ever; make room for "
+        "more, or smaller batches"
+    ) in risks(*batch)
+    assert not any("in one batch" in risk for risk in risks(*batch, ("capacity: 3", "capacity: 4")))
+
+
 def test_what_ends_in_a_store_and_is_part_of_nothing_piles_up():
     said = risks(*STORE, (", parts: {cut: {a: 2}}", ""))
     assert "a ends in rack, from which nothing takes it: it piles up there and is never finished" in said

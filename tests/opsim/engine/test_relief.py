@@ -1,0 +1,104 @@
+"""Hand-over: somebody is wanted, comes, and takes over; or what happens instead. By hand arithmetic, in minutes."""
+
+from made_shops import ran
+from opsim_minutes import minutes
+
+from opsim.log import BREAK, FINISH, HELD, SCRAP, SETUP, WALK, WORK
+
+HEAD = """
+opsim: 1
+name: relief
+run: {start: Mon 06:00, horizon: 60 min}
+layout: {places: {bay: [0 m, 0 m], shed: [120 m, 0 m]}}
+release: {kind: schedule, file: orders.csv}
+"""
+CELL = """
+tasks: {weld: {fixed: 10 min}}
+stations: {bench: {at: bay, tasks: [weld]}}
+products: {part: {route: [bench]}, top: {route: [bench], priority: 2}}
+shifts:
+  early: {from: 06:00, to: 14:00, breaks: {tea: {at: 06:06, lasts: 5 min}}, at_break: hand_over}
+  other: {from: 06:00, to: 14:00, breaks: {tea: {at: 06:07, lasts: 5 min}}, at_break: hand_over}
+workers:
+  ana: {shift: early, skills: {bench: 1.0}}
+  ben: {walk: 1 m/s, home: shed, skills: {bench: 1.0}}
+"""
+ANA, BEN, CEM = range(3)
+DORA = CEM
+CEM_TOO = ("  ben:", "  cem: {skills: {bench: 0.5}, walk: 0.5 m/s, home: shed}\n  ben:")
+
+
+def relieved(tmp_path, orders, *edits):
+    text = CELL
+    for old, new in edits:
+        assert old in text, old
+        text = text.replace(old, new)
+    return ran(tmp_path, text, orders, HEAD)
+
+
+def test_who_is_on_the_way_takes_over_on_arrival(tmp_path):
+    log = relieved(tmp_path, "0,part")
+    assert minutes(log, WALK, BEN) == [(6, 8)]
+    assert minutes(log, WORK, ANA) == [(0, 8)] and minutes(log, WORK, BEN) == [(8, 10)]
+    assert minutes(log, BREAK, ANA) == [(8, 13)]
+
+
+def test_of_several_the_rule_of_allocation_sends_one(tmp_path):
+    """Cem, who is there, though he is slower."""
+    log = relieved(tmp_path, "0,part", ("  ben:", "  cem: {skills: {bench: 0.5}}\n  ben:"))
+    assert minutes(log, WORK, CEM) == [(6, 14)] and minutes(log, WALK, BEN) == []
+
+
+def test_who_is_on_the_way_and_has_to_go_himself_is_replaced(tmp_path):
+    """Ben sets out at 6 min and has his break at 7; Cem, who walks for 4 min, is sent then, and comes too late."""
+    log = relieved(tmp_path, "0,part", ("ben: {", "ben: {shift: other, "), CEM_TOO)
+    assert minutes(log, WALK, BEN) == [(6, 8)] and minutes(log, BREAK, BEN) == [(8, 13)]
+    assert minutes(log, WALK, CEM) == [(7, 11)]
+    assert minutes(log, WORK, ANA) == [(0, 10)] and minutes(log, BREAK, ANA) == [(10, 15)]
+
+
+def test_a_breakdown_in_between_lets_the_leaver_go_at_once(tmp_path):
+    jam = "tasks: [weld], maintenance: {oil: {every: 100 h, first: 7 min, lasts: 6 min, when: at_once}}"
+    log = relieved(tmp_path, "0,part", ("tasks: [weld]", jam))
+    assert minutes(log, WORK, ANA)[0] == (0, 7) and minutes(log, BREAK, ANA) == [(7, 12)]
+    assert minutes(log, WALK, BEN) == [(6, 8)]
+    assert minutes(log, FINISH) == [(16, 16)]  # 0.7 was done when it stopped; it stands until 13
+
+
+def test_a_job_that_is_scrapped_before_the_taker_comes_leaves_him_free(tmp_path):
+    jam = "tasks: [weld], breakdowns: {jam: {every: {fixed: 7 min}, repair: {fixed: 30 min}, job: scrap}}"
+    log = relieved(tmp_path, "0,part", ("tasks: [weld]", jam))
+    assert minutes(log, SCRAP) == [(7, 7)] and minutes(log, WORK, BEN) == []
+    assert minutes(log, WALK, BEN) == [(6, 8)] and minutes(log, BREAK, ANA) == [(7, 12)]
+
+
+def test_a_job_that_is_pre_empted_before_the_taker_comes_is_the_takers_in_turn(tmp_path):
+    """The urgent part comes at 7 min: Ana is free, and Ben, there at 8, does it until 18; Ana does the rest of hers."""
+    log = relieved(tmp_path, "0,part 420,top", ("tasks: [weld]", "tasks: [weld], preempt: resume"))
+    assert minutes(log, BREAK, ANA) == [(7, 12)] and minutes(log, WORK, ANA)[0] == (0, 7)
+    assert minutes(log, WORK, BEN)[0] == (8, 18)
+    assert max(minutes(log, FINISH)) == (21, 21)
+
+
+def test_a_set_up_is_handed_over_too(tmp_path):
+    edit = ("tasks: [weld]", "tasks: [weld], setup: {otherwise: 4 min, first: top}")
+    log = relieved(tmp_path, "300,part", edit)
+    assert minutes(log, SETUP, ANA) == [(5, 8)] and minutes(log, SETUP, BEN) == [(8, 9)]
+    assert minutes(log, WORK, BEN) == [(9, 19)]
+
+
+def test_two_who_want_to_go_are_relieved_one_after_the_other(tmp_path):
+    """Both are to go at 6 min; Ben takes over from Ana at once, and from 10 min on from Dora, who has 3 min to go."""
+    edits = (
+        ("tasks: [weld]", "tasks: [weld], servers: 2"),
+        ("home: shed, ", "floater: true, "),
+        ("  ben:", "  dora: {shift: early, skills: {bench: 1.0}}\n  ben:"),
+    )
+    log = relieved(tmp_path, "0,part 180,part", *edits)
+    assert minutes(log, BREAK, ANA) == [(6, 11)] and minutes(log, BREAK, DORA) == [(10, 15)]
+    assert minutes(log, WORK, BEN) == [(6, 10), (10, 13)]
+
+
+def test_the_share_that_is_left_is_the_takers_own_time(tmp_path):
+    log = relieved(tmp_path, "0,part", ("home: shed, skills: {bench: 1.0}", "home: shed, skills: {bench: 0.25}"))
+    assert minutes(log, WORK, BEN) == [(8, 16)] and minutes(log, HELD) == []

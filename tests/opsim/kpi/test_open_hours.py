@@ -1,0 +1,104 @@
+"""Scheduled hours, and figures that count them instead of the calendar's."""
+
+import numpy as np
+import pytest
+from plans import plan
+
+from opsim.kpi.open_hours import duty_hours, elapsed_s, has_hours, open_hours, scheduled, station_hours
+from opsim.log import BREAKDOWN, CREATE, DOWN, FINISH, HELD, OFF, QUEUE
+from tests.opsim.kpi.made_logs import found, made, row, work
+
+H = 3600.0
+FLOOR = """
+opsim: 1
+name: hours
+run: {start: Mon 06:00, horizon: 10 h, warm_up: 1 h}
+layout: {places: {here: [0 m, 0 m]}}
+shifts: {early: {from: 07:00, to: 10:00}, late: {from: 12:00, to: 14:00}, office: {from: 09:00, to: 11:00}}
+tasks: {t: {fixed: 10 s}}
+stations:
+  a: {at: here, tasks: [t], servers: 2, shift: office, breakdowns: {jam: {every: {fixed: 50 h}, repair: {fixed: 1 s}}}}
+  b: {at: here, tasks: [t]}
+products: {p: {route: [a, b]}}
+release: {kind: poisson, every: 60 s}
+workers: {ana: {shift: early, skills: {a: 1.0, b: 1.0}}, ben: {shift: late, skills: {a: 1.0, b: 1.0}}}
+"""
+PEOPLE = FLOOR.replace(", shift: office", "")
+NOBODY = PEOPLE.replace("shift: early, ", "").replace("shift: late, ", "")
+JAM = "breakdowns"
+
+
+@pytest.mark.parametrize(
+    ("text", "spans", "hours"),
+    [
+        (FLOOR, ((3 * H, 5 * H),), 2),
+        (FLOOR.replace("every: 60 s", "every: 60 s, shift: early"), ((H, 5 * H),), 4),
+        (PEOPLE, ((H, 4 * H), (6 * H, 8 * H)), 5),
+        (PEOPLE.replace("shift: late, ", ""), ((0, 10 * H),), 9),
+        (NOBODY, ((0, 10 * H),), 9),
+    ],
+)
+def test_scheduled_hours_are_those_of_things_else_of_all_people_else_all(text, spans, hours):
+    assert scheduled(plan(text)) == spans and open_hours(plan(text)) == hours
+    assert has_hours(plan(text)) is (text != NOBODY)
+
+
+def test_hours_of_one_station_and_of_one_worker():
+    p = plan(FLOOR)
+    assert station_hours(p, 0) == ((3 * H, 5 * H),) and station_hours(p, 1) == ((0, 10 * H),)
+    assert duty_hours(p, 0) == ((H, 4 * H),)
+
+
+def test_elapsed_time_stands_still_outside_of_the_spans():
+    assert elapsed_s(((1.0, 3.0), (6.0, 7.0)), np.array([0, 1, 2, 4, 6.5, 9])).tolist() == [0, 0, 1, 2, 2.5, 3]
+    assert elapsed_s((), np.array([4.0])).tolist() == [0]
+
+
+def jobs_done(*at_s):
+    return [row(kind, s, s, job=n) for n, s in enumerate(at_s) for kind in (CREATE, FINISH)]
+
+
+def test_throughput_counts_scheduled_hours_and_beside_it_those_of_the_calendar():
+    for text, hours in ((FLOOR, 2), (PEOPLE, 5), (NOBODY, 9)):
+        p = plan(text)
+        values = found(made(jobs_done(2 * H, 3 * H, 4 * H), p), p)
+        assert values["throughput_per_h", "", ""] == 3 / hours
+        assert values["throughput_per_calendar_h", "", ""] == 3 / 9
+
+
+def test_takt_is_scheduled_time_over_demand_and_nights_are_no_gap():
+    p = plan(PEOPLE.replace("every: 60 s", "every: 60 s, shift: early"))
+    values = found(made(jobs_done(4 * H - 20, 4 * H - 10), p), p)
+    assert values["takt_s", "", ""] == 60
+    p = plan(PEOPLE)  # jobs come for 10 h, and are made in 5 h
+    values = found(made(jobs_done(4 * H - 10, 6 * H + 10, 6 * H + 50), p), p)
+    assert values["takt_s", "", ""] == 30 and values["takt_attainment", "", ""] == 0.5
+
+
+OFF_ROWS = [row(OFF, 0, 3 * H, station=0), row(OFF, 5 * H, 10 * H, station=0)]
+
+
+def states(*rows, text=FLOOR):
+    p = plan(text)
+    values = found(made([*OFF_ROWS, *rows], p), p)
+    return {part: 9 * 2 * v for (kpi, of, part), v in values.items() if (kpi, of) == ("station_states", "a")}
+
+
+def test_a_station_is_closed_outside_its_hours_whatever_stands_there():
+    hours = states(row(HELD, 4 * H, 6 * H, station=0, job=0), row(QUEUE, 0, 9 * H, station=0, job=1))
+    assert hours["closed"] == 2 * (2 + 5) and hours["waiting"] == 1 and hours["starved"] == pytest.approx(3)
+    assert sum(hours.values()) == pytest.approx(18)
+
+
+def test_what_is_finished_after_closing_is_work():
+    hours = states(work(4.5 * H, 5.5 * H, 0, worker=0))
+    assert hours["work"] == 1 and hours["closed"] == 2 * 7 - 0.5 and sum(hours.values()) == pytest.approx(18)
+
+
+def test_a_station_that_is_closed_is_not_down():
+    jam = row(DOWN, 4 * H, 7 * H, station=0, task=1, k=0, cause=BREAKDOWN)
+    hours = states(jam)
+    assert hours["down"] == 2 and hours["closed"] == 14 and sum(hours.values()) == pytest.approx(18)
+    p = plan(FLOOR)
+    values = found(made([*OFF_ROWS, jam], p), p)
+    assert values["oee_factor", "a", "availability"] == 0.5
