@@ -56,7 +56,7 @@ way_m = np.linalg.norm(np.diff(done.positions_m()[:, hand], axis=0), axis=1).sum
 print(f"right hand: {way_m:.1f} m in {done.duration_s:.1f} s")
 
 
-# %% A piece of a performance is a piece of its movement: who comes back from tea goes on from the posture he stopped in.
+# %% A piece of a performance is a piece of its movement: after tea you go on from where you had stopped.
 def tea(env, ana):
     doing = ana.perform("fasten")
     yield env.timeout(2.0)

@@ -54,8 +54,10 @@ def ways_m(log: EventLog, plan: Plan, rows: np.ndarray, speed_m_per_s: np.ndarra
     speed_m_per_s : (n,) of who walks
     """
     place_from, place_to = log["place_from"][rows], log["place_to"][rows]
-    along_m = log.duration_s[rows] * speed_m_per_s
-    return np.where(place_from == place_to, along_m, np.array(plan.distance_m)[place_from, place_to])
+    way_m = np.array(plan.distance_m)[place_from, place_to]
+    if not any(line.moves for line in plan.lines):
+        return way_m
+    return np.where(place_from == place_to, log.duration_s[rows] * speed_m_per_s, way_m)
 
 
 def on_grid_each(seconds: np.ndarray) -> np.ndarray:

@@ -93,7 +93,6 @@ def task_rules(floor: PeopleFloor) -> None:
 def absence(floor: PeopleFloor) -> None:
     for worker in floor["workers"].values():
         if "shift" in worker:
-            if "shift" in worker:
             worker["absence"] = floor.pick.one_of([0, 0.2, 0.5])
 
 

@@ -20,14 +20,15 @@ def quality(log: EventLog, plan: Plan) -> Iterator[Figure]:
     rework_per_h : in all, and by the station that found it; a job that is reworked twice counts twice
     false_alarm_share : of what was reworked or scrapped after an inspection, the share that was good
     """
-    if not plan.quality and not any(stop.job == "scrap" for stop in plan.breakdowns):
+    leaves_defects = bool(plan.quality) or any(line.sends_on for line in plan.lines)
+    if not leaves_defects and not any(stop.job == "scrap" for stop in plan.breakdowns):
         return
     hours, units = window_length_s(plan) / SECONDS_PER_HOUR, units_each(plan)
     scrapped, finished, reworked = (_rows(log, plan, kind) for kind in (SCRAP, FINISH, REWORK))
     yield from _by_station("scrap_per_h", log, plan, scrapped, hours)
     n_scrapped, n_finished = (units[log["product"][rows]].sum() for rows in (scrapped, finished))
     yield Figure("scrap_share", "", "", "share", _share(n_scrapped, n_scrapped + n_finished))
-    if not plan.quality:
+    if not leaves_defects:
         return
     good = finished[log["cause"][finished] != BAD]
     at_once = good[~np.isin(log["job"][good], log["job"][log["kind"] == REWORK])]

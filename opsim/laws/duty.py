@@ -82,7 +82,8 @@ def _too_long(own: EventLog, plan: Plan, one: Duty) -> Iterator[str]:
             performance, job = own["performance_id"][at], own["job"][at]
             helped = own["task"][at], own["k"][at]  # who is helped goes on with the same at another pace
         rule = rule or plan.tasks[own["task"][at]].interruption or shift.at_end  # that of the task which his end met
-        same = own["performance_id"][at] == performance or helped == (own["task"][at], own["k"][at]) or (rule == "finish_job" and own["job"][at] == job >= 0)
+        same = own["performance_id"][at] == performance or (own["task"][at], own["k"][at]) == helped
+        same = same or (rule == "finish_job" and own["job"][at] == job >= 0)
         if rule in AT_ONCE or not same:
             yield f"still at work at {words(max(limit, begin))}, though his shift and its overtime are over"
             return

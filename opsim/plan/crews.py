@@ -18,6 +18,13 @@ class CrewPlan:
     workers: tuple[int, ...]
 
 
+def kept_from(worker: str, scenario) -> set[str]:
+    """Stations where somebody does not work, skill or not: those of crews he is not in, and of a member all others."""
+    theirs = {station for crew in scenario.crews.values() for station in crew.stations}
+    own = {station for crew in scenario.crews.values() if worker in crew.workers for station in crew.stations}
+    return set(scenario.stations) - own if own else theirs
+
+
 def plan_crews(scenario, ranks: Ranks) -> tuple[CrewPlan, ...]:
     """All crews in natural order of names."""
     people = ranked(scenario.workers)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from opsim.bodies import BODY_KEYS
 from opsim.names import natural_key
 from opsim.plan.calendar import Duty, plan_duties
+from opsim.plan.crews import kept_from
 from opsim.plan.ranks import Ranks
 
 
@@ -31,7 +32,7 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class WorkerPlan:
-    """rating : (S,) performance rating at each station, 0 where the worker lacks the skill
+    """rating : (S,) performance rating at each station, 0 where the worker lacks the skill, or a crew keeps him away
 
     place  : where he starts and is at home
     patrol : ranks of the stations of his round, empty where he makes none
@@ -63,7 +64,7 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
             name,
             ranks.places[start_place(worker, scenario)],
             worker.walk_m_per_s,
-            _ratings(worker, ranks.stations),
+            _ratings(worker, ranks.stations, kept_from(name, scenario)),
             Body(**{key: getattr(worker, key) for key in BODY_KEYS}, walk_m_per_s=worker.walk_m_per_s),
             tuple(ranks.stations[name] for name in worker.patrol or ()),
             worker.most_load_kg,
@@ -77,10 +78,11 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
     )
 
 
-def _ratings(worker, ranks: dict[str, int]) -> tuple[float, ...]:
+def _ratings(worker, ranks: dict[str, int], kept_away: set[str]) -> tuple[float, ...]:
     ratings = [0.0] * len(ranks)
     for station, skill in worker.skills.items():
-        ratings[ranks[station]] = skill if isinstance(skill, int | float) else skill.pace
+        if station not in kept_away:
+            ratings[ranks[station]] = skill if isinstance(skill, int | float) else skill.pace
     return tuple(ratings)
 
 

@@ -7,6 +7,7 @@ from opsim.plan import Plan
 from opsim.plan.station import STATION
 from opsim.study.assignment import assignment, qualities
 from opsim.study.crews import crews
+from opsim.study.lines import lines
 from opsim.study.released import released
 from opsim.study.station_model import by_themselves, station_model, vehicles
 from opsim.study.stopped import stopped
@@ -30,8 +31,10 @@ def flow(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
         yield "allocation", f"idle workers {_IDLE[plan.idle]}"
         yield from assignment(plan)
         yield from qualities(plan)
-    yield from crews(plan)
-    stations = [station for station in plan.stations if station.kind == STATION]
+    yield from crews(loaded, plan)
+    yield from lines(plan)
+    paced = {rank for line in plan.lines for rank in line.stations}
+    stations = [one for rank, one in enumerate(plan.stations) if one.kind == STATION and rank not in paced]
     unlimited = [station.name for station in stations if station.buffer == float("inf")]
     if unlimited:
         yield "buffers", f"unlimited in front of {listed(unlimited)}"

@@ -170,7 +170,10 @@ def _standing(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
 
 
 def _walks(plan: Plan, worker: WorkerPlan) -> bool:
-    return len({worker.place} | {plan.stations[rank].place for rank, rating in enumerate(worker.rating) if rating}) > 1
+    stations = {rank for rank, rating in enumerate(worker.rating) if rating}
+    if any(line.moves and stations.intersection(line.stations) for line in plan.lines):
+        return True
+    return len({worker.place} | {plan.stations[rank].place for rank in stations}) > 1
 
 
 def _differ(task: TaskPlan) -> bool:

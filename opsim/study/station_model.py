@@ -1,6 +1,7 @@
 """What the sheet says of the blocks of the station model that a scenario uses, and which of them it does not."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import inf
 
 from opsim.names import listed
@@ -147,6 +148,7 @@ def vehicles(plan: Plan) -> Iterator[Line]:
 def by_themselves(plan: Plan) -> bool:
     """Whether some jobs pass from a station to another without anybody or anything that brings them."""
     brought = {(leg.before, leg.after) for pool in plan.transporters for leg in pool.legs}
+    brought |= {pair for line in plan.lines for pair in pairwise(line.stations)}
     belts = {belt.station for belt in plan.conveyors}
     for product in plan.products:
         if not product.carried:

@@ -15,7 +15,12 @@ def absent_share(missing: int) -> float:
 
 CASES = (
     Case("shift", "base", "jobs_finished", (_SHIFT, "resume")),
-    Case("absence", "base", "absent_at_once", WORKERS * MISSES, most_half_width=0.05),
-    Case("absence", "base", "shifts_missed_by_none", absent_share(0), most_half_width=0.05, few=60),
-    Case("absence", "base", "shifts_missed_by_two", absent_share(2), most_half_width=0.1, few=60),
+    *(
+        Case("absence", "base", figure, expected, most_half_width=0.05, few=60)
+        for figure, expected in (
+            ("absent_at_once", WORKERS * MISSES),
+            ("shifts_missed_by_none", absent_share(0)),
+            ("shifts_missed_by_two", absent_share(2)),
+        )
+    ),
 )

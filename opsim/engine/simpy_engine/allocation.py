@@ -121,7 +121,7 @@ def _walk_on(floor: Floor) -> bool:
                 _leave(floor, worker, station.place, walk_s)
                 break
             worker.place = station.place
-            if station.calling:
+            if station.calling and worker.may_serve(station):
                 came = True
                 break
     return came

@@ -9,7 +9,7 @@ from typing import Any
 from opsim.engine.simpy_engine.allocation import send
 from opsim.engine.simpy_engine.floor import Floor, pair_key
 from opsim.engine.simpy_engine.helping import can_help, helping_at
-from opsim.engine.simpy_engine.interruption import take_over
+from opsim.engine.simpy_engine.interruption import call_again, take_over
 from opsim.engine.simpy_engine.sent_on import turn_away
 from opsim.engine.simpy_engine.state import Claim, Job, Station, Worker, claim_of
 from opsim.engine.simpy_engine.worker import set_free
@@ -44,11 +44,11 @@ class Andon:
         """Somebody is wanted at a job."""
         insort(self.waiting, claim_of(job, floor.now))
 
-    def done(self, _floor: Floor, job: Job) -> None:
+    def done(self, floor: Floor, job: Job) -> None:
         """The job is done, or sent on: nobody is wanted, and who is on his way comes all the same."""
         self.waiting = [claim for claim in self.waiting if claim[3] is not job]
         for rank in [rank for rank, other in self.coming.items() if other is job]:
-            del self.coming[rank]
+            del self.coming[rank], floor.called[rank]
             worker = self.floaters[self.line.plan.floaters.index(rank)]
             if worker.job is job:
                 worker.job = worker.station = None
@@ -67,7 +67,7 @@ class Andon:
             elif able and _can_be_taken(floor, job):
                 self.waiting.remove(claim)
                 worker = min(able, key=partial(_key, floor, station, job))
-                self.coming[worker.rank] = job
+                self.coming[worker.rank], floor.called[worker.rank] = job, self
                 send(floor, worker, station, job)
                 sent = True
         return sent
@@ -86,7 +86,7 @@ class Andon:
             return False
         if self.line.walks_to(floor, job, worker):
             return True
-        del self.coming[worker.rank]
+        del self.coming[worker.rank], floor.called[worker.rank]
         worker.since_s = floor.now
         if not (_may(worker, job.station) and _can_be_taken(floor, job)):
             set_free(floor, worker)
@@ -97,6 +97,17 @@ class Andon:
         else:
             self._take(floor, job, worker)
         return True
+
+    def turns_back(self, floor: Floor, worker: Worker, job: Job) -> None:
+        """Somebody on his way has to go: the job calls for others, where nobody is at it or comes."""
+        del self.coming[worker.rank], floor.called[worker.rank]
+        worker.job = None
+        self.call(floor, job)
+        waits = (
+            job.kind == HELD and job.cause == NO_WORKER and all(claim[3] is not job for claim in job.station.calling)
+        )
+        if waits and not any(other.job is job for other in floor.workers):
+            call_again(floor, job)
 
     def _take(self, floor: Floor, job: Job, worker: Worker) -> None:
         if job.kind == HELD:

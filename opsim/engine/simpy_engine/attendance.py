@@ -43,6 +43,7 @@ class Attendance:
             return True
         if one.state != LEAVING or one.staying is job:
             return False
+        worker.since_s = floor.now  # what he did until now is written, or will be with the job
         set_free(floor, worker)
         call_again(floor, job)
         return True

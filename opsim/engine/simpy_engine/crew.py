@@ -7,11 +7,11 @@ from opsim.engine.simpy_engine.allocation import send
 from opsim.engine.simpy_engine.crew_hands import (
     caught_up,
     is_stuck,
-    let_go,
     must_stay,
     put_down,
     stands_behind,
     stays_with,
+    takes_on,
     waits,
 )
 from opsim.engine.simpy_engine.crew_line import CrewLine
@@ -108,9 +108,10 @@ class Crew:
             self.people.goal[member] = job
             return False
         self.people.drop(job)
-        let_go(floor, job)
         self.people.hand[member] = job
-        self._goes_on(floor, member, worker, job)
+        takes_on(floor, worker, job)
+        if worker.rank in floor.free:
+            self._goes_on(floor, member, worker, job)
         return True
 
     def _goes_on(self, floor: Floor, member: int, worker: Worker, job: Job) -> bool:

@@ -3,7 +3,7 @@
 from bisect import insort
 
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.interruption import interrupt
+from opsim.engine.simpy_engine.interruption import take_over
 from opsim.engine.simpy_engine.state import Gate, Job, Worker, claim_of
 from opsim.engine.simpy_engine.station import go_on
 from opsim.engine.simpy_engine.worker import hold, log_worker, set_free
@@ -15,7 +15,6 @@ from opsim.log import (
     HELD,
     JOB_BLOCKED,
     NO_PLACE,
-    NO_WORKER,
     QUEUE,
     SETUP,
     TRANSPORT,
@@ -35,15 +34,17 @@ def caught_up(floor: Floor, job: Job) -> bool:
     return job.kind != TRANSPORT and not (job.with_tools and _on_his_way(floor, job) is not None)
 
 
-def let_go(floor: Floor, job: Job) -> None:
-    """Whoever has the job in his hands is free, and it calls for the one who takes it on, where it can."""
+def takes_on(floor: Floor, worker: Worker, job: Job) -> None:
+    """A free member who stands at a job has it now: whoever had it is free, and it goes on, or calls where it can."""
     if (job.kind == WORK or job.kind == SETUP) and job.worker >= 0:
-        interrupt(floor, job, NO_WORKER)
-        go_on(floor, job)
+        log_worker(floor, worker)
+        worker.since_s = floor.now
+        del floor.free[worker.rank]
+        take_over(floor, job, worker)
     elif job.held_by is not None:
         put_down(floor, job)
-    elif (worker := _on_his_way(floor, job)) is not None:
-        worker.job = worker.station = None  # he comes all the same, and is free there
+    elif (sent := _on_his_way(floor, job)) is not None:
+        sent.job = sent.station = None  # he comes all the same, and is free there
         go_on(floor, job)
     elif job.kind == HELD and job.cause == AWAY:
         go_on(floor, job)

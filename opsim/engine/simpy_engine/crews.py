@@ -7,22 +7,15 @@ from opsim.engine.simpy_engine.floor import Floor
 
 COMES, DONE = -10, 90
 """Among the preparations of a job the first; among what is asked when an operation is done the last."""
-MEMBER, NO_MEMBER = "crews", "the crews of others"
-"""The limits of who is in a crew, sent by his crew alone, and of who is in none."""
+MEMBER = "crews"
+"""The limit of who is in a crew, and sent by his crew alone."""
 
 
 def install(floor: Floor) -> None:
-    """The members of each crew serve its stations, and nobody else does."""
-    if not floor.plan.crews:
-        return
+    """The members of each crew are sent by it; that nobody else serves its stations is in their ratings."""
     crews = [Crew(floor, plan) for plan in floor.plan.crews]
-    members = {rank for plan in floor.plan.crews for rank in plan.workers}
-    theirs = sum(1 << rank for plan in floor.plan.crews for rank in plan.stations)
-    for worker in floor.workers:
-        if worker.rank in members:
-            worker.restrict(MEMBER, 0)
-        else:
-            worker.restrict(NO_MEMBER, ~theirs)
+    for rank in {rank for plan in floor.plan.crews for rank in plan.workers}:
+        floor.workers[rank].restrict(MEMBER, 0)
     for crew in crews:
         for station in crew.stations:
             station.add_stage(COMES, crew.line.came)

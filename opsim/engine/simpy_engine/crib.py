@@ -121,6 +121,8 @@ class Crib:
 
     def break_off(self, _floor: Floor, job: Job) -> None:
         """The job's work is broken off: what was in hand for it is put back, what the station needs stays."""
+        if job is self.floor.handed_over:
+            return
         self._call_back(job, (IN_HAND,))
         self.put_back_tasks(job)
         self.put_back(job, IN_HAND)

@@ -94,7 +94,7 @@ def _be_away(floor: Floor, worker: Worker, kind: int) -> None:
 
 
 def install(floor: Floor) -> None:
-    """The calendars of people, where somebody has one; after the blocks that set people free: who may go, goes in their wake."""
+    """The calendars of people, where somebody has one; after the blocks that set people free."""
     if any(worker.plan.duties is not None for worker in floor.workers):
         Calendars(floor)
 

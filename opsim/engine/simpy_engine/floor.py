@@ -34,11 +34,13 @@ class Floor:
     created      : told of each job that comes into being
     left_station : told of each job that gives its place at a station back; left_floor : of each that leaves
     broken_off   : told of each job whose performance is broken off
+    handed_over  : the job that goes from hand to hand just now, with its tools
     call_off     : asked of a job that may not begin yet; True where it waited for a tool of its task, or for a team
     lost_server  : told of each job that loses its server to another one and stays at the station
     closing      : asked for their open rows at the horizon, before those of workers and jobs are written
     stock, kits  : what lies in the stores, and who waits for parts, where there are some
-    helping      : who helps others at their work, where somebody may be called to
+    helping      : who helps others at their work, where somebody may be called to; called : by the rank of a worker
+                   who is on his way because he was called to a job that others may be at, who called him
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
     prefix       : of a worker, a station and the job that calls there: what comes before the rule's own key
     """
@@ -71,6 +73,7 @@ class Floor:
         self.dispatchers: list[Callable[[Floor], bool]] = []
         self.left_station: list[Callable[[Floor, Job, Station], None]] = []
         self.broken_off: list[Callable[[Floor, Job], None]] = []
+        self.handed_over: Job | None = None
         self.call_off: list[Callable[[Floor, Job], bool]] = []
         self.lost_server: list[Callable[[Floor, Job, Station], None]] = []
         self.created: list[Callable[[Floor, Job], None]] = []
@@ -79,6 +82,7 @@ class Floor:
         self.stock: Any = None
         self.kits: Any = None
         self.helping: Any = None
+        self.called: dict[int, Any] = {}
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.prefix: Callable[[Worker, Station, Job], tuple[float, ...]] | None = None
         self.now = 0.0

@@ -97,7 +97,7 @@ class Holds:
             if not self.crib.take(job, want):
                 self._pause(floor, job, doing, done)
                 return
-        elif doing.end_s <= 0:
+        elif doing.end_s <= 0 or not doing.at_work:  # who takes over may have it for nothing yet
             self.crib.put_back(job, IN_HAND)
         self._stretch(floor, job, doing)
 

@@ -75,9 +75,11 @@ def call_again(floor: Floor, job: Job) -> None:
 
 
 def take_over(floor: Floor, job: Job, worker: Worker) -> None:
-    """A worker who stands at the job goes on with it, as who did it until now is free."""
+    """A worker who stands at the job goes on with it, and with its tools; who did it until now is free."""
     if job.kind == WORK or job.kind == SETUP:
+        floor.handed_over = job
         interrupt(floor, job, NO_WORKER)
+        floor.handed_over = None
     else:
         call_off(floor, job.station, job)
     worker.job, worker.station = job, job.station

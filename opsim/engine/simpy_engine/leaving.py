@@ -62,6 +62,9 @@ class Leaving:
         """He walks on to where he was sent, and the job calls for anybody again, or waits on for him."""
         if self.reliefs.turns_back(worker):
             return
+        if worker.rank in floor.called:
+            floor.called[worker.rank].turns_back(floor, worker, job)
+            return
         if self.ties.job_of.get(worker.rank) is job:
             worker.job = None
             _put_tools_back(floor, job)

@@ -81,6 +81,7 @@ class Reliefs:
         if relief is None:
             return False
         relief.taker = None
+        worker.since_s = floor.now  # what he did until now is written
         if relief.job is job and relief.may_begin(floor.now):
             del self.asked[relief.leaver.rank]
             take_over(floor, job, worker)

@@ -65,11 +65,10 @@ def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows, hours: Hours) -
 
 def hand_and_alone_s(plan: Plan, station: int, here: list[Flow]) -> tuple[float, float]:
     """Seconds of a mean visit in which people are needed, and of what a station does without them."""
-    weights = {flow.product: flow.per_h or flow.per_job for flow in here}
-    total, hand_s, alone_s = sum(weights.values()), 0.0, 0.0
-    for product, weight in weights.items():
+    total, hand_s, alone_s = sum(flow.per_h or flow.per_job for flow in here), 0.0, 0.0
+    for flow in here if total else ():
         for task, part in tasks_at(plan, station):
-            seconds = weight / total * part * task_s(plan, task, product) if total else 0.0
+            seconds = (flow.per_h or flow.per_job) / total * part * task_s(plan, task, flow.product)
             if plan.tasks[task].automatic:
                 alone_s += seconds
             else:

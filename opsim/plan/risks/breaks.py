@@ -25,8 +25,8 @@ def starving_breaks(plan: Plan, hours: Hours, loads: Loads, by_hand: set[int]) -
     if found is None:
         return
     rank, load = found
-    if any(rank in line.stations for line in plan.lines):  # a line stands while all its people have a break, and nothing runs dry
-        return
+    if any(rank in line.stations for line in plan.lines):
+        return  # a line stands while all its people have a break, and nothing runs dry
     pauses = _pauses(plan, hours, rank) if rank in by_hand else ()
     yield from _all_at_once(plan, hours, loads, rank, pauses)
     for before in sorted(_before(plan, rank) & by_hand):

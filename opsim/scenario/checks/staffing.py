@@ -27,9 +27,24 @@ def staffing_problems(tree: Node) -> Iterator[Problem]:
                 f"add '{name}: 1.0' to the skills of {first} or another worker" if first else "add a section 'workers:'"
             )
             yield problem(station.name_place, ("stations", name), found, hint)
+        elif manual is not None and name in on_a_route and (crew := _all_in_crews(tree, name)) is not None:
+            found = (
+                f"{manual} needs a worker, and all with the skill {shown(name)} work for crew {crew} or another alone"
+            )
+            yield problem(station.name_place, ("stations", name), found, f"add {name} to the crew, or somebody for it")
         elif manual is not None and name in on_a_route and patrols and rounds and name not in rounds:
             found = f"{manual} needs a worker, and nobody goes round by {shown(name)}"
             yield problem(station.name_place, ("stations", name), found, f"add {name} to the patrol of a worker")
+
+
+def _all_in_crews(tree: Node, station: str) -> str | None:
+    """The crew of the first of those with a skill, where the station is in no crew and all of them are in one."""
+    crews = {name: [node.value for node in items(crew, "workers")] for name, crew in entries(tree, "crews").items()}
+    if any(node.value == station for crew in entries(tree, "crews").values() for node in items(crew, "stations")):
+        return None
+    able = [name for name, worker in entries(tree, "workers").items() if station in entries(worker, "skills")]
+    theirs = [next((crew for crew, members in crews.items() if name in members), None) for name in able]
+    return theirs[0] if theirs and None not in theirs else None
 
 
 def patrol_problems(tree: Node) -> Iterator[Problem]:

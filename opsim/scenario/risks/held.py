@@ -81,6 +81,7 @@ def _rotations(name: str, scenario: Scenario) -> list[Rotation]:
 def _limited(scenario: Scenario) -> set[str]:
     """The points that can be full."""
     stations = {name for name, station in scenario.stations.items() if station.buffer is not None}
+    stations |= {name for line in scenario.lines.values() for name in line.stations}
     return stations | {*scenario.conveyors} | {n for n, s in scenario.stores.items() if (s.capacity or inf) < inf}
 
 

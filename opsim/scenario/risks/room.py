@@ -11,6 +11,7 @@ from opsim.scenario.schema import Card, Scenario
 def finite(scenario: Scenario) -> set[str]:
     """Points that can be full."""
     stations = {name for name, station in scenario.stations.items() if station.buffer is not None}
+    stations |= {name for line in scenario.lines.values() for name in line.stations}
     return stations | {name for name in scenario.stores if _may_be_full(name, scenario)} | {*scenario.conveyors}
 
 

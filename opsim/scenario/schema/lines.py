@@ -105,7 +105,7 @@ class Line(Block):
 
     @property
     def _most_s(self) -> float:
-        """The least time that a job has at a station before it must go on, from the beginning of its stretch."""
+        """The longest that a job may be in any stretch, or at any station, while the line runs."""
         if self.length_m is None:
             return self.takt_s
-        return (min([self.length_m, *self.lengths_m.values()]) + self.drift_m) / self.pace_m_per_s
+        return (max([self.length_m, *self.lengths_m.values()]) + self.drift_m) / self.pace_m_per_s

@@ -45,7 +45,8 @@ class Pause(Block):
     )
     lasts_s: Seconds = Field(
         alias="lasts",
-        description="how long; who is late, because he finishes something, has it in full all the same",
+        description="how long; who is late, because he finishes something, has it in full all the same, but for what "
+        "would be after his shift",
         examples=["15 min"],
     )
     place: NameText | None = Field(

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
-from plans import ran
+from plans import plan, ran
 
+from opsim.engine.simpy_engine.allocation import _walk_on
+from opsim.engine.simpy_engine.run import _open
 from opsim.kpi import figures
 from opsim.log import BAD, FINISH, WALK, WORK
 
@@ -230,3 +232,13 @@ def test_stations_at_one_place_are_served_in_turn():
     )
     assert len(log.of(WALK)) == 0
     assert [s for _, s, _ in work(log, plan)] == ["sa", "sb", "sc", "sa", "sb", "sc"]
+
+
+def test_a_call_that_somebody_may_not_serve_does_not_stop_him_on_his_round():
+    """Else he would come to it for ever: his skills may be taken from him for a while, as before a break."""
+    one_place = ROUND.replace("b: [3 m, 0 m], c: [3 m, 4 m]", "b: [0 m, 0 m], c: [0 m, 0 m]")
+    floor = _open(plan(one_place), 0)
+    floor.stations[1].calling.append((0.0, 0.0, 0, None))
+    assert _walk_on(floor)
+    floor.workers[0].restrict("break", 0)
+    assert not _walk_on(floor)

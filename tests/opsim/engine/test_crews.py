@@ -1,5 +1,6 @@
 """Bucket brigades and rabbit chases, by hand arithmetic."""
 
+import numpy as np
 import pytest
 from plans import plan, ran
 
@@ -142,6 +143,19 @@ def test_without_a_rule_of_its_own_it_is():
     log, made = ran(ROW, *TWO, ("t: {fixed: 10 s}", "t: {fixed: 20 s}"), ("u: {fixed: 10 s}", "u: {fixed: 6 s}"))
     assert day(log, "w2", 49)[-4:] == ["29-32 walk p", "32-40 work a 1", "40-43 walk q", "43-49 work b 1"]
     assert set(hand_overs(log, made, made.crews[0]).position.round(9).tolist()) == {round(12 / 26, 9)}
+
+
+def test_a_tool_goes_from_hand_to_hand_whoever_waits_for_it():
+    """Three sewers share two needles: what was begun never waits for one."""
+    log, _ = ran(
+        BENCH, ("sew: {fixed: 12 s}", "sew: {dist: lognormal, mean: 12 s, cv: 0.3, needs: {needle: 1}}"),
+        ("workers: {", "tools: {needle: {n: 2}}\nworkers: {mid: {skills: {bench: 1.5}}, "), ("[slow,", "[slow, mid,"),
+    )  # fmt: skip
+    work = log.of(WORK)
+    begun = work.where((work["progress_to"] < 1) & (work["end_s"] < log.horizon_s))
+    assert len(begun) > 50
+    for job, end_s in zip(begun["job"], begun["end_s"]):
+        assert np.any((work["job"] == job) & (work["start_s"] == end_s))
 
 
 def test_who_has_a_break_is_passed_over_and_comes_in_again_at_his_place():

@@ -148,6 +148,16 @@ def test_who_helps_is_free_where_the_work_is_broken_off_and_the_rest_is_for_one_
     assert works(log, 1, 0)[2][:3] == pytest.approx((2, 130.0, 130 + 14 / 3), abs=1e-5)
 
 
+def test_who_helps_and_has_to_go_leaves_the_other_one_alone_with_the_rest():
+    shift = "shifts: {early: {from: 06:00, to: 14:00, breaks: {coffee: {at: 06:01:50, lasts: 5 min}}}}\n"
+    log, _ = ran(LINE + shift, LATE, andon("help"), JOKER, ("joker: {", "joker: {shift: early, "))
+    # together from 107 s on; at 110 s, when his break begins, 14 s are left for one: beyond the 120 s of the takt
+    rows = works(log, 1, 0)
+    assert [row[1:3] for row in rows] == [(60.0, 107.0), (107.0, 110.0), (110.0, 120.0)]
+    assert rows[2][3:] == pytest.approx((1 - 14 / 70, 1 - 4 / 70))
+    assert [row[1:3] for row in works(log, 1, -1)][0] == (107.0, 110.0)
+
+
 def test_nobody_is_called_to_a_job_that_is_done_and_who_comes_too_late_is_free():
     log, _ = ran(LINE, ("t2: {fixed: 50 s}", "t2: {fixed: 46 s}"), andon("take_over"), JOKER, ("1000 s", "160 s"))
     assert all(worker != 0 for worker, *_ in works(log))

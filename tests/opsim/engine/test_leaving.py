@@ -197,7 +197,7 @@ def test_tools_pass_to_who_takes_over(tmp_path):
     text = text.replace("{other: 1.0}", "{bench: 1.0, other: 1.0}")
     log = left(tmp_path, text, "0,part", "hand_over")
     assert minutes(log, WORK, ANA) == [(0, 6)] and minutes(log, WORK, BEN) == [(6, 10)]
-    assert minutes(log, log.names["kind"].index("tool")) == [(0, 6), (6, 10)]
+    assert minutes(log, log.names["kind"].index("tool")) == [(0, 10)]
 
 
 FLOW = """

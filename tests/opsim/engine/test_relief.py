@@ -3,7 +3,7 @@
 from made_shops import ran
 from opsim_minutes import minutes
 
-from opsim.log import BREAK, FINISH, HELD, SCRAP, SETUP, WALK, WORK
+from opsim.log import BREAK, FINISH, HELD, SCRAP, SETUP, TOOL, WALK, WORK
 
 HEAD = """
 opsim: 1
@@ -102,3 +102,27 @@ def test_two_who_want_to_go_are_relieved_one_after_the_other(tmp_path):
 def test_the_share_that_is_left_is_the_takers_own_time(tmp_path):
     log = relieved(tmp_path, "0,part", ("home: shed, skills: {bench: 1.0}", "home: shed, skills: {bench: 0.25}"))
     assert minutes(log, WORK, BEN) == [(8, 16)] and minutes(log, HELD) == []
+
+
+GUN = (
+    ("bench: {at: bay, tasks: [weld]}", "bench: {at: bay, tasks: [weld]}, desk: {at: bay, tasks: [weld]}"),
+    ("top: {route: [bench], priority: 2}", "top: {route: [desk]}"),
+    ("home: shed, skills", "skills"),
+    ("  ben:", "  cem: {skills: {desk: 1.0}}\n  ben:"),
+    ("workers:", "tools: {gun: {n: 1}}\nworkers:"),
+)
+
+
+def test_tools_go_from_hand_to_hand_whoever_waits_for_them(tmp_path):
+    """Cem's job has waited for the gun since 1 min; Ben takes it over from Ana at 6."""
+    log = relieved(tmp_path, "0,part 60,top", *GUN, ("{fixed: 10 min}", "{fixed: 10 min, needs: {gun: 1}}"))
+    assert minutes(log, WORK, ANA) == [(0, 6)] and minutes(log, WORK, BEN) == [(6, 10)]
+    assert minutes(log, WORK, CEM) == [(10, 20)]
+
+
+def test_a_tool_in_the_hands_goes_to_the_other_hands(tmp_path):
+    """The gun is held from 0.5 to 0.8 of it: by Ana from 5 to 6 min, by Ben until 8, then by Cem, who waits from 6."""
+    hold = ("{fixed: 10 min}", "{fixed: 10 min, hold: {tool: gun, from: 0.5, to: 0.8}}")
+    log = relieved(tmp_path, "0,part 60,top", *GUN, hold)
+    assert minutes(log, TOOL) == [(5, 8), (8, 11)]
+    assert minutes(log, WORK, BEN) == [(6, 10)] and minutes(log, WORK, CEM) == [(1, 6), (8, 13)]

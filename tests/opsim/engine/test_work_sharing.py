@@ -94,7 +94,7 @@ def test_every_job_gets_the_shared_work_once_a_pass(edits):
 
 
 def test_a_job_reworked_before_the_shared_work_gets_it_once_after_all():
-    log, p = ran(
+    log, _ = ran(
         LINE, LONG, SPREAD, ("buffer: 1, share", "buffer: 1, yield: 0.7, inspect: {then: {rework: front}}, share")
     )
     rows, done = log.of(WORK), log.of(FINISH)["job"]

@@ -91,6 +91,16 @@ def test_what_a_crew_cannot_do_is_refused(old, new, expected):
     assert expected in said(ONE, (old, new))
 
 
+def test_a_station_beside_a_crew_needs_somebody_of_its_own():
+    text = TEXT.replace("bag: {route: [a, b, c]}", "bag: {route: [a, b, c, d]}").replace("c: 1}}", "c: 1, d: 1}}")
+    text = text.replace("c: {at: hall, tasks: [t]}", "c: {at: hall, tasks: [t]}, d: {at: hall, tasks: [t]}")
+    loaded(text.replace("CREWS", ONE))  # cem is in no crew
+    with pytest.raises(ScenarioError) as caught:
+        loaded(text.replace("cem: {skills: {a: 1, c: 1, d: 1}}", "cem: {skills: {a: 1}}").replace("CREWS", ONE))
+    (problem,) = caught.value.problems
+    assert problem.message.startswith("task 't' needs a worker, and all with the skill 'd' work for crew row")
+
+
 def test_all_mistakes_are_told_at_once():
     told = said("{row: {kind: bucket_brigade, stations: [a, d], workers: [ana, eve, ana]}}")
     assert all(word in told for word in ("no station 'd'", "no worker 'eve'", "ana is twice here"))

@@ -47,28 +47,28 @@ LINE = "kind: indexed, stations: [s1, s2], takt: 60 s"
 
 @pytest.mark.parametrize(("old", "new", "answer"), [
     ("stations: [s1, s2]", "stations: [s1, s3]",
-     "12: lines.final.stations[1]: no station 's3' | known stations: pack, s1, s2, saw"),
+     "15: lines.final.stations[1]: no station 's3' | known stations: pack, s1, s2, saw"),
     ("stations: [s1, s2]", "stations: [s1, s1]",
-     "12: lines.final.stations[1]: 's1' is on final already | a station is on one line, once"),
+     "15: lines.final.stations[1]: 's1' is on final already | a station is on one line, once"),
     (LINE, "kind: indexed, stations: [s1, s2], takt: 60 s, length: 6 m",
-     "12: lines.final.length: an indexed line has no 'length': its jobs stand at stations | remove it, or write 'kind: "
+     "15: lines.final.length: an indexed line has no 'length': its jobs stand at stations | remove it, or write 'kind: "
      "moving'"),
     (LINE, "kind: indexed, stations: [s1, s2], takt: 60 s, drift: 1 m",
-     "12: lines.final.drift: an indexed line has no 'drift'"),
+     "15: lines.final.drift: an indexed line has no 'drift'"),
     (LINE, "kind: moving, stations: [s1, s2], takt: 60 s",
-     "12: lines.final: a moving line needs to know how long a station's stretch is | add e.g. 'length: 6 m'"),
+     "15: lines.final: a moving line needs to know how long a station's stretch is | add e.g. 'length: 6 m'"),
     (LINE, "kind: moving, length: 6 m, lengths: {pack: 3 m}, stations: [s1, s2], takt: 60 s",
-     "12: lines.final.lengths: no station 'pack' on final"),
+     "15: lines.final.lengths: no station 'pack' on final"),
     (LINE, "kind: moving, length: 6 m, speed: 1.5 m/s, drift: 90 m, stations: [s1, s2], takt: 60 s",
-     "10: workers.ana.walk: ana walks 1.2 m/s, and the line moves 1.5 m/s | he could not follow a job"),
+     "11: workers.ana.walk: ana walks 1.2 m/s, and the line moves 1.5 m/s | he could not follow a job"),
     ("at: 50 s", "at: 60 s",
-     "12: lines.final.andon: called at 60 s, when the 60 s that a job has there are over | call earlier"),
+     "15: lines.final.andon: called at 60 s, when the 60 s that a job has there are over | call earlier"),
     ("workers: [joker]", "workers: [jokr]",
-     "12: lines.final.andon.workers[0]: no worker 'jokr' | did you mean 'joker'?"),
+     "15: lines.final.andon.workers[0]: no worker 'jokr' | did you mean 'joker'?"),
     ("workers: [joker]", "workers: [bob]",
-     "12: lines.final.andon.workers[0]: bob has no skill on this line | add e.g. 's1: 1.0' to his skills"),
+     "15: lines.final.andon.workers[0]: bob has no skill on this line | add e.g. 's1: 1.0' to his skills"),
     ("workers: [joker]", "workers: [ana, joker]",
-     "12: lines.final.andon: only ana, joker can work at s1, and comes only when he is called | add 's1: 1.0' to the "
+     "15: lines.final.andon: only ana, joker can work at s1, and comes only when he is called | add 's1: 1.0' to the "
      "skills of somebody else"),
     ("s2: {at: b,", "s2: {at: b, buffer: 2,",
      "7: stations.s2.buffer: s2 is on the line final, and cannot say 'buffer': the line's own stretch is all the room "
@@ -83,7 +83,7 @@ LINE = "kind: indexed, stations: [s1, s2], takt: 60 s"
      "7: stations.pack.inspect.then: a job cannot come back to 's1', on the line final"),
     ("saw: {at: a,", "saw: {at: a, blocking: before,",
      "7: stations.saw.blocking: no place on the line final can be kept: a job comes onto it when it moves"),
-    ("workers: {ana", "flow: {blocking: before}\nworkers: {ana",
+    ("workers:\n  ana", "flow: {blocking: before}\nworkers:\n  ana",
      "10: flow.blocking: on a paced line a job has its next place when the line moves"),
     ("route: [saw, s1, s2, pack]", "route: [saw, s2, s1, pack]",
      "8: products.x: x comes from saw to s2, and the line final goes s1, s2 | a way goes over all its stations in this "
@@ -100,9 +100,9 @@ LINE = "kind: indexed, stations: [s1, s2], takt: 60 s"
      "8: products.x: x comes from s1 to pack, and the line final goes s1, s2"),
     ("pack]}}", "pack], carried: true}}",
      "8: products.x.carried: x goes over the line final, which moves it | remove 'carried'"),
-    ("workers: {ana", "cards: {k: {n: 2, from: s2, to: pack}}\nworkers: {ana",
+    ("workers:\n  ana", "cards: {k: {n: 2, from: s2, to: pack}}\nworkers:\n  ana",
      "10: cards.k.from: a card is taken before s2, and the line final waits for nobody there | take it before s1"),
-    ("workers: {ana", "transporters: {cart: {at: a, speed: 1 m/s, legs: [[saw, s1]]}}\nworkers: {ana",
+    ("workers:\n  ana", "transporters: {cart: {at: a, speed: 1 m/s, legs: [[saw, s1]]}}\nworkers:\n  ana",
      "10: transporters.cart.legs[0]: cart would bring jobs to or from a station of the line final"),
 ])  # fmt: skip
 def test_lines_that_cannot_be(old, new, answer, tmp_path):
@@ -112,7 +112,7 @@ def test_lines_that_cannot_be(old, new, answer, tmp_path):
 def test_who_walks_no_faster_than_the_line_moves_is_told(tmp_path):
     slow = ("joker: {skills", "joker: {walk: 0.1 m/s, skills")
     assert said([MOVING, slow], tmp_path) == (
-        "10: workers.joker.walk: joker walks 0.1 m/s, and the line moves 0.1 m/s | he could not follow a job"
+        "12: workers.joker.walk: joker walks 0.1 m/s, and the line moves 0.1 m/s | he could not follow a job"
     )
 
 
