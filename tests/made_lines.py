@@ -1,4 +1,4 @@
-"""Paced lines made at random, of either kind, with whatever a station of one may have; whole seconds, so that times tie."""
+"""Paced lines made at random, of either kind, with whatever a station of one may have; times tie: whole seconds."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ def line_scenario(seed: int) -> dict:
     n, kind = pick.randint(1, 4), pick.choice(["indexed", "moving"])
     names = [f"s{i}" for i in range(n)]
     tasks: dict = {"hand": {"fixed": "6 s"}, "run": {"fixed": f"{pick.randint(5, 30)} s", "automatic": True}}
+    tasks["slow"] = {"fixed": "40 s", "automatic": True}
     stations: dict = {}
     tools: dict = {}
     for name in names:
@@ -18,19 +19,25 @@ def line_scenario(seed: int) -> dict:
         stations[name] = {"at": pick.choice(["a", "b"]), "tasks": _tasks(pick, name), **_troubles(pick)}
     line = {"kind": kind, "stations": names, "takt": "30 s", "unfinished": pick.choice(["stop", "send_on"])}
     if kind == "moving":
-        line |= {"length": "3 m", "drift": f"{pick.choice([0, 0, 1, 4])} m", "upstream": f"{pick.choice([0, 0, 1, 3])} m"}
+        line |= {
+            "length": "3 m",
+            "drift": f"{pick.choice([0, 0, 1, 4])} m",
+            "upstream": f"{pick.choice([0, 0, 1, 3])} m",
+        }
     workers = {f"w{i}": _worker(pick, names) for i in range(pick.randint(1, 4))}
-    workers["every"] = {"skills": dict.fromkeys(names, 1.0)}
+    workers |= {name: {"skills": dict.fromkeys(names, 1.0)} for name in ("every", "other")}
     if pick.random() < 0.6:
         workers["joker"] = {"skills": dict.fromkeys(names, pick.choice([0.5, 1.0, 2.0])), **_shift(pick)}
         does = pick.choice(["help", "take_over"])
         line["andon"] = {"workers": ["joker"], "at": f"{pick.randint(0, 29)} s", "does": does}
+    if pick.random() < 0.35:  # nobody is there in a break
+        workers = {name: {**worker, "shift": "early"} for name, worker in workers.items()}
     route = list(names)
     if pick.random() < 0.4:
         stations["before"] = {"at": "a", "tasks": ["run"], "buffer": pick.choice([0, 2])}
         route.insert(0, "before")
     if pick.random() < 0.5:
-        stations["after"] = {"at": "b", "tasks": ["run"], "buffer": pick.choice([0, 1])}
+        stations["after"] = {"at": "b", "tasks": [pick.choice(["run", "slow"])], "buffer": pick.choice([0, 1])}
         route.append("after")
     products: dict = {"x": {"route": route, "lot": pick.choice([1, 1, 2])}, "y": {"route": route, "priority": 1}}
     sources: dict = {"in": {"kind": "saturated", "sequence": pick.choice([["x"], ["x", "y"]])}}
@@ -39,7 +46,13 @@ def line_scenario(seed: int) -> dict:
     made = {
         **{"opsim": 1, "name": "line", "run": {"start": "Mon 06:00", "horizon": "1800 s", "seed": seed}},
         **{"layout": {"places": {"a": ["0 m", "0 m"], "b": ["3 m", "0 m"]}}, "tasks": tasks, "stations": stations},
-        **{"products": products, "sources": sources, "workers": workers, "lines": {"line": line}, "shifts": _shifts(pick)},
+        **{
+            "products": products,
+            "sources": sources,
+            "workers": workers,
+            "lines": {"line": line},
+            "shifts": _shifts(pick),
+        },
         "allocation": {"when_blocked": pick.choice(["free", "held"]), "idle": pick.choice(["stay", "home"])},
     }
     if pick.random() < 0.3:
@@ -47,7 +60,7 @@ def line_scenario(seed: int) -> dict:
     if tools:
         made["tools"] = tools
     if pick.random() < 0.3:
-        made["cards"] = {"conwip": {"n": pick.randint(1, 5)}}
+        made["cards"] = {"conwip": {"n": pick.randint(1, 5), "products": ["x", "y"]}}
     return made
 
 
@@ -72,7 +85,11 @@ def _troubles(pick: Random) -> dict:
         [
             *3 * [{}],
             {"breakdowns": {"jam": jam}},
-            {"maintenance": {"oil": {"every": "300 s", "lasts": "40 s", "when": pick.choice(["at_once", "after_job"])}}},
+            {
+                "maintenance": {
+                    "oil": {"every": "300 s", "lasts": "40 s", "when": pick.choice(["at_once", "after_job"])}
+                }
+            },
             {"yield": 0.7, "inspect": {"finds": 0.9, "then": "scrap"}},
             {"setup": {"otherwise": "5 s", "by": "product"}},
             {"shift": "open", "at_close": pick.choice(["finish", "resume"])},
@@ -95,7 +112,13 @@ def _shifts(pick: Random) -> dict:
     rule = {"at_break": pick.choice(rules), "at_end": pick.choice(rules)}
     pause = {"coffee": {"at": "06:08", "lasts": "3 min", **pick.choice([{}, {"place": "b"}])}}
     return {
-        "early": {"from": "06:00", "to": "06:20", "breaks": pause, **rule, **pick.choice([{}, {"overtime": {"most": "4 min"}}])},
+        "early": {
+            "from": "06:00",
+            "to": "06:20",
+            "breaks": pause,
+            **rule,
+            **pick.choice([{}, {"overtime": {"most": "4 min"}}]),
+        },
         "late": {"from": "06:05", "to": "06:28", **rule},
         "open": {"from": "06:00", "to": "06:12"},
         "again": {"from": "06:15", "to": "06:30"},

@@ -22,6 +22,8 @@ def line_balance(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """
     by_station = cycle_times(log, plan)
     loads = [load for load in station_loads(plan) if load.visits > 0 and load.station in by_station]
+    if not loads:
+        return
     on_route = [(load.servers, load.visits, load.station) for load in loads]
     servers = np.array([n for n, _, _ in on_route])
     work_s = np.array([visits * mean(by_station[station]) for _, visits, station in on_route]) / servers

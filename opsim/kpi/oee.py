@@ -9,7 +9,19 @@ from opsim.kpi.figure import Figure
 from opsim.kpi.open_hours import elapsed_s, open_time_s, station_hours
 from opsim.kpi.outages import outage_rows
 from opsim.kpi.values import in_window, inside_s
-from opsim.log import BATCH, BREAKDOWN, HELD, MAINTENANCE, REWORK, SCRAP, SETUP, WORK, EventLog
+from opsim.log import (
+    BATCH,
+    BREAKDOWN,
+    HELD,
+    MAINTENANCE,
+    REWORK,
+    SCRAP,
+    SENT_ON,
+    SETUP,
+    UNFINISHED,
+    WORK,
+    EventLog,
+)
 from opsim.plan import Plan
 
 
@@ -20,7 +32,8 @@ def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
     availability : the share of planned time in which the station is neither down by a breakdown nor being set up
     performance  : seconds the work done should take by the tasks' mean durations / seconds available. It is speed
                    (should take / took) times use (took / available), so blocking, starving and waiting lower it
-    quality      : the share of the operations of the window after which the job was neither scrap nor sent to rework
+    quality      : the share of the operations of the window after which the job was neither scrap nor sent to rework,
+                   and that were not left unfinished on a paced line
     Source: Nakajima 1988, Introduction to TPM, Productivity Press (performance = operating speed rate x net operating
     rate; idling and minor stoppages are losses of performance, breakdowns and set-ups of availability). Minor stops
     that a scenario models as breakdowns are losses of availability here.
@@ -73,9 +86,9 @@ def _open_s(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
 
 def _quality(log: EventLog, plan: Plan) -> np.ndarray:
     """(stations,) share of the operations of the window that ended well; 1 where there was none."""
-    wrong = np.isin(log["kind"], (SCRAP, REWORK)) & (log["station"] >= 0) & in_window(log["end_s"], plan)
-    found = np.flatnonzero(wrong)
-    halfway = found[log["cause"][found] == BREAKDOWN]  # these never became whole visits
+    wrong = np.isin(log["kind"], (SCRAP, REWORK, SENT_ON)) & (log["station"] >= 0) & in_window(log["end_s"], plan)
+    found = _once_each(log, np.flatnonzero(wrong))
+    halfway = found[np.isin(log["cause"][found], (BREAKDOWN, UNFINISHED))]  # these never became whole visits
     n_wrong, n_halfway = (_by_station(log, plan, rows, np.ones(rows.size)) for rows in (found, halfway))
     whole = visits(log, plan)
     counted = whole.whole & in_window(whole.end_s, plan)
@@ -84,6 +97,15 @@ def _quality(log: EventLog, plan: Plan) -> np.ndarray:
     n_done = np.bincount(whole.station[counted], minlength=len(plan.stations)) + n_halfway
     n_done = n_done + _by_station(log, plan, members, np.ones(members.size))
     return 1.0 - np.divide(n_wrong, n_done, out=np.zeros(n_done.size), where=n_done > 0)
+
+
+def _once_each(log: EventLog, rows: np.ndarray) -> np.ndarray:
+    """The rows of what went wrong, without those of jobs that were turned down where they had been left unfinished."""
+    sent = log["kind"][rows] == SENT_ON
+    if not sent.any():
+        return rows
+    pair = log["job"][rows] * np.int64(log["station"].max() + 1) + log["station"][rows]
+    return rows[sent | ~np.isin(pair, pair[sent])]
 
 
 def _by_station(log: EventLog, plan: Plan, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:

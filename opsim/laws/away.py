@@ -20,13 +20,15 @@ def away(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
     for row in rows[(last < 0) | (log["progress_to"][last] == 1.0)][:1]:
         yield f"job {log['job'][row]}: waits for a worker at {log['start_s'][row]:g} s, and none has left work on it"
         return
-    for row, piece in zip(rows, last):
-        own = work[log["worker"][work] == log["worker"][piece]]
-        begins, ends = ticks(log["start_s"][own]), ticks(log["end_s"][own])
-        meets = (begins < ticks(log["end_s"][row])) & (ends > ticks(log["start_s"][row]))
-        for at in own[meets][:1]:
-            name, moment = plan.workers[log["worker"][piece]].name, words(ticks(log["start_s"][at]))
-            yield f"job {log['job'][row]}: waits for {name}, who is at work elsewhere at {moment}"
+    for worker in np.unique(log["worker"][last]):
+        own = work[log["worker"][work] == worker]
+        own = own[np.argsort(log["start_s"][own], kind="stable")]
+        waits = rows[log["worker"][last] == worker]
+        first = np.searchsorted(ticks(log["end_s"][own]), ticks(log["start_s"][waits]), side="right")
+        begins = np.r_[ticks(log["start_s"][own]), np.iinfo(np.int64).max][first]
+        for at in np.flatnonzero(begins < ticks(log["end_s"][waits]))[:1]:
+            of, moment = f"job {log['job'][waits[at]]}", words(max(begins[at], ticks(log["start_s"][waits[at]])))
+            yield f"{of}: waits for {plan.workers[worker].name}, who is at work elsewhere at {moment}"
 
 
 def _last_piece(log: EventLog, work: np.ndarray, rows: np.ndarray) -> np.ndarray:

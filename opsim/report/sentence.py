@@ -80,7 +80,7 @@ def _overtime(rows: Sequence[Row]) -> str:
     over, missed = find(rows, "overtime_h"), find(rows, "absent_share")
     said = []
     if over is not None and over["mean"] > 0:
-        said.append(f"people stay on for {with_interval(over)} in all")
+        said.append(f"after their shifts people stay for {with_interval(over)} in all")
     if missed is not None and missed["mean"] > 0:
         said.append(f"{with_interval(missed)} of the time of shifts is missed")
     return listing(said)[:1].upper() + listing(said)[1:] + "." if said else ""

@@ -83,8 +83,8 @@ def _people(plan: Plan) -> Iterator[Line]:
         if shift.overtime_s and any(duty.shift == rank for duty in duties):
             yield (
                 "overtime",
-                f"{shift.name}: people stay for up to {shift.overtime_s / 3600:g} h while the floor has work for them; "
-                "that they may, and want to, is taken for granted",
+                f"{shift.name}: people stay for up to {shift.overtime_s / 3600:g} h, while jobs on the floor want what "
+                "too few of those on duty can do; that they may, and want to, is taken for granted",
             )
     if duties:
         yield "shifts", "people appear at their home place as a shift begins and are gone as it ends, without a way"

@@ -1,5 +1,7 @@
+import numpy as np
 import pytest
 
+from opsim.report.day_picture import Strip, draw_day, legend
 from opsim.report.write import write_report
 from tests.browser.chromium import Watched, browser
 from tests.made_result import NAMES, MadeResult, hostile, summary
@@ -101,3 +103,15 @@ def test_the_sections_are_reached_by_keyboard(report):
     watched.page.keyboard.press("Tab")
     watched.page.keyboard.press("Enter")
     assert watched("location.hash") == "#figures-table"
+
+
+def test_people_through_the_day_are_a_picture_that_loads_and_is_found_from_the_top(chromium, tmp_path):
+    strips = [Strip(name, {"work": np.full(4, 0.5), "wait": np.full(4, 0.5)}) for name in NAMES]
+    picture = draw_day(strips, "Mon 06:00", 0.0, 28800.0)
+    days = {"picture": picture, "legend": legend(strips), "stretch": "2 h", "alt": NAMES[1]}
+    days |= {"cut": False, "shifts": False, "more": 0}
+    page = write_report(MadeResult(summary()), tmp_path / "report.html", {}, None, days)
+    watched = Watched(chromium, page)
+    assert watched("document.querySelector('#days img').naturalWidth") == 1180
+    assert watched("document.querySelector('nav a[href=\"#days\"]').textContent") == "People"
+    assert watched("window.harmed") is None and watched.complaints == []

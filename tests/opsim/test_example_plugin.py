@@ -109,9 +109,9 @@ def test_the_installed_example_is_found_with_its_distribution(installed):
     assert emulators == (
         "opsim-example-plugin 0.1.0 (opsim.emulators: mtm1_get_and_place = opsim_example_plugin.mtm1:GetAndPlace)"
     )
-    assert (
-        rules
-        == "opsim-example-plugin 0.1.0 (opsim.dispatch: spare_the_best = opsim_example_plugin.spare_the_best:spare_the_best)"
+    assert rules == (
+        "opsim-example-plugin 0.1.0 "
+        "(opsim.dispatch: spare_the_best = opsim_example_plugin.spare_the_best:spare_the_best)"
     )
 
 

@@ -1,5 +1,7 @@
 """Every second of every worker is accounted for, with a place; a hole, a jump or a place that is missing is found."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from plans import plan, ran
@@ -83,3 +85,17 @@ def test_a_floor_without_workers_has_nothing_to_account_for():
     text = TEXT[: TEXT.index("workers:")].replace("cv: 0.3}", "cv: 0.3, automatic: true}")
     log, p = ran(text)
     assert list(unaccounted(log, plan(text))) == [] and whereabouts(log, p).row.size == 0
+
+
+@pytest.mark.parametrize("variant", ["base", "flu"])
+def test_every_second_of_everybody_in_the_shipped_plant_is_accounted_for(variant):
+    from opsim.engine.simpy_engine import run_plan
+    from opsim.plan import compile_plan
+    from opsim.scenario import read_scenarios
+
+    plant = Path(__file__).parents[2] / "scenarios/two_shift_plant.yaml"
+    p = compile_plan(read_scenarios(plant, [variant])[variant])
+    log = run_plan(p)
+    seen = whereabouts(log, p)
+    assert list(unaccounted(log, p)) == [] and len(p.workers) == 18
+    assert (seen.end_s - seen.start_s).sum() == 18 * p.horizon_s

@@ -1,8 +1,8 @@
 """Who takes a post when people change posts: every member who can gets a key, the smallest goes there.
 
 Posts are given out one after the other. ``turns_away`` says how many changes from now it would be his by turns, 0: now;
-``at_post_s`` how long he has been at this post so far in the run, ``here_s`` for how long he has just been there without
-a change, 0 where he is elsewhere; ``member`` is his number in the list of those who are there.
+``at_post_s`` how long he has been at this post so far in the run, ``here_s`` for how long he has just been there
+without a change, 0 where he is elsewhere; ``member`` is his number in the list of those who are there.
 """
 
 

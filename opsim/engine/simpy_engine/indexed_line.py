@@ -24,6 +24,7 @@ class IndexedLine(PacedLine):
         self.andon = Andon(floor, self) if plan.floaters else None
         for station in self.stations:
             station.add_after(AT_THE_END, self._done_here)
+        floor.left_station.append(self._left_station)
         for station in self.stations[1:]:
             shut_but_at(floor, self, station)
 
@@ -85,6 +86,11 @@ class IndexedLine(PacedLine):
         if self.andon is not None:
             self.andon.done(floor, job)
         return False
+
+    def _left_station(self, floor: Floor, job: Job, station: Station) -> None:
+        """A job that was scrapped is waited for by nobody."""
+        if self.andon is not None and station in self.stations:
+            self.andon.done(floor, job)
 
     def _jobs(self) -> Iterator[Job]:
         """The jobs on the line, from its beginning."""

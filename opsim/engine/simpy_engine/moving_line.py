@@ -103,9 +103,7 @@ class MovingLine(PacedLine):
         """On to the next station; from the last one the job rides to the end of the line, off its server."""
         del self.open_at[job.number]
         self.late.discard(job.number)
-        self.walks.stop(floor, job)
-        if self.andon is not None:
-            self.andon.done(floor, job)
+        self._nobody_comes(floor, job)
         station = job.station
         if station is not self.stations[-1]:
             return True
@@ -123,9 +121,16 @@ class MovingLine(PacedLine):
         self.ending.add(job.number)
         move_on(floor, job)
 
-    def _left_station(self, _floor: Floor, job: Job, station: Station) -> None:
+    def _left_station(self, floor: Floor, job: Job, station: Station) -> None:
+        if station.rank in self.at:
+            self._nobody_comes(floor, job)
         if station is self.stations[-1]:
             self._forget(job)
+
+    def _nobody_comes(self, floor: Floor, job: Job) -> None:
+        self.walks.stop(floor, job)
+        if self.andon is not None:
+            self.andon.done(floor, job)
 
     def _left_floor(self, _floor: Floor, job: Job) -> None:
         if job.number in self.began_s:

@@ -44,6 +44,8 @@ def turn_away(floor: Floor, job: Job, but: int = -1) -> None:
 
 def _wait_no_more(floor: Floor, job: Job) -> None:
     call_off(floor, job.station, job)
+    for ask in floor.call_off:
+        ask(floor, job)
     if job.team is not None:
         disband(floor, job)
     turn_away(floor, job)

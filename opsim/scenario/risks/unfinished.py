@@ -63,8 +63,8 @@ def _too_many(name: str, station: str, part: str, pieces: int, scenario: Scenari
         yield f"{name} cannot be finished: at {station} it takes {pieces} {part} at once, and {room} fit in store"
     elif batch is not None and room < pieces * batch.size:
         yield (
-            f"{batch.size} {name} in one batch at {station} take {pieces * batch.size} {part} at once, and {room} fit in "
-            "store: such a batch waits for ever; make room for more, or smaller batches"
+            f"{batch.size} {name} in one batch at {station} take {pieces * batch.size} {part} at once, and {room} fit "
+            "in store: such a batch waits for ever; make room for more, or smaller batches"
         )
 
 

@@ -177,7 +177,7 @@ def shown_by(seed: int, wanted: Callable[..., list[str]] = chosen) -> list[str] 
     return [*contested(mets), *(name for name in blocks if name not in BLOCKS and shown(name, values, log, p))]
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(st.data(), st.integers(0, 100))
 def test_laws_hold_and_declaration_order_decides_nothing_with_people_and_everything_else(data, shuffle):
     pick = Drawn(data.draw)

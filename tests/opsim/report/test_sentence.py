@@ -41,5 +41,5 @@ def test_overtime_and_absence_are_said_where_there_were_some():
         return sentences(summary(kpis=rows))[:-1]
 
     assert said(0.0, 0.0) == []
-    assert said(2.5, 0.0) == ["People stay on for 2.500 h in all."]
+    assert said(2.5, 0.0) == ["After their shifts people stay for 2.500 h in all."]
     assert said(0.0, 0.05)[0].startswith("5") and said(0.0, 0.05)[0].endswith("of the time of shifts is missed.")
