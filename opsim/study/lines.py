@@ -22,7 +22,7 @@ def lines(plan: Plan) -> Iterator[Line]:
                 if line.helps
                 else "takes a time of his own for what is left, and whoever was there is free"
             )
-            yield "lines", f"{line.name}: only when called: {names}; who comes {how}"
+            yield "lines", f"{line.name}: {names} only when called; who comes {how}"
 
 
 def _late(line: LinePlan) -> str:

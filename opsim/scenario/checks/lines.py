@@ -17,6 +17,7 @@ _NOT_ON_A_LINE = {
     "buffer_after": "a job moves on with the line",
     "batch": "jobs move one by one",
     "preempt": "jobs move in the order in which they came",
+    "share": "nobody can begin a job that comes when the line moves",
 }
 
 
@@ -45,6 +46,7 @@ def line_problems(tree: Node) -> Iterator[Problem]:
                 hint = did_you_mean(said, on_it, otherwise="its stations")
                 yield problem(length.name_place, (*path, "lengths"), f"no station {shown(said)} on {name}", hint)
         yield from _andon(tree, line, on_it, path)
+        yield from _crews(tree, name, on_it)
         if text(line, "kind") == MOVING:
             yield from _too_slow(tree, line, on_it, path)
 
@@ -69,6 +71,15 @@ def _station(tree: Node, name: str, line: str, kind: str | None) -> Iterator[Pro
     if rework is not None:
         found = f"{name} is on the line {line}, and a job that is turned down cannot leave it there"
         yield problem(rework.place, (*path, "inspect", "then"), found, "inspect it after the line, or 'then: scrap'")
+
+
+def _crews(tree: Node, line: str, on_it: list[str]) -> Iterator[Problem]:
+    """Crews go from station to station with their jobs, which a line moves by itself."""
+    for name, crew in entries(tree, "crews").items():
+        for number, station in enumerate(items(crew, "stations")):
+            if isinstance(station.value, str) and station.value in on_it:
+                found = f"{station.value} is on the line {line}, which moves the jobs"
+                yield problem(station.place, ("crews", name, "stations", number), found, "a crew or a line, not both")
 
 
 def _andon(tree: Node, line: Node, on_it: list[str], path: Path) -> Iterator[Problem]:

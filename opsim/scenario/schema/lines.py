@@ -43,7 +43,7 @@ class Line(Block):
     The line stands, and its clock with it, while one of its stations is down or closed, while nobody who works on it is
     there (breaks, the end of a shift), while a finished job cannot leave it, and, with `unfinished: stop`, while a job
     that should have moved on is worked on. Meanwhile work goes on. With `unfinished: send_on` such a job goes on as it
-    is: its work at the station is broken off for good, and it is bad. Only what waits for parts or tools is waited for.
+    is, whatever it waits for: its work at the station is broken off for good, and it is bad.
     """
 
     kind: Literal["indexed", "moving"] = Field(

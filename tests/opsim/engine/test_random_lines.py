@@ -13,7 +13,7 @@ from made_lines import line_scenario
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi.table import figures
 from opsim.laws import CHECKS, audit
-from opsim.log import COLUMNS, FINISH, SENT_ON, STANDS
+from opsim.log import COLUMNS, FINISH, JOB_KINDS, SENT_ON, STANDS
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 
@@ -49,7 +49,8 @@ def checked(seed, folder):
 def apart_s(log, p):
     """The least time between two jobs coming onto the line."""
     (line,) = p.lines
-    rows = log.where((log["station"] == line.stations[0]) & (log["job"] >= 0))
+    here = np.isin(log["kind"], JOB_KINDS) & (log["job"] >= 0) & (log["station"] == line.stations[0])
+    rows = log.where(here)
     first = [rows["start_s"][rows["job"] == job].min() for job in np.unique(rows["job"])]
     return np.diff(np.sort(first)).min(initial=np.inf)
 

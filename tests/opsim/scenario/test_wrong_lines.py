@@ -100,6 +100,8 @@ LINE = "kind: indexed, stations: [s1, s2], takt: 60 s"
      "8: products.x: x comes from s1 to pack, and the line final goes s1, s2"),
     ("pack]}}", "pack], carried: true}}",
      "8: products.x.carried: x goes over the line final, which moves it | remove 'carried'"),
+    ("workers:\n  ana", "crews: {c: {kind: rabbit_chase, stations: [s1, s2], workers: [ana]}}\nworkers:\n  ana",
+     "10: crews.c.stations[0]: s1 is on the line final, which moves the jobs | a crew or a line, not both"),
     ("workers:\n  ana", "cards: {k: {n: 2, from: s2, to: pack}}\nworkers:\n  ana",
      "10: cards.k.from: a card is taken before s2, and the line final waits for nobody there | take it before s1"),
     ("workers:\n  ana", "transporters: {cart: {at: a, speed: 1 m/s, legs: [[saw, s1]]}}\nworkers:\n  ana",
