@@ -42,7 +42,7 @@ class PeopleFloor(Floor):
         for station in self["stations"].values():
             station["buffer"] = pick.whole(2, 9)
         if "every" in self.main:
-            self.main["every"] = "10 s" if self.main["kind"] == "poisson" else {"fixed": "12 s"}
+            self.main["every"] = "15 s" if self.main["kind"] == "poisson" else {"fixed": "16 s"}
 
     def clock(self, minute: int) -> str:
         """The time of day at a minute of the run, such as ``06:05``."""
@@ -124,12 +124,12 @@ PEOPLE: dict[str, Callable[[PeopleFloor], None]] = {
 
 
 def people_floor_with(pick, wanted: list[str]) -> dict:
-    """A made scenario with shifts and breaks and some of the blocks, as values; of each five one lasts for 36 hours."""
+    """A made scenario with shifts and breaks and some of the blocks, as values; one of seven lasts for 36 hours."""
     floor = PeopleFloor(pick)
     for name, put in {**BLOCKS, **PEOPLE, **CREWS}.items():
         if name in wanted or name in ALWAYS:
             put(floor)
-    return floor.values if pick.whole(0, 4) else _for_two_days(floor)
+    return floor.values if pick.whole(0, 6) else _for_two_days(floor)
 
 
 def _for_two_days(floor: PeopleFloor) -> dict:

@@ -40,7 +40,7 @@ def _of_worker(own: EventLog, plan: Plan, duties: tuple[Duty, ...]) -> Iterator[
     until = np.r_[from_[1:], ticks(own.horizon_s)]
     for one, begin, end, next_begin in zip(duties, from_, to, until):
         if (int(begin), int(end)) not in missed:
-            after = own.where(slice(*np.searchsorted(begins, (begin, next_begin))))
+            after = own.where(np.arange(*np.searchsorted(begins, (begin, next_begin))))
             yield from _rested(after, one)
             if not one.cut and ticks(one.end_s + plan.shifts[one.shift].overtime_s) < next_begin:
                 yield from _too_long(after, plan, one)

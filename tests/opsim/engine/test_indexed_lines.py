@@ -155,7 +155,7 @@ def test_who_helps_and_has_to_go_leaves_the_other_one_alone_with_the_rest():
     rows = works(log, 1, 0)
     assert [row[1:3] for row in rows] == [(60.0, 107.0), (107.0, 110.0), (110.0, 120.0)]
     assert rows[2][3:] == pytest.approx((1 - 14 / 70, 1 - 4 / 70))
-    assert [row[1:3] for row in works(log, 1, -1)][0] == (107.0, 110.0)
+    assert next(row[1:3] for row in works(log, 1, -1)) == (107.0, 110.0)
 
 
 def test_nobody_is_called_to_a_job_that_is_done_and_who_comes_too_late_is_free():

@@ -33,8 +33,7 @@ def test_how_it_moves_and_who_is_called_are_told():
     assert any("moving on takes no time" in said for _, said in lines(plan(TEXT)))
     assert any("the line moves 0.1 m/s" in said for _, said in lines(plan(MOVING)))
     assert any(
-        said.startswith("final: joker only when called; who comes takes a time")
-        for _, said in lines(plan(TEXT))
+        said.startswith("final: joker only when called; who comes takes a time") for _, said in lines(plan(TEXT))
     )
     assert any("takes his own share of what is left" in said for _, said in lines(plan(MOVING)))
 
