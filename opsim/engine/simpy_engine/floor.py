@@ -231,9 +231,23 @@ def _steps(plan: Plan, gates: dict[tuple[int, ...], Gate]) -> list[list[tuple[Op
     return [[(step, ranks[step.name], gates[step.stations]) for step in product.route] for product in plan.products]
 
 
+def _comes_back(plan: Plan, ranks: tuple[int, ...]) -> bool:
+    """Whether a job that has a place at one of some stations may want in there without another one."""
+    if plan.quality or any(station.place_first for station in plan.stations):
+        return True
+    return any(
+        then >= 0 and product.route[then].stations == ranks and not set(ranks).isdisjoint(step.stations)
+        for product in plan.products
+        for step, ways in zip(product.route, product.onward)
+        for _, then in ways
+    )
+
+
 def _gates(plan: Plan, stations: list[Station]) -> dict[tuple[int, ...], Gate]:
     wanted = {operation.stations: None for product in plan.products for operation in product.route}
-    gates = {ranks: Gate(tuple(stations[rank] for rank in ranks)) for ranks in wanted}
+    gates = {
+        ranks: Gate(tuple(stations[rank] for rank in ranks), comes_back=_comes_back(plan, ranks)) for ranks in wanted
+    }
     for station in stations:
         station.wanted_by = tuple(gate for gate in gates.values() if station in gate.stations)
     return gates

@@ -260,6 +260,7 @@ class Gate:
     allows  : whether a job may come in where there is room; entered : told of each that does; None: all may
     given_up : told of each job that gives the place up that was kept for it
     pick    : in place of ``next_claim``; lets : whether a new job of a product, at a step, may come in
+    comes_back : whether a job at one of the stations may want in again, or have a place there before it leaves another
     """
 
     stations: tuple[Station, ...]
@@ -270,6 +271,7 @@ class Gate:
     given_up: Callable[[Floor, Job], None] | None = None
     pick: Callable[[], Claim | None] | None = None
     lets: Callable[[int, int], bool] | None = None
+    comes_back: bool = True
 
     @property
     def has_room(self) -> bool:
@@ -291,6 +293,8 @@ class Gate:
         for station in self.stations:
             if station.n_inside < station.capacity:
                 return claims[0]
+        if not self.comes_back:  # NOTE: a long queue outside is not gone through again and again
+            return None
         return next((claim for claim in claims if self.may_enter(claim[3])), None)
 
     def may_enter(self, job: Job) -> bool:

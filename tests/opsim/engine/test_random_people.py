@@ -36,7 +36,7 @@ from opsim.plan import Plan, compile_plan
 from opsim.scenario.read import Loaded, scenarios_in
 from opsim.scenario.risks import risks_of
 
-LOCKS = re.compile(r"nothing moves any more|for ever|never fills")
+LOCKS = re.compile(r"nothing moves any more|for ever|never fills|cannot be finished")
 """What ``opsim check`` says of a floor that may lock itself."""
 ENOUGH = 25
 AT_LEAST = 2
