@@ -93,3 +93,8 @@ def test_a_reader_that_leaves_early_gets_no_traceback():
 def test_help_says_where_the_shipped_scenarios_are_named():
     _, shown, _ = opsim("--help")
     assert "opsim init --list" in shown and opsim("init", "--list")[0] == 0
+
+
+def test_python_m_opsim_is_the_command():
+    told = subprocess.run([sys.executable, "-m", "opsim", "--help"], capture_output=True, text=True)
+    assert told.returncode == 0 and told.stdout.startswith("Usage: python -m opsim")
