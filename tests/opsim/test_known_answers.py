@@ -12,6 +12,7 @@ LONG = {
     *(("gershwin", variant) for variant in ("n10", "n20", "uneven", "infinite")),
     *(("base_stock", "base"), ("priorities", "restart"), ("priorities", "shortest"), ("batches", "eight")),
     *(("kitting", "uneven"), ("interrupted", "in_use_spread"), ("transfer_line", "k10")),
+    *(("polling", "limited"), ("mmc", "two_servers")),
 }
 """Need more replications than there is time for here: ``make known-answers`` alone simulates them."""
 HERE = [case for case in CASES if (case.file, case.variant) not in LONG]
