@@ -6,12 +6,12 @@ seconds and pauses begin on whole minutes, so that they meet ends of tasks now a
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 from made_blocks import BLOCKS
 from made_crews import CREWS
 from made_floors import PLACES, Floor
+from made_two_days import for_two_days
 
 RULES = ("finish", "finish_job", "resume", "resume_any", *3 * ("hand_over",), "restart")
 """Rules of interruption; for a hand-over somebody has to be free, so it is drawn more often."""
@@ -129,33 +129,4 @@ def people_floor_with(pick, wanted: list[str]) -> dict:
     for name, put in {**BLOCKS, **PEOPLE, **CREWS}.items():
         if name in wanted or name in ALWAYS:
             put(floor)
-    return floor.values if pick.whole(0, 6) else _for_two_days(floor)
-
-
-def _for_two_days(floor: PeopleFloor) -> dict:
-    """All times 24 times as long, so that an hour's shifts are a day's and come again on the next."""
-    values = _longer(floor.values, floor.begins_min)
-    values["run"]["horizon"] = "36 h"
-    for worker in values["workers"].values():
-        if isinstance(worker.get("shift"), list):
-            worker["shift"] = worker["shift"][0]  # both may be too long for one person now
-    for name, shift in values["shifts"].items():
-        if shift["from"] == shift["to"]:
-            shift.pop("overtime", None)  # who is always on duty never stays on after it
-        elif "overtime" in shift:
-            shift["overtime"] = floor["shifts"][name]["overtime"]
-    return values
-
-
-def _longer(value, begins_min: int):
-    if isinstance(value, dict):
-        return {key: _longer(of_key, begins_min) for key, of_key in value.items()}
-    if isinstance(value, list):
-        return [_longer(item, begins_min) for item in value]
-    if isinstance(value, str) and (clock := re.fullmatch(r"(\d\d):(\d\d)", value)):
-        minute = (int(clock[1]) * 60 + int(clock[2]) - begins_min + 720) % 1440 - 720
-        of_day = (begins_min + 24 * minute) % 1440
-        return f"{of_day // 60:02d}:{of_day % 60:02d}"
-    if isinstance(value, str) and (time := re.fullmatch(r"(\d+) (s|min)", value)):
-        return f"{24 * int(time[1])} {time[2]}"
-    return value
+    return floor.values if pick.whole(0, 6) else for_two_days(floor.values, floor.begins_min)

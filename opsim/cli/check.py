@@ -71,4 +71,5 @@ def _plain(variants: dict[str, Any]) -> dict[str, Any]:
         "people": people,
         "shared": listed("shared"),
         "bottleneck": listed("limits"),
+        "scheduled_share": {name: loads.scheduled_share for name, loads in variants.items()},
     }

@@ -15,7 +15,7 @@ NEXT = 2
 
 def print_loads(variant: str, loads: Any) -> None:
     """Everything that ``opsim check`` has found about a variant."""
-    _print_stations(variant, loads.stations)
+    _print_stations(variant, loads.stations, loads.scheduled_share)
     _print_people(variant, loads.skills, loads.crew)
     _print_shared(variant, loads.shared)
     if loads.limits:
@@ -25,7 +25,12 @@ def print_loads(variant: str, loads: Any) -> None:
 
 
 def _limit(one: Any) -> str:
-    said = f"{one.most_per_h:.1f} jobs per h at most"
+    if one.most_per_scheduled_h is None:
+        said = f"{one.most_per_h:.1f} jobs per h at most"
+    else:
+        said = (
+            f"at most {one.most_per_scheduled_h:.1f} jobs per scheduled hour, {one.most_per_h:.1f} per hour of the run"
+        )
     return f"{one.what} ({said})" if one.load is None else f"{one.what} ({_share(one.load)}, {said})"
 
 
@@ -36,7 +41,7 @@ def _share(load: float | None) -> str:
     return f"{load:.0%}" if load < float("inf") else "never there"
 
 
-def _print_stations(variant: str, loads: list[Any]) -> None:
+def _print_stations(variant: str, loads: list[Any], scheduled_share: float | None) -> None:
     from opsim.cli.console import print_table
 
     setups, stops = any(load.setup_s for load in loads), any(load.up < 1 for load in loads)
@@ -45,9 +50,16 @@ def _print_stations(variant: str, loads: list[Any]) -> None:
     columns = ("station", "servers", "work a visit", *more, "visits a job", "most per h", "arrivals per h", "load")
     shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_STATIONS]
     rows = [_cells(load, setups, stops, hours) for load in shown]
-    print_table(f"{variant}: load of the stations, from mean times", columns, rows)
+    print_table(f"{variant}: load of the stations, from mean times{_of_hours(scheduled_share)}", columns, rows)
     if len(loads) > MOST_ROWS:
         click.echo(f"{variant}: the {MOST_STATIONS} busiest of {len(loads)} stations are shown; --json has them all\n")
+
+
+def _of_hours(scheduled_share: float | None) -> str:
+    """Which hours the table means, where the floor keeps some."""
+    if scheduled_share is None:
+        return ""
+    return f"; per h: of the run, for {scheduled_share:.1%} of which the floor is scheduled to be open"
 
 
 def _spare(load: Any) -> float:

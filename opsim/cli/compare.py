@@ -71,15 +71,16 @@ def _print(comparison: Any, title: str) -> None:
     from opsim.cli.console import print_table
     from opsim.cli.run_table import without_repeats
     from opsim.report.comparison import comparison_cells, largest_of
+    from opsim.report.parts import part_name
     from opsim.report.words import kpi_name
 
     rows = []
     for difference in comparison.differences:
         kpi, subject, part, _ = difference.key
         cells = comparison_cells(difference, largest_of([d for d in comparison.differences if d.key[0] == kpi]))
-        of = " ".join(filter(None, (subject, part)))
+        of = " ".join(filter(None, (subject, part_name(kpi, part))))
         texts = (cells[name] for name in ("base", "mean", "difference", "unit", "relative", "pairing", "verdict"))
-        rows.append((kpi_name(kpi), of, difference.variant, *texts))
+        rows.append((kpi_name(kpi, bool(comparison.hours)), of, difference.variant, *texts))
     columns = ("figure", "of", "variant", comparison.base, "mean", "difference", "", "relative", "pairing", "verdict")
     print_table(f"{title}: differences from {comparison.base}", columns, without_repeats(rows), words=3)
     for sentence in comparison.words:

@@ -8,7 +8,8 @@ from typing import Any
 _ALWAYS = ("work", "blocked", "loaded")
 _WHERE_LARGE = {
     "station_states": (
-        *("setup", "down", "repair", "parts", "tool", "place", "pickup", "away", "takt", "line_stop", "waiting"),
+        *("setup", "down", "repair", "parts", "tool", "place", "pickup", "away", "takt", "line_stop", "pause"),
+        "waiting",
     ),
     "worker_states": ("setup", "walk", "held", "behind", "team", "tool", "absent"),
 }
@@ -18,15 +19,16 @@ _BY_STOP = (
     *("stops_per_h", "down_s", "wait_for_repair_s", "stop_share"),
     *("incomplete_share", "line_stopped_share", "handoff_position"),
 )
-_WHERE_ANY = ("interruptions_per_h",)
 Cells = dict[str, dict[str, Any]]
 
 
 def print_results(title: str, results: dict[str, Any]) -> None:
     """One row a figure, one column a variant; of states those that matter (``_ALWAYS``, ``_WHERE_LARGE``)."""
     from opsim.cli.console import print_table
+    from opsim.report.parts import part_name
     from opsim.report.words import kpi_name, largest_mean, plus_minus
 
+    hours = any("scheduled_h" in result.summary for result in results.values())
     found: dict[str, dict[tuple[str, str], Cells]] = {}
     for name, result in results.items():
         for row in result.summary["kpis"]:
@@ -38,17 +40,20 @@ def print_results(title: str, results: dict[str, Any]) -> None:
         largest = largest_mean(row for cells in kept.values() for row in cells.values())
         for of, cells in kept.items():
             texts = [plus_minus(cells[name], largest) if name in cells else "" for name in results]
-            rows.append((kpi_name(kpi), " ".join(filter(None, of)), *texts))
+            named = of[0], part_name(kpi, of[1])
+            rows.append((kpi_name(kpi, hours), " ".join(filter(None, named)), *texts))
     heading = _heading(title, [result.summary for result in results.values()])
     print_table(heading, ("figure", "of", *results), without_repeats(rows), words=2)
 
 
 def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool:
     """Whether a row is shown. cells : by variant, the row of its summary."""
+    from opsim.report.parts import SHOWN_WHERE_ANY, is_shown
+
     if not part or part in _ALWAYS or kpi in _BY_STOP:
         return True
-    if kpi in _WHERE_ANY:
-        return any((row["mean"] or 0) > 0 for row in cells.values())
+    if kpi in SHOWN_WHERE_ANY:
+        return is_shown(kpi, part, cells.values())
     return part in _WHERE_LARGE.get(kpi, ()) and any((row["mean"] or 0) > _LARGE for row in cells.values())
 
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.kpi.figure import Figure
-from opsim.kpi.open_hours import has_hours
 from opsim.kpi.values import SECONDS_PER_HOUR, in_window, window_length_s
 from opsim.log import WORK, EventLog
 from opsim.pieces import FATES, FINISHED, job_pieces
 from opsim.plan import Plan
+from opsim.plan.hours.scheduled import has_hours
 
 
 def interruptions(log: EventLog, plan: Plan) -> Iterator[Figure]:

@@ -13,6 +13,8 @@ from opsim.plan import LinePlan, Plan
 WHY = {"unfinished": kinds.UNFINISHED, "full": kinds.FULL, "down": kinds.IS_DOWN, "closed": kinds.CLOSED}
 WHY |= {"away": kinds.AWAY}
 """Why a line stands: part -> cause."""
+PLANNED = ("closed", "away")
+"""Pauses of the line, which are no stops: told beside them, and not counted."""
 
 
 def lines(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -20,8 +22,9 @@ def lines(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     incomplete_share   : of the jobs that left it, those that were sent on unfinished somewhere on it, and by station
                          those that were sent on there; only of lines that send on
-    line_stopped_share : share of the time in which it stood; and for what: a job that is not done, no room for who
-                         leaves it (full), a station that is down or closed, nobody there (away)
+    line_stopped_share : share of the time in which it stood, and for what: a job that is not done, no room for who
+                         leaves it (full), a station that is down; and beside that, not counted, the share in which it
+                         paused as planned: a station closed by its calendar, nobody there (away: breaks, off shift)
     """
     for line in plan.lines:
         if line.sends_on:
@@ -54,7 +57,8 @@ def _share(jobs: np.ndarray, among: np.ndarray) -> float:
 def _stood(log: EventLog, plan: Plan, line: LinePlan) -> Iterator[Figure]:
     rows = np.flatnonzero((log["kind"] == STANDS) & (log["station"] == line.stations[0]))
     seconds, length_s = inside_s(log, rows, plan), window_length_s(plan)
-    yield Figure("line_stopped_share", line.name, "", "share", seconds.sum() / length_s)
+    stops = ~np.isin(log["cause"][rows], [WHY[part] for part in PLANNED])
+    yield Figure("line_stopped_share", line.name, "", "share", seconds[stops].sum() / length_s)
     for part in possible(plan, line):
         share = seconds[log["cause"][rows] == WHY[part]].sum() / length_s
         yield Figure("line_stopped_share", line.name, part, "share", share)

@@ -1,4 +1,8 @@
-"""Scheduled hours: when a floor, a station or a worker is meant to be there, within the window."""
+"""Scheduled hours in the window: when the floor (``scheduled``), a station or a worker is meant to be there.
+
+The floor is open while at least one station on a route may work: it is open and, where its tasks need people, enough
+of those who can work there are on shift. Hours of sources do not count.
+"""
 
 from __future__ import annotations
 
@@ -6,31 +10,8 @@ import numpy as np
 
 from opsim.kpi.values import SECONDS_PER_HOUR
 from opsim.plan import Plan
-from opsim.plan.hours.spans import Spans, at_least, both, either, total_s, without
-
-
-def has_hours(plan: Plan) -> bool:
-    """Whether anything or anybody of a plan keeps hours."""
-    return bool(_of_things(plan)) or any(worker.duties is not None for worker in plan.workers)
-
-
-def scheduled(plan: Plan) -> Spans:
-    """When the floor is scheduled to be open, from 0 to the horizon.
-
-    Whenever a station or a source that keeps hours is open; where none does and every worker has shifts, whenever one
-    of them is on shift; else always.
-    """
-    found = _of_things(plan)
-    shifts = [worker.duties for worker in plan.workers if worker.duties is not None]
-    if not found and shifts and len(shifts) == len(plan.workers):
-        found = [tuple((one.start_s, one.end_s) for one in duties) for duties in shifts]
-    return either(*found) if found else ((0.0, plan.horizon_s),)
-
-
-def _of_things(plan: Plan) -> list[Spans]:
-    """The hours of the stations and the sources that keep some."""
-    stations = [station.open_s for station in plan.stations if station.open_s is not None]
-    return stations + [source.open_s for source in plan.sources if source.open_s is not None]
+from opsim.plan.hours.scheduled import scheduled
+from opsim.plan.hours.spans import Spans, at_least, both, total_s, without
 
 
 def open_hours(plan: Plan) -> float:
@@ -58,6 +39,11 @@ def duty_hours(plan: Plan, worker: int) -> Spans:
     """When a worker is meant to be there; those of shifts that follow one another at once are one."""
     duties = plan.workers[worker].duties
     return ((0.0, plan.horizon_s),) if duties is None else at_least(1, [((one.start_s, one.end_s),) for one in duties])
+
+
+def is_in(spans: Spans, at_s: np.ndarray) -> np.ndarray:
+    """(n,) whether some instants are in some times, their ends included and their beginnings not."""
+    return np.searchsorted(np.ravel(np.array(spans)), at_s) % 2 == 1
 
 
 def elapsed_s(spans: Spans, at_s: np.ndarray) -> np.ndarray:

@@ -6,13 +6,14 @@ import numpy as np
 
 from opsim import log as kinds
 from opsim.kpi.figure import Figure
+from opsim.kpi.lines import possible as why_it_can_stand
 from opsim.kpi.open_hours import closed_hours, open_time_s
 from opsim.kpi.outages import Stretches, outage_rows, outages_of, stops_of
 from opsim.kpi.values import by_rank, changes, inside_s, window_length_s
-from opsim.log import BLOCKED, HELD, QUEUE, SETUP, WORK, EventLog
+from opsim.log import BLOCKED, HELD, QUEUE, SETUP, STANDS, WORK, EventLog
 from opsim.plan import Plan
 from opsim.plan.assembly import jobs_on_a_server
-from opsim.plan.hours.spans import Spans, either
+from opsim.plan.hours.spans import Spans, either, without
 from opsim.plan.station import STATION
 
 WAITS = {
@@ -34,6 +35,7 @@ def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
     parts, tool, place, pickup : a job wants parts, tools, a place kept downstream, or a transporter
     away : a job waits for the worker who began it; closed : closed by its calendar, but for what is finished then
     takt, line_stop : on an indexed line, a job is done and waits for the line, which runs or stands
+    pause : on a paced line, nobody who works on it is there (breaks, off shift), but for what is finished then
     And the jobs in its buffer or on its servers waiting for something but room, averaged over the window.
     """
     length_s = window_length_s(plan)
@@ -73,6 +75,9 @@ def _parts(log: EventLog, plan: Plan, rank: int, rows: np.ndarray, stops: np.nda
     outages = outages_of(log, stops, rank)
     shut = _stretches(closed_hours(plan, rank))
     stands = _stretches(either(_spans(outages), _spans(shut))) if shut.start_s.size else outages
+    pauses = _stretches(without(_line_pauses(log, plan, rank), _spans(stands))) if "pause" in can_be else stands
+    if "pause" in can_be:
+        stands = _stretches(either(_spans(stands), _spans(pauses)))
     start_s, end_s = log["start_s"][rows], log["end_s"][rows]
     parts = {
         part: _up_s(plan, start_s[mask], end_s[mask], outages if part in ("work", "setup") else stands)
@@ -87,12 +92,19 @@ def _parts(log: EventLog, plan: Plan, rank: int, rows: np.ndarray, stops: np.nda
         for part, number in (("down", kinds.DOWN), ("repair", kinds.REPAIR)):
             here = stops[(log["station"][stops] == rank) & (log["kind"][stops] == number)]
             parts[part] = _up_s(plan, log["start_s"][here], log["end_s"][here], shut) * plan.stations[rank].servers
-    if shut.start_s.size:
-        busy = np.isin(kind, (WORK, SETUP))
-        finished_s = shut.meet_s(*(np.clip(edge[busy], *plan.window_s) for edge in (start_s, end_s))).sum()
-        shut_s = open_time_s(plan, closed_hours(plan, rank))
-        parts["closed"] = shut_s * plan.stations[rank].servers - float(finished_s)
+    busy = np.isin(kind, (WORK, SETUP))
+    for part, times, can in (("closed", shut, shut.start_s.size > 0), ("pause", pauses, "pause" in can_be)):
+        if can:
+            finished_s = times.meet_s(*(np.clip(edge[busy], *plan.window_s) for edge in (start_s, end_s))).sum()
+            parts[part] = open_time_s(plan, _spans(times)) * plan.stations[rank].servers - float(finished_s)
     return parts
+
+
+def _line_pauses(log: EventLog, plan: Plan, rank: int) -> Spans:
+    """When nobody was there who works on the line of a station."""
+    first = next(line.stations[0] for line in plan.lines if rank in line.stations)
+    rows = np.flatnonzero((log["kind"] == STANDS) & (log["station"] == first) & (log["cause"] == kinds.AWAY))
+    return tuple(sorted(zip(log["start_s"][rows].tolist(), log["end_s"][rows].tolist())))
 
 
 def _stretches(spans: Spans) -> Stretches:
@@ -117,6 +129,7 @@ def possible(plan: Plan, rank: int) -> set[str]:
         "away": any(worker.duties is not None and worker.rating[rank] > 0 for worker in plan.workers),
     }
     found |= dict.fromkeys(("takt", "line_stop"), any(rank in line.stations and not line.moves for line in plan.lines))
+    found["pause"] = any(rank in line.stations and "away" in why_it_can_stand(plan, line) for line in plan.lines)
     return {part for part, can_be in found.items() if can_be}
 
 

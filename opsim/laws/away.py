@@ -1,4 +1,4 @@
-"""The law of jobs that wait for one worker: he is away, and does nothing else as long as they wait for him."""
+"""The law of jobs that wait for one worker: he is away, or on his way, as long as they wait for him."""
 
 from collections.abc import Iterator
 
@@ -6,12 +6,15 @@ import numpy as np
 
 from opsim.clock import ticks
 from opsim.laws.stays import Stays, words
-from opsim.log import AWAY, HELD, SETUP, WORK, EventLog
+from opsim.log import AWAY, HELD, SETUP, WAIT, WORK, EventLog
 from opsim.plan import Plan
 
 
 def away(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
-    """A job waits for its worker only where its last piece was his and left something, and until he works again."""
+    """A job waits for its worker only where its last piece was his and left something, and until he is there again.
+
+    Where he is back and its station stands, or its tools are gone, it waits for these, and is anybody's then.
+    """
     rows = np.flatnonzero((log["kind"] == HELD) & (log["cause"] == AWAY) & (log["job"] >= 0))
     if not rows.size:
         return
@@ -20,15 +23,17 @@ def away(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
     for row in rows[(last < 0) | (log["progress_to"][last] == 1.0)][:1]:
         yield f"job {log['job'][row]}: waits for a worker at {log['start_s'][row]:g} s, and none has left work on it"
         return
+    there = np.flatnonzero(np.isin(log["kind"], (WORK, SETUP, WAIT)))
     for worker in np.unique(log["worker"][last]):
-        own = work[log["worker"][work] == worker]
+        own = there[log["worker"][there] == worker]
         own = own[np.argsort(log["start_s"][own], kind="stable")]
         waits = rows[log["worker"][last] == worker]
         first = np.searchsorted(ticks(log["end_s"][own]), ticks(log["start_s"][waits]), side="right")
         begins = np.r_[ticks(log["start_s"][own]), np.iinfo(np.int64).max][first]
         for at in np.flatnonzero(begins < ticks(log["end_s"][waits]))[:1]:
             of, moment = f"job {log['job'][waits[at]]}", words(max(begins[at], ticks(log["start_s"][waits[at]])))
-            yield f"{of}: waits for {plan.workers[worker].name}, who is at work elsewhere at {moment}"
+            does = "is there, and idle," if log["kind"][own[first[at]]] == WAIT else "is at work elsewhere"
+            yield f"{of}: waits for {plan.workers[worker].name}, who {does} at {moment}"
 
 
 def _last_piece(log: EventLog, work: np.ndarray, rows: np.ndarray) -> np.ndarray:

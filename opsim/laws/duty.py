@@ -5,18 +5,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.clock import ticks
+from opsim.laws.pauses import pauses
+from opsim.laws.staying import overrun
 from opsim.laws.stays import Stays, words
-from opsim.log import ABSENT, BREAK, OFF, SETUP, WORK, WORKER_KINDS, EventLog
+from opsim.log import ABSENT, BREAK, OFF, WORKER_KINDS, EventLog
 from opsim.plan import Duty, Plan
-
-AT_ONCE = ("resume", "resume_any", "restart")
-"""Rules under which a task is left when the time has come."""
 
 
 def duty(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
-    """Nobody is off in his shift or there outside of it, but for what he stays for; a missed shift is missed whole.
+    """Nobody is off in his shift or there outside of it, but for what he stays for; a missed shift is missed whole, but
+    for what he finishes in it where it has followed at once.
 
-    Breaks of a shift last no longer than they are planned to.
+    Who has come to a shift has all its breaks and meetings (``pauses``), and no longer than they are planned.
     """
     on_shifts = [rank for rank, worker in enumerate(plan.workers) if worker.duties is not None]
     rows = np.flatnonzero(np.isin(log["kind"], WORKER_KINDS) & np.isin(log["worker"], on_shifts))
@@ -33,17 +33,28 @@ def _of_worker(own: EventLog, plan: Plan, duties: tuple[Duty, ...]) -> Iterator[
     kind = own["kind"]
     for at in np.flatnonzero((kind == OFF) & (_inside(begins, ends, from_, to) > 0))[:1]:
         yield f"off at {words(begins[at])}, in his shift"
-    missed = {(int(b), int(e)) for b, e in zip(begins[kind == ABSENT], ends[kind == ABSENT])}
-    for begin, end in sorted(missed - set(zip(from_.tolist(), to.tolist())))[:1]:
-        yield f"absent from {words(begin)} to {words(end)}, which is no shift of his"
+    absences = [(int(b), int(e)) for b, e in zip(begins[kind == ABSENT], ends[kind == ABSENT])]
+    missed = {int(end) for _, end in absences}
+    whole = dict(zip(to.tolist(), from_.tolist()))
+    for begin, end in absences:
+        first = whole.get(end, end)
+        if begin < first or begin >= end or (begin > first and first not in whole):
+            yield f"absent from {words(begin)} to {words(end)}, which is no shift of his"
+            return
     yield from _outside(own, begins, ends, from_, to)
     until = np.r_[from_[1:], ticks(own.horizon_s)]
-    for one, begin, end, next_begin in zip(duties, from_, to, until):
-        if (int(begin), int(end)) not in missed:
+    over = np.r_[to[1:], 0]
+    for one, begin, end, next_begin, next_end in zip(duties, from_, to, until, over):
+        if int(end) not in missed:
             after = own.where(np.arange(*np.searchsorted(begins, (begin, next_begin))))
             yield from _rested(after, one)
-            if not one.cut and ticks(one.end_s + plan.shifts[one.shift].overtime_s) < next_begin:
-                yield from _too_long(after, plan, one)
+            there = own.where(np.arange(np.searchsorted(ends, begin, "right"), np.searchsorted(begins, next_begin)))
+            yield from pauses(there, plan, one)
+            if next_begin == end and int(next_end) in missed:
+                after = own.where(np.arange(*np.searchsorted(begins, (begin, next_end))))
+                yield from _too_long(after, plan, one, int(end))
+            elif not one.cut and (limit := ticks(one.end_s + plan.shifts[one.shift].overtime_s)) < next_begin:
+                yield from _too_long(after, plan, one, int(limit))
 
 
 def _inside(begins: np.ndarray, ends: np.ndarray, from_: np.ndarray, to: np.ndarray) -> np.ndarray:
@@ -68,22 +79,8 @@ def _rested(own: EventLog, one: Duty) -> Iterator[str]:
         yield f"breaks of {words(rested)} in the shift from {one.start_s:g} s, planned are {words(planned)}"
 
 
-def _too_long(own: EventLog, plan: Plan, one: Duty) -> Iterator[str]:
+def _too_long(own: EventLog, plan: Plan, one: Duty, limit: int) -> Iterator[str]:
     """Of what he works after a shift and its overtime: no more than the rule of interruption lets him finish."""
-    shift = plan.shifts[one.shift]
-    limit = int(ticks(one.end_s + shift.overtime_s))
-    works = np.isin(own["kind"], (WORK, SETUP))
-    late = works & (ticks(own["end_s"]) > limit)
-    performance, job, rule = -1, max(own["job"][works & (ticks(own["end_s"]) == limit)], default=-1), ""
-    helped = -1, -1
-    for at in np.flatnonzero(late):
-        begin = int(ticks(own["start_s"][at]))
-        if begin < limit:
-            performance, job = own["performance_id"][at], own["job"][at]
-            helped = own["task"][at], own["k"][at]  # who is helped goes on with the same at another pace
-        rule = rule or plan.tasks[own["task"][at]].interruption or shift.at_end  # that of the task which his end met
-        same = own["performance_id"][at] == performance or (own["task"][at], own["k"][at]) == helped
-        same = same or (rule == "finish_job" and own["job"][at] == job >= 0)
-        if rule in AT_ONCE or not same:
-            yield f"still at work at {words(max(limit, begin))}, though his shift and its overtime are over"
-            return
+    works = overrun(own, plan, limit, plan.shifts[one.shift].at_end)
+    if works is not None:
+        yield f"still at work at {words(works)}, though his shift and its overtime are over"

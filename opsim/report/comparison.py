@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from opsim.report.interval_picture import intervals_svg
+from opsim.report.parts import part_name
 from opsim.report.words import digits, is_number, kpi_name, quantity, scale_of
 from opsim.whole import write_text
 
@@ -25,7 +26,8 @@ def comparison_html(comparison: Any, title: str) -> str:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     keys = list(dict.fromkeys(difference.key for difference in comparison.differences))
-    groups = [_group([d for d in comparison.differences if d.key == key]) for key in keys]
+    hours = bool(comparison.hours)
+    groups = [_group([d for d in comparison.differences if d.key == key], hours) for key in keys]
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined)
     return environment.get_template("comparison.html.jinja").render(
         title=title,
@@ -68,7 +70,7 @@ def largest_of(differences: Sequence[Any]) -> float | None:
     return max(values, default=None)
 
 
-def _group(differences: Sequence[Any]) -> dict[str, Any]:
+def _group(differences: Sequence[Any], hours: bool) -> dict[str, Any]:
     kpi, subject, part, unit = differences[0].key
     largest = largest_of(differences)
     factor, word = scale_of(unit, largest)
@@ -77,7 +79,7 @@ def _group(differences: Sequence[Any]) -> dict[str, Any]:
         for d in differences
     ]
     return {
-        "name": " · ".join(filter(None, (kpi_name(kpi), subject, part))),
+        "name": " · ".join(filter(None, (kpi_name(kpi, hours), subject, part_name(kpi, part)))),
         "base": quantity(differences[0].base, unit),
         "rows": [{"variant": d.variant, **comparison_cells(d, largest)} for d in differences],
         "picture": intervals_svg(bars, word),

@@ -31,17 +31,24 @@ def sentences(summary: Mapping[str, Any]) -> list[str]:
     """What came out, how long it stayed, who and what was busiest, and how surely this is known."""
     rows = summary["kpis"]
     worker = _busiest_on_duty(rows) or _busiest(rows, "worker_states", "worker")
-    said = [_output(rows), worker, _busiest(rows, "station_states", "station"), _overtime(rows)]
+    said = [
+        _output(rows, "scheduled_h" in summary),
+        worker,
+        _busiest(rows, "station_states", "station"),
+        _overtime(rows),
+    ]
     return [text for text in [*said, _certainty(summary)] if text]
 
 
-def _output(rows: Sequence[Row]) -> str:
+def _output(rows: Sequence[Row], hours: bool) -> str:
+    """hours : whether the floor keeps hours; what lies in stores is inside, and none of it ever finishes by itself."""
+    stocked = ", stock included" if any(row["kpi"] == "stock" for row in rows) else ""
     parts = [
         words.format(with_interval(row).replace(" per hour", ""))
         for kpi, words in (
-            ("throughput_per_h", "{} jobs an hour are finished"),
+            ("throughput_per_h", "{} jobs " + ("per scheduled" if hours else "an") + " hour are finished"),
             ("time_in_system_s", "a job stays {}"),
-            ("work_in_progress", "{} are inside on average"),
+            ("work_in_progress", "{} are inside on average" + stocked),
         )
         if (row := find(rows, kpi)) is not None
     ]

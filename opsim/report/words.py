@@ -79,12 +79,24 @@ NAMES = {
     "step_length_m": "Step length",
     "cadence_per_min": "Steps a minute of walking",
 }
+WITH_HOURS = {
+    "throughput_per_h": "Throughput (good units), per scheduled hour",
+    "throughput_per_calendar_h": "Throughput (good units), per calendar hour",
+}
+"""Names where the floor keeps hours."""
 ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_h", "_s", "_m", "_kg", "_j", "_share")
+ROUNDING = 1e-12
+"""A half-width below this share of its mean is 0."""
 ABSENT = "\N{EN DASH}"
 
 
-def kpi_name(kpi: str) -> str:
-    """``time_in_system_s`` -> ``Time in system``; an unknown KPI loses its unit's ending and its underscores."""
+def kpi_name(kpi: str, hours: bool = False) -> str:
+    """``time_in_system_s`` -> ``Time in system``; an unknown KPI loses its unit's ending and its underscores.
+
+    hours : whether the floor keeps hours, so that what is per hour has to say which
+    """
+    if hours and kpi in WITH_HOURS:
+        return WITH_HOURS[kpi]
     if kpi in NAMES:
         return NAMES[kpi]
     stem = next((kpi.removesuffix(ending) for ending in ENDINGS if kpi.endswith(ending)), kpi)
@@ -100,10 +112,15 @@ def digits(value: Any, half_width: Any = None) -> str:
     """``value`` as exact as its half-width says (two digits of it below 355, else one), or with four digits."""
     if not is_number(value):
         return ABSENT
-    scale = _last_digit(abs(half_width)) if is_number(half_width) and half_width else abs(value) / 1000
+    scale = _last_digit(abs(half_width)) if is_wide(value, half_width) else abs(value) / 1000
     places = 0 if scale <= 0 else min(6, max(0, -math.floor(math.log10(scale))))
     text = f"{value:,.{places}f}"
     return text.lstrip("-") if float(text.replace(",", "")) == 0 else text.replace("-", "\N{MINUS SIGN}")
+
+
+def is_wide(value: float, half_width: Any) -> bool:
+    """Whether there is an interval wider than what adding numbers in another order leaves."""
+    return is_number(half_width) and abs(half_width) > ROUNDING * abs(value)
 
 
 def _last_digit(half_width: float) -> float:
@@ -144,6 +161,7 @@ def interval_cells(row: Mapping[str, Any], largest: float | None = None) -> dict
     mean, low, high, half = (row.get(key) for key in ("mean", "low", "high", "half_width"))
     factor, unit = scale_of(row.get("unit", ""), mean if largest is None else largest)
     has_interval = all(is_number(v) for v in (low, high, half))
+    half = half if is_wide(mean, half) else 0.0 if has_interval else None  # type: ignore[arg-type]
     step = half * factor if has_interval else None  # type: ignore[operator]
     text = "one replication" if row.get("n") == 1 else "no interval"
     if not is_number(mean):
@@ -168,7 +186,7 @@ def plus_minus(row: Mapping[str, Any], largest: float | None = None) -> str:
     half = row.get("half_width")
     if not is_number(half):
         return f"{digits(row['mean'] * factor)} {unit}".strip()
-    step = half * factor  # type: ignore[operator]
+    step = half * factor if is_wide(row["mean"], half) else 0.0  # type: ignore[operator]
     return f"{digits(row['mean'] * factor, step)} ± {digits(step, step)} {unit}".strip()
 
 

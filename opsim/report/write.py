@@ -11,6 +11,7 @@ from typing import Any
 from opsim.provenance import behind
 from opsim.report import figures
 from opsim.report.offline import asset, policy, template
+from opsim.report.parts import is_shown, part_name
 from opsim.report.posture import SHARES, posture_section
 from opsim.report.sentence import sentences
 from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
@@ -55,11 +56,13 @@ def report_html(
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
     bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
     drawn: dict[str, Any] = {}
+    shown = [row for row in summary["kpis"] if is_shown(row["kpi"], row.get("part", ""), [row])]
+    hours = "scheduled_h" in summary
     context = {
         "summary": summary,
         "sentences": sentences(summary),
-        "headline": _table([row for row in summary["kpis"] if _is_headline(row)]),
-        "others": _groups([row for row in summary["kpis"] if not _is_headline(row)]),
+        "headline": _table([row for row in shown if _is_headline(row)], hours),
+        "others": _groups([row for row in shown if not _is_headline(row)], hours),
         "states": _states(summary, drawn),
         "days": None if days is None else {**days, "picture": _as_source(days["picture"])},
         "posture": posture_section(summary["kpis"], drawn),
@@ -83,26 +86,32 @@ def _is_headline(row: Mapping[str, Any]) -> bool:
     return bool(row.get("headline")) and row["kpi"] not in (*STATE_KPIS, SHARES)
 
 
-def _table(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:
-    """Rows of cells; a figure's name is written at its first row only, and all its rows have one unit."""
+def _table(rows: Sequence[Mapping[str, Any]], hours: bool) -> list[dict[str, str]]:
+    """Rows of cells; a figure's name is written at its first row only, and all its rows have one unit.
+
+    hours : whether the floor keeps hours
+    """
     kinds = list(dict.fromkeys(row["kpi"] for row in rows))
-    return [cells for kind in kinds for cells in _rows_of(kind, [row for row in rows if row["kpi"] == kind])]
+    return [cells for kind in kinds for cells in _rows_of(kind, [row for row in rows if row["kpi"] == kind], hours)]
 
 
-def _rows_of(kpi: str, rows: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]:
-    largest, name = largest_mean(rows), kpi_name(kpi)
-    subjects = [" · ".join(part for part in (row["subject"], row.get("part", "")) if part) or "all" for row in rows]
+def _rows_of(kpi: str, rows: Sequence[Mapping[str, Any]], hours: bool) -> list[dict[str, str]]:
+    largest, name = largest_mean(rows), kpi_name(kpi, hours)
+    named = [(row["subject"], part_name(kpi, row.get("part", ""))) for row in rows]
+    subjects = [" · ".join(filter(None, of)) or "all" for of in named]
     cells = [interval_cells(row, largest) for row in rows]
     return [{"name": "" if i else name, "of": of, **cell} for i, (of, cell) in enumerate(zip(subjects, cells))]
 
 
-def _groups(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def _groups(rows: Sequence[Mapping[str, Any]], hours: bool) -> list[dict[str, Any]]:
     """Tables to unfold: figures of the whole together, the others each by itself."""
     whole = [row for row in rows if not row["subject"]]
     kinds = list(dict.fromkeys(row["kpi"] for row in rows if row["subject"]))
-    groups = [(kpi_name(kind), [row for row in rows if row["kpi"] == kind and row["subject"]]) for kind in kinds]
+    groups = [(kpi_name(kind, hours), [row for row in rows if row["kpi"] == kind and row["subject"]]) for kind in kinds]
     return [
-        {"title": title, "rows": _table(of)} for title, of in [("Other figures of the whole", whole), *groups] if of
+        {"title": title, "rows": _table(of, hours)}
+        for title, of in [("Other figures of the whole", whole), *groups]
+        if of
     ]
 
 

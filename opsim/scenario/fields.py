@@ -120,8 +120,17 @@ def _good_name(value: str) -> str:
 def _whole(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int):
         quoted = isinstance(value, str) and value.strip().isdecimal()
-        raise plain_error(f"expected a whole number, found {shown(value)}", "remove the quotes" if quoted else "")
+        raise plain_error(
+            f"expected a whole number, found {shown(value)}", "remove the quotes" if quoted else _beside(value)
+        )
     return value
+
+
+def _beside(value: object) -> str:
+    """The whole numbers on both sides of another one."""
+    if not isinstance(value, float) or not 0 <= value < 1e9:
+        return ""
+    return f"write {math.floor(value)} or {math.floor(value) + 1}"
 
 
 def _body(kind: str, key: str) -> BeforeValidator:

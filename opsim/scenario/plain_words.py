@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
+from pydantic.fields import FieldInfo
 
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import like
-from opsim.scenario.positions import Node, Part, child, problem
+from opsim.scenario.positions import Node, Part, child, dotted, problem
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.schema.cycles import CYCLE_KINDS, SO_MANY
 from opsim.scenario.schema.skills import RATING, SKILL, Skill
@@ -35,8 +36,11 @@ _BOUNDS = {
 }
 
 
-def schema_problems(error: ValidationError, tree: Node) -> Iterator[Problem]:
-    """Every error of a validation as a problem at its place in the tree."""
+def schema_problems(error: ValidationError, tree: Node, lacking_keys: Collection[str] = ()) -> Iterator[Problem]:
+    """Every error of a validation as a problem at its place in the tree.
+
+    lacking_keys : paths of blocks whose keys were to come from elsewhere; those they miss are no mistakes of their own
+    """
     missing: dict[tuple[Part, ...], list[str]] = {}
     meant: set[tuple[Part, ...]] = set()
     for item in error.errors(include_url=False, include_input=False):
@@ -49,7 +53,7 @@ def schema_problems(error: ValidationError, tree: Node) -> Iterator[Problem]:
             yield _in_words(dict(item), (*_path(loc), on) if on is not None else _path(loc), tree)
     for loc, keys in missing.items():
         lacking = [key for key in keys if (*loc, key) not in meant]  # a mistyped key is one mistake, not two
-        if lacking:
+        if lacking and dotted(_path(loc)) not in lacking_keys:
             yield _missing(loc, lacking, tree)
 
 
@@ -68,6 +72,7 @@ def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Probl
         place = node.name_place if item["loc"][-1:] == ("[key]",) or node.value is None else node.place
         return problem(place, path, ctx["message"], ctx["hint"])
     message, hint = _wrong_value(kind, ctx, node.value)
+    hint = hint or _such_as(kind, ctx, item["loc"])
     return problem(node.name_place if node.value is None else node.place, path, message, hint)
 
 
@@ -89,6 +94,28 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         words = "at least one character" if kind == "string_too_short" else f"at most {ctx['max_length']} characters"
         return f"expected {words}, {found}", ""
     return f"cannot be read, {found}", ""
+
+
+def _such_as(kind: str, ctx: dict[str, Any], loc: tuple[Part, ...]) -> str:
+    """The example of a key, or of a block's keys that it must have, where something of another shape stands."""
+    if kind not in ("dict_type", "model_type", "list_type", "too_short", "bool_type"):
+        return ""
+    field = _fields(_model_at(loc[:-1])).get(str(loc[-1]))
+    if kind == "bool_type":
+        return "" if field is None or field.is_required() else f"without the line it is {shown(field.default)}"
+    if kind == "model_type":
+        model = _model_at(loc)
+        needed = {key: field for key, field in _fields(model).items() if field.is_required()}
+        said = ", ".join(f"{key}: {field.examples[0]}" for key, field in needed.items() if field.examples)
+        return f"such as {{{said}}}" if said and model.__name__ == ctx.get("class_name") else ""
+    if field is None or not field.examples:
+        return ""
+    return f"such as {field.examples[0]}" + (", or remove the line" if not field.is_required() else "")
+
+
+def _fields(model: type[Block]) -> dict[str, FieldInfo]:
+    """The keys of a block, as they are written in the file."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
 def _bound_hint(bound: str, limit: float, value: object) -> str:
@@ -135,7 +162,7 @@ def _missing(loc: tuple[Part, ...], keys: list[str], tree: Node) -> Problem:
 
 
 def _example(loc: tuple[Part, ...], key: str) -> str:
-    fields = {field.alias or name: field for name, field in _model_at(loc).model_fields.items()}
+    fields = _fields(_model_at(loc))
     examples = fields[key].examples if key in fields else None
     return f"add e.g. '{key}: {examples[0]}'" if examples else f"add '{key}:'"
 

@@ -107,7 +107,8 @@ def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Nod
     try:
         scenario = Scenario.model_validate(tree.plain())
     except ValidationError as error:
-        schema_found = schema_problems(error, tree)
+        unlike = {one.path.removesuffix(".like") for one in problems if one.path.endswith(".like")}
+        schema_found = schema_problems(error, tree, unlike)
     found = islice(_unheard(chain(schema_found, check_problems(tree, base, folder))), MOST_FOUND)
     return scenario, tree, [*problems, *found]
 

@@ -42,12 +42,16 @@ def _whose(plan: Plan) -> Iterator[Line]:
     if zones:
         yield (
             "allocation",
-            "own stations first, others only where none of these calls and nobody is free whose own it is: "
-            + listed(zones),
+            "own stations first, others only where none of these calls and nobody whose own it is, and no floater, is "
+            "free: " + listed(zones),
         )
     floaters = [worker.name for worker in plan.workers if worker.floater]
     if floaters:
-        yield "allocation", f"{listed(floaters)}: sent only where nobody else who is free could go"
+        yield (
+            "allocation",
+            f"{listed(floaters)}: sent only where nobody is free whose own station it is, but before others leave "
+            "their zones",
+        )
 
 
 def _priorities(plan: Plan) -> Iterator[Line]:

@@ -1,7 +1,7 @@
 """Variants against a base, replication by replication: common random numbers make the pairs alike."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from opsim.problems import did_you_mean
 from opsim.results import Key, Result
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
 
+PER_SCHEDULED_HOUR, PER_CALENDAR_HOUR = ("throughput_per_h",), "throughput_per_calendar_h"
 ROUNDING = 1e-9
 """Differences below this share of the values are of the order in which numbers were added, not of the variants."""
 
@@ -27,6 +28,8 @@ class Difference:
     p, p_together   : two-sided paired t test; the same held against all comparisons made (Holm)
     variance_ratio  : (var a + var b) / var(a - b): so many times more replications independent runs would need for the
                       same interval; None where the difference does not vary
+    other_hours     : whether it is per scheduled hour, and the variant and the base are open for different hours: their
+                      difference says nothing of what comes out, and is not tested
     """
 
     variant: str
@@ -37,6 +40,7 @@ class Difference:
     p: float
     p_together: float
     variance_ratio: float | None
+    other_hours: bool = False
 
     @property
     def identical(self) -> bool:
@@ -45,7 +49,9 @@ class Difference:
 
     @property
     def verdict(self) -> str:
-        """What may be said: higher, lower, no clear difference, identical, or nothing."""
+        """What may be said: higher, lower, no clear difference, identical, other hours, or nothing."""
+        if self.other_hours:
+            return "other hours"
         if self.interval.n == 0:
             return "nothing observed"
         if self.identical:
@@ -59,12 +65,16 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """All differences from ``base``; ``n`` is the number of pairs of replications."""
+    """All differences from ``base``; ``n`` is the number of pairs of replications.
+
+    hours : by variant, for how many hours of the window the floor is scheduled to be open; empty where none keeps hours
+    """
 
     base: str
     seed: int
     n: int
     differences: tuple[Difference, ...]
+    hours: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -77,7 +87,17 @@ class Comparison:
             f"Each {own} interval is for its own figure alone. 'higher' and 'lower' are said so that "
             f"all comparisons together ({m}) are wrong with a chance of at most {wrong} (Holm 1979).",
             "Pairing: so many times more replications would be needed with independent random numbers.",
+            *self._hours_words(),
         )
+
+    def _hours_words(self) -> Iterator[str]:
+        others = list(dict.fromkeys(d.variant for d in self.differences if d.other_hours))
+        if others:
+            open_h = ", ".join(f"{name} {self.hours[name]:g} h" for name in (self.base, *others))
+            yield (
+                f"Other hours: the variants are open for different times ({open_h}), so what comes out per scheduled "
+                "hour says nothing of which has more; see the throughput per calendar hour."
+            )
 
 
 def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[str] = ()) -> Comparison:
@@ -88,17 +108,19 @@ def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[st
     """
     _check(results, base)
     tables = {name: result.kpis() for name, result in results.items()}
-    keys = _keys(results[base], list(tables[base]), kpis)
+    hours = _hours(results)
+    apart = {name for name in hours if hours[name] != hours[base]}
+    keys = _keys(results[base], list(tables[base]), kpis, by_calendar=bool(apart))
     shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
     found = [
-        _difference(name, key, table[key], tables[base][key], shared)
+        _difference(name, key, table[key], tables[base][key], shared, key[0] in PER_SCHEDULED_HOUR and name in apart)
         for key in keys
         for name, table in tables.items()
         if name != base and key in table
     ]
     together = holm([_tested(difference) for difference in found])
     differences = tuple(replace(d, p_together=d.p if d.identical else float(p)) for d, p in zip(found, together))
-    return Comparison(base, results[base].summary["seed"], len(shared), differences)
+    return Comparison(base, results[base].summary["seed"], len(shared), differences, hours)
 
 
 def holm(p: Sequence[float]) -> np.ndarray:
@@ -116,7 +138,7 @@ def holm(p: Sequence[float]) -> np.ndarray:
 
 def _tested(difference: Difference) -> float:
     """The p that is held against the others: nan where there is nothing to test, as between identical figures."""
-    return np.nan if difference.identical else difference.p
+    return np.nan if difference.identical or difference.other_hours else difference.p
 
 
 def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, float | None]:
@@ -141,10 +163,21 @@ def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, flo
     return interval, float(2 * stdtr(interval.n - 1, -abs(t))), apart / interval.sd**2 if apart > 0 else None
 
 
-def _difference(name: str, key: Key, of: dict[int, float], base: dict[int, float], shared: list[int]) -> Difference:
+def _hours(results: Mapping[str, Result]) -> dict[str, float]:
+    """By variant, its scheduled hours; all of the window where it keeps none. Nothing where none of them does."""
+    said = {name: result.summary.get("scheduled_h") for name, result in results.items()}
+    if all(found is None for found in said.values()):
+        return {}
+    low_s, high_s = next(iter(results.values())).summary["window_s"]
+    return {name: (high_s - low_s) / 3600 if found is None else float(found) for name, found in said.items()}
+
+
+def _difference(
+    name: str, key: Key, of: dict[int, float], base: dict[int, float], shared: list[int], other_hours: bool
+) -> Difference:
     a, b = ([row.get(replication, np.nan) for replication in shared] for row in (of, base))
     interval, p, ratio = paired(a, b)
-    return Difference(name, key, t_interval(b).mean, t_interval(a).mean, interval, p, p, ratio)
+    return Difference(name, key, t_interval(b).mean, t_interval(a).mean, interval, p, p, ratio, other_hours)
 
 
 def _check(results: Mapping[str, Result], base: str) -> None:
@@ -175,7 +208,8 @@ def _remedy(kpi: str, names: set[str]) -> str:
     return did_you_mean(kpi, names)
 
 
-def _keys(base: Result, keys: list[Key], kpis: Sequence[str]) -> list[Key]:
+def _keys(base: Result, keys: list[Key], kpis: Sequence[str], by_calendar: bool) -> list[Key]:
+    """by_calendar : whether the throughput per calendar hour has to stand beside that per scheduled hour."""
     names = {key[0] for key in keys}
     unknown = [f"no figure {kpi!r}; {_remedy(kpi, names)}" for kpi in kpis if kpi not in names]
     if unknown:
@@ -183,5 +217,7 @@ def _keys(base: Result, keys: list[Key], kpis: Sequence[str]) -> list[Key]:
     if kpis:
         return [key for kpi in kpis for key in keys if key[0] == kpi]
     headline = {row["kpi"] for row in base.summary["kpis"] if row["headline"]}
+    if by_calendar and headline.intersection(PER_SCHEDULED_HOUR):
+        headline.add(PER_CALENDAR_HOUR)
     whole = [key for key in keys if not key[1]]
     return [key for key in whole if key[0] in headline] or whole

@@ -7,9 +7,11 @@ import numpy as np
 
 from opsim import __version__
 from opsim.kpi.names import headline, needs_postures
+from opsim.kpi.open_hours import open_hours
 from opsim.laws import CHECKS
 from opsim.log_store import parquet_file
 from opsim.plan import Plan
+from opsim.plan.hours.scheduled import floor_has_hours
 from opsim.study.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
 from opsim.study.interval import CONFIDENCE, t_interval
 from opsim.study.posture_words import posture_assumptions
@@ -26,7 +28,7 @@ MOST_BINS = 40
 def summary_of(
     loaded, plan: Plan, done: Sequence[Replicated], asked: Asked = NOTHING_ASKED, reached: Sequence[Reached] = ()
 ) -> dict:
-    """The content of ``summary.json``.
+    """The content of ``summary.json``; ``scheduled_h`` (hours of the window) only where the floor keeps hours.
 
     asked : what this run had instead of the file's own; reached : what became of the precision that was wanted
     """
@@ -44,6 +46,7 @@ def summary_of(
         ],
         "start": loaded.scenario.run.start,
         "window_s": list(plan.window_s),
+        **({"scheduled_h": open_hours(plan)} if floor_has_hours(plan) else {}),
         "kpis": _intervals(done, headline(loaded.scenario.outputs)),
         "distributions": _distributions(done),
         "tasks": task_sources(loaded, plan),

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.kpi.open_hours import has_hours, open_hours
+from opsim.kpi.open_hours import open_hours
 from opsim.names import listed
 from opsim.plan import Plan
+from opsim.plan.hours.scheduled import has_hours
 from opsim.plan.release import SATURATED
 from opsim.study.station_model import Line
 
@@ -30,9 +31,10 @@ def working_time(plan: Plan) -> Iterator[Line]:
     if has_hours(plan):
         yield (
             "hours",
-            f"throughput per hour counts the {open_hours(plan):g} scheduled hours of the window: when a station or "
-            "source with hours is open, or, where none has any, when somebody is on shift; time in system and all that "
-            "is said of jobs goes by the calendar, nights and pauses included",
+            f"throughput per hour counts the {open_hours(plan):g} scheduled hours of the window: while at least "
+            "one station on a route may work, as it is open and, where it needs people, enough of those who can work "
+            "there are on shift (breaks included; by plan, so absence and overtime change nothing; hours of sources do "
+            "not count); time in system and all that is said of jobs goes by the calendar, nights and pauses included",
         )
 
 

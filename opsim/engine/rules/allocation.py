@@ -27,7 +27,9 @@ def best_skill(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_r
 
 
 def whose_it_is(outside_zone, floater):
-    """Before everything else: who is at his own stations, then who is at another's; floaters last in each."""
+    """Before everything else: people whose own station it is, then floaters, then people out of their zones; a floater
+    out of a zone of his own is the last.
+    """
     return (outside_zone, floater)
 
 

@@ -126,11 +126,11 @@ def _may(worker: Worker, station: Station) -> bool:
 
 def _can_be_taken(floor: Floor, job: Job) -> bool:
     """Whether one worker alone is at the job and is not being helped, or nobody is and somebody is wanted."""
-    if job.station.down or job.team is not None:
+    if job.team is not None:
         return False
     if job.kind in (WORK, SETUP):  # else who is at it is done in this very instant
         return job.worker >= 0 and job.since_s + job.duration_s > floor.now
-    if job.kind != HELD or job.cause not in (NO_WORKER, AWAY):
+    if job.station.down or job.kind != HELD or job.cause not in (NO_WORKER, AWAY):
         return False
     task = job.station.tasks[job.task_position] if job.setup_task < 0 else job.setup_task
     return floor.plan.tasks[task].team == 1

@@ -6,18 +6,16 @@ from opsim.engine.rules.duty import stays_on
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.interruption import call_again
 from opsim.engine.simpy_engine.leaving import Leaving
-from opsim.engine.simpy_engine.overtime import Needs
+from opsim.engine.simpy_engine.overtime import Needs, Staff
 from opsim.engine.simpy_engine.pauses import begin_pause, end_pause, rest
-from opsim.engine.simpy_engine.presence import GONE, HERE, LEAVING, PAUSED, Presence, moments
-from opsim.engine.simpy_engine.state import Job, Worker
+from opsim.engine.simpy_engine.presence import DUTY, GONE, HERE, LEAVING, PAUSED, Presence, moments
+from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.engine.simpy_engine.worker import set_free, take_off
-from opsim.log import OFF, WALK
+from opsim.log import ABSENT, OFF, WALK
 from opsim.plan import Duty, Pause
 
 ORDER = 10
 """Among the ways to begin a task: before all others, since who has to go begins none."""
-DUTY = "duty"
-"""What restricts somebody who is about to go, or is back for a job that waits for him: he is sent nowhere else."""
 
 
 class Attendance:
@@ -29,19 +27,18 @@ class Attendance:
         self.of = {worker.rank: Presence(worker, moments(worker.plan.duties or ())) for worker in on_shifts}
         self.watched: set[int] = set()
         floor.dispatchers.append(self.look)
+        floor.left_station.append(self._left)
         for station in floor.stations:
             station.add_act(ORDER, self.act)
 
     def act(self, floor: Floor, job: Job, worker: Worker) -> bool:
-        """Somebody is about to begin a task: he takes over, or waits to carry, or has to go and does not begin it."""
-        if self.leaving.reliefs.met(floor, job, worker):
+        """Somebody is about to begin a task: he waits to carry, or has to go and does not begin it."""
+        if self.leaving.ties.met(floor, job, worker):
             return True
         one = self.of.get(worker.rank)
         if one is None:
             return False
-        if self.leaving.ties.met(floor, job, worker):
-            return True
-        if one.state != LEAVING or one.staying is job:
+        if one.state != LEAVING or worker.staying is job:
             return False
         worker.since_s = floor.now  # what he did until now is written, or will be with the job
         set_free(floor, worker)
@@ -50,19 +47,19 @@ class Attendance:
 
     def look(self, floor: Floor) -> bool:
         """Whoever may go goes, who is back goes on, and who is to be relieved is; True where something changed."""
-        changed = False
-        for rank in sorted(self.watched) if self.watched else ():
-            if self._look_at(floor, self.of[rank]):
-                changed = True
-        reliefs = self.leaving.reliefs
+        changed = self._look_at_all(floor)
+        reliefs, ties = self.leaving.reliefs, self.leaving.ties
         if reliefs.asked and reliefs.send(floor):
+            self._look_at_all(floor)  # who was relieved at once goes, before the idle walk on or home
+            changed = True
+        if ties.left and ties.send(floor):
             changed = True
         return changed
 
     def be_here(self, one: Presence) -> None:
         """He need not go any more, and can be sent; but where a job waits for him, nowhere else."""
         worker = one.worker
-        one.state, one.goes, worker.going, one.staying = HERE, False, False, None
+        one.state, one.goes, worker.going, worker.staying = HERE, False, False, None
         self.leaving.reliefs.drop(worker)
         worker.restrict(DUTY, 0 if worker.rank in self.leaving.ties.job_of else None)
         self.watched.add(worker.rank)
@@ -75,7 +72,7 @@ class Attendance:
         worker.restrict(DUTY, 0)
         self.watched.add(worker.rank)
         shift = floor.plan.shifts[one.duty.shift]  # type: ignore[union-attr]
-        one.staying = self.leaving.leave(floor, worker, shift.at_end if goes else shift.at_break)
+        worker.staying = self.leaving.leave(floor, worker, shift.at_end if goes else shift.at_break)
         if worker.rank in floor.free:
             self._go(floor, one)
 
@@ -95,12 +92,18 @@ class Attendance:
         if one.overtime and one.duty is duty:
             self.leave(floor, one, goes=True)
 
+    def _look_at_all(self, floor: Floor) -> bool:
+        changed = False
+        for rank in sorted(self.watched) if self.watched else ():
+            if self._look_at(floor, self.of[rank]):
+                changed = True
+        return changed
+
     def _look_at(self, floor: Floor, one: Presence) -> bool:
         """True where something became of him."""
         worker = one.worker
         if one.undecided:
-            self._decide(floor, one)
-            return True
+            return self._decide(floor, one)
         if one.state == LEAVING:
             self.leaving.stand_by(floor, worker)
         if worker.rank not in floor.free:
@@ -122,39 +125,56 @@ class Attendance:
         worker.restrict(DUTY, None)
         if self.leaving.ties.go_back(floor, worker) or not one.overtime:
             return True
-        if self._is_needed(floor, one):
+        if floor.stirred or self._is_needed(floor, one):
             return False
         self.leave(floor, one, goes=True)
         return True
 
-    def _decide(self, floor: Floor, one: Presence) -> None:
-        """At the end of his shift: he stays, or has to go."""
+    def _decide(self, floor: Floor, one: Presence) -> bool:
+        """At the end of his shift: he stays, or has to go; which is seen when all jobs are in that come in now."""
+        if floor.stirred:
+            return False
         one.undecided = False
         most_s = floor.plan.shifts[one.duty.shift].overtime_s  # type: ignore[union-attr]
         if stays_on(self._is_needed(floor, one), most_s):
             self.be_here(one)
         else:
             self.leave(floor, one, goes=True)
+        return True
 
     def _is_needed(self, floor: Floor, one: Presence) -> bool:
         """Whether too few of those whose shift it is can do what is left for him to do before his overtime is over."""
         duty: Duty = one.duty  # type: ignore[assignment]
         until_s = duty.end_s + floor.plan.shifts[duty.shift].overtime_s
-        on_duty = [worker for worker in floor.workers if worker is not one.worker and self._is_on_duty(worker)]
-        return self.needs.need(floor, one.worker, on_duty, until_s)
+        ties = self.leaving.ties
+        there = [worker for worker in floor.workers if worker is not one.worker and not self._is_gone(worker.rank)]
+        on_duty = [worker for worker in there if worker.rank not in self.of or not self.of[worker.rank].overtime]
+        jobs_of_gone = {job for rank, job in ties.job_of.items() if self._is_gone(rank)}
+        return self.needs.need(floor, one.worker, Staff(on_duty, there, jobs_of_gone), until_s, ties)
 
-    def _is_on_duty(self, worker: Worker) -> bool:
-        other = self.of.get(worker.rank)
-        return other is None or not (other.state == GONE or other.goes or other.overtime)
+    def _left(self, _floor: Floor, job: Job, _station: Station) -> None:
+        """Who stayed for a job's tasks at a station is done there as the job leaves it."""
+        for rank in self.watched:
+            worker = self.of[rank].worker
+            if worker.staying is job:
+                worker.staying = None
+
+    def _is_gone(self, rank: int) -> bool:
+        """Whether somebody is off or absent, or as good as that."""
+        other = self.of.get(rank)
+        return other is not None and (other.state == GONE or other.goes)
 
     def _go(self, floor: Floor, one: Presence) -> None:
         """He is free, and goes: off, or to the pause that he is owed."""
         worker = one.worker
         self.leaving.reliefs.drop(worker)
-        one.staying = None
+        worker.staying = None
         if one.goes:
             one.state, one.duty, one.goes, worker.going = GONE, None, False, False
-            take_off(floor, worker, OFF)
+            take_off(floor, worker, ABSENT if one.misses else OFF)
+            self.leaving.ties.goes_off(floor, worker)
+            if one.misses:
+                self.leaving.ties.release(floor, worker)
         else:
             one.state = PAUSED
             begin_pause(floor, self, one)

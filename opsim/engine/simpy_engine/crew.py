@@ -18,12 +18,10 @@ from opsim.engine.simpy_engine.crew_line import CrewLine
 from opsim.engine.simpy_engine.crew_people import CrewPeople
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.material import move_on
+from opsim.engine.simpy_engine.presence import DUTY
 from opsim.engine.simpy_engine.state import Job, Worker
 from opsim.log import BEHIND, HELD, IDLE, NO_WORKER
 from opsim.plan.crews import BUCKET_BRIGADE, CrewPlan
-
-LEAVES = "duty"
-"""The limit of somebody who is about to go, or is just back."""
 
 
 class Crew:
@@ -57,7 +55,7 @@ class Crew:
         changed = self._let_on(floor)
         for member in self._in_turn():
             worker = self.people.members[member]
-            if LEAVES not in worker.limits and self._next(floor, member, worker):
+            if DUTY not in worker.limits and self._next(floor, member, worker):
                 changed = True
             stands_behind(floor, worker, self.line.gates)
         return changed

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.presence import DUTY
 from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.engine.simpy_engine.worker import log_worker, walk
-from opsim.log import ABSENT, BREAK, OFF
+from opsim.log import ABSENT, BREAK, OFF, WALK
 
 AWAY_KINDS = (BREAK, OFF, ABSENT)
 
@@ -29,7 +30,7 @@ class CrewPeople:
     def tidy(self, floor: Floor, line: list[Job]) -> None:
         """Jobs that have left the line are in nobody's hands; who is away has let go of his."""
         for member, worker in enumerate(self.members):
-            away = worker.kind in AWAY_KINDS and worker.rank not in floor.free
+            away = _is_away(floor, worker)
             if away or self.hand[member] not in line:
                 self.hand[member] = None
             if away or self.goal[member] not in line:
@@ -78,3 +79,10 @@ class CrewPeople:
                 return False
             worker.place = station.place
         return True
+
+
+def _is_away(floor: Floor, worker: Worker) -> bool:
+    """Whether somebody is off, absent or resting, or walks and will be: only what he carries is still his."""
+    if worker.kind == WALK:
+        return worker.job is None and DUTY in worker.limits
+    return worker.kind in AWAY_KINDS and worker.rank not in floor.free

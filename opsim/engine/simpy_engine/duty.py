@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from opsim.engine.rules.duty import is_absent
-from opsim.engine.simpy_engine.attendance import DUTY, Attendance
+from opsim.engine.simpy_engine.attendance import Attendance
 from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.pauses import PAUSE_OVER, end_pause
-from opsim.engine.simpy_engine.presence import BEGIN, END, GONE, HERE, LEAVING, PAUSED, Presence, alarm
+from opsim.engine.simpy_engine.presence import BEGIN, DUTY, END, GONE, HERE, LEAVING, PAUSED, Presence, alarm
 from opsim.engine.simpy_engine.state import Worker
 from opsim.engine.simpy_engine.worker import log_worker, set_free, take_off
 from opsim.log import ABSENT, OFF
@@ -41,7 +41,11 @@ class Calendars:
             alarm(floor, one, one.due[0] - floor.now, 0, CALENDAR_TURNS, (self, one))
 
     def _begin(self, floor: Floor, one: Presence, duty: Duty) -> None:
-        """His shift begins. Who is still there from the one before goes on, and is not absent."""
+        """His shift begins. Who is still there from the one before goes on, and is not absent; unless he goes since he
+        misses this one, which has followed at once.
+        """
+        if one.misses and one.state == LEAVING:
+            return
         worker, one.duty, one.overtime, one.undecided = one.worker, duty, False, False
         if one.state == GONE and self._misses(floor, worker, duty):
             _be_away(floor, worker, ABSENT)
@@ -57,15 +61,15 @@ class Calendars:
         """His shift is over. Where another one follows at once, he goes only if he misses that."""
         worker = one.worker
         one.owed.clear()
+        missed, one.misses = one.misses, follows is not None and self._misses(floor, worker, follows)
         if one.state == GONE:
             _be_away(floor, worker, OFF)
-        elif follows is not None and not self._misses(floor, worker, follows):
+        elif follows is not None and not one.misses:
             if one.state == LEAVING:
                 self.people.be_here(one)
-        elif one.state == PAUSED:
-            end_pause(floor, one)
-            self.people.leave(floor, one, goes=True)
-        else:
+        elif not missed:
+            if one.state == PAUSED:
+                end_pause(floor, one)
             self.people.be_here(one)
             most_s = floor.plan.shifts[duty.shift].overtime_s
             if most_s > 0:  # whether he stays is seen when all who come at this instant are there

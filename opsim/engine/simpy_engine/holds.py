@@ -122,7 +122,8 @@ class Holds:
     def _given(self, floor: Floor, job: Job, doing: Doing) -> None:
         """The tool that was waited for is there."""
         station = job.station
-        if station.down:
+        at_once = doing.begun and doing.worker.since_s == floor.now  # he has not waited for it at all
+        if station.down and not (at_once and station.finishes):
             self.crib.put_back(job, IN_HAND)
             set_free(floor, doing.worker)
             stand_still(floor, station, job)

@@ -75,14 +75,25 @@ def call_again(floor: Floor, job: Job) -> None:
 
 
 def take_over(floor: Floor, job: Job, worker: Worker) -> None:
-    """A worker who stands at the job goes on with it, and with its tools; who did it until now is free."""
+    """A worker who stands at the job goes on with it, and with its tools; who did it until now is free.
+
+    Where the station has closed since it was begun, he does it to its end.
+    """
+    station = job.station
+    down = station.down
     if job.kind == WORK or job.kind == SETUP:
         floor.handed_over = job
         interrupt(floor, job, NO_WORKER)
         floor.handed_over = None
+        station.down = 0  # NOTE: work is under way, so it is closed at most, and that does not concern what was begun
     else:
-        call_off(floor, job.station, job)
-    worker.job, worker.station = job, job.station
+        call_off(floor, station, job)
+    worker.job, worker.station = job, station
+    _begin_again(floor, job, worker)
+    station.down = down
+
+
+def _begin_again(floor: Floor, job: Job, worker: Worker) -> None:
     if job.setup_task < 0:
         next_task(floor, job, worker)
     else:

@@ -38,7 +38,7 @@ class Leaving:
         if worker.rank in floor.free or job is None or job.kind == TRANSPORT:
             return None
         if job.team is not None and worker in job.team:
-            self._leave_team(floor, worker, job, rule)
+            return self._leave_team(floor, worker, job, rule)
         elif worker.kind == WALK:
             self._turn_back(floor, worker, job)
         elif (job.worker == worker.rank and job.kind in (WORK, SETUP)) or _waits_for_tool(worker, job):
@@ -54,8 +54,8 @@ class Leaving:
             return
         if job.held_by is worker:
             self.ties.put_down(floor, worker, job)
-        elif job.team is not None and worker in job.team and job.kind == WORK and worker.stint is None:
-            job.team.remove(worker)
+        elif _is_done_with(worker, job):
+            job.team.remove(worker)  # type: ignore[union-attr]
             set_free(floor, worker)
 
     def _turn_back(self, floor: Floor, worker: Worker, job: Job) -> None:
@@ -73,25 +73,30 @@ class Leaving:
             _put_tools_back(floor, job)
             call_again(floor, job)
 
-    def _leave_team(self, floor: Floor, worker: Worker, job: Job, rule: str) -> None:
-        """A team goes on together, or breaks off together: nobody is waited for."""
+    def _leave_team(self, floor: Floor, worker: Worker, job: Job, rule: str) -> Job | None:
+        """A team goes on together, or breaks off together: nobody is waited for.
+
+        Returns the job where he goes on with it, all tasks of it here that want a team.
+        """
+        which, alone = _rule_of(floor, job, rule), job.worker >= 0 and job.kind == WORK
+        begun = job.kind == WORK and floor.now > job.since_s
+        ahead = job.progress_from > 0 or job.task_position > 0 or job.repeats_done > 0
+        if which == FINISH_JOB and job.kind == WORK and not alone and works_on(which, begun, begun or ahead):
+            return job
         if job.kind != WORK:
             disband(floor, job)
             _put_tools_back(floor, job)
             call_again(floor, job)
         elif worker.stint is None:
             self.stand_by(floor, worker)
-        else:
-            which = _rule_of(floor, job, rule)
-            begun = floor.now > job.since_s
-            if not works_on(which, begun, begun):
-                if job.worker >= 0:  # he only helps: the other one goes on alone
-                    floor.helping.end(floor, job)
-                    return
-                _stop(floor, worker, job, NO_WORKER)
-                if is_lost(which):
-                    forget_progress(job)
-                call_again(floor, job)
+        elif alone and not works_on(which, begun, begun):  # he only helps: the other one goes on alone
+            floor.helping.end(floor, job)
+        elif not works_on(which, begun, begun):
+            _stop(floor, worker, job, NO_WORKER)
+            if is_lost(which):
+                forget_progress(job)
+            call_again(floor, job)
+        return None
 
     def _leave_work(self, floor: Floor, worker: Worker, job: Job, rule: str) -> Job | None:
         which = _rule_of(floor, job, rule)
@@ -118,6 +123,12 @@ class Leaving:
 def _waits_for_tool(worker: Worker, job: Job) -> bool:
     """Whether he is in the middle of a performance, or just before it, and stands by until a tool is there."""
     return worker.kind == WAIT and worker.cause == NO_TOOL and job.kind == HELD
+
+
+def _is_done_with(worker: Worker, job: Job) -> bool:
+    """Whether he has done his part of what a team is at, and does not stay for its other tasks."""
+    of_team = job.team is not None and worker in job.team
+    return of_team and job.kind == WORK and worker.stint is None and worker.staying is not job
 
 
 def _rule_of(floor: Floor, job: Job, of_shift: str) -> int:

@@ -8,15 +8,18 @@ from opsim.log import WALK
 
 
 def chosen(floor: Floor, job: Job, station: Station) -> list[Worker]:
-    """The free workers who go, by the rule of allocation, in natural order; none where they are too few."""
+    """The free workers who go, by the rule of allocation, in natural order; none where they are too few.
+
+    Who stays until the job's tasks here are done comes first.
+    """
     n = floor.plan.tasks[station.tasks[job.task_position]].team
-    able = [worker for worker in floor.free.values() if worker.may_serve(station)]
+    able = [worker for worker in floor.free.values() if _may_work(worker, job, station)]
     if len(able) < n:
         return []
     n_waiting = 1 + len(station.queue)
 
     def key(worker: Worker) -> tuple[float, ...]:
-        return pair_key(floor, worker, station, job, n_waiting, job.since_s)
+        return worker.staying is not job, *pair_key(floor, worker, station, job, n_waiting, job.since_s)
 
     return sorted(sorted(able, key=key)[:n], key=lambda worker: worker.rank)
 
@@ -39,7 +42,12 @@ def comes_again(job: Job) -> bool:
 
 
 def all_may_stay(floor: Floor, job: Job) -> bool:
-    """Whether the whole team is there, and each of them may still be sent to where it works."""
+    """Whether the whole team is there, and each of them may still be sent to where it works, or stays for the job."""
     team: list[Worker] = job.team  # type: ignore[assignment]
     n = floor.plan.tasks[job.station.tasks[job.task_position]].team
-    return len(team) == n and all(worker.may_serve(job.station) for worker in team)
+    return len(team) == n and all(_may_work(worker, job, job.station) for worker in team)
+
+
+def _may_work(worker: Worker, job: Job, station: Station) -> bool:
+    """Whether somebody may be sent to a station, or is about to go and does the job's tasks there first."""
+    return worker.may_serve(station) or worker.staying is job

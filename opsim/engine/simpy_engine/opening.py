@@ -107,7 +107,8 @@ def _close(floor: Floor, station: Station) -> None:
     else:
         shut_station(floor, station)
         for job in station.seated or ():
-            if job.kind in (WORK, SETUP) and job.since_s == floor.now:  # it began at this very instant
+            begins = job.since_s == floor.now and job.progress_from == 0  # else it goes on by somebody else from now on
+            if job.kind in (WORK, SETUP) and begins:
                 interrupt(floor, job, CLOSED)
                 station.standing.append(job)
     _renamed(floor, station)

@@ -1,40 +1,79 @@
 """Overtime: who stays on after his shift while jobs on the floor need him, and nobody whose shift it is."""
 
-from collections.abc import Iterable
+from dataclasses import dataclass
 
+from opsim.engine.simpy_engine.andon import LINES
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import OUTSIDE, Station, Worker
-from opsim.plan import ProductPlan
+from opsim.engine.simpy_engine.leaving import CREWS
+from opsim.engine.simpy_engine.presence import DUTY
+from opsim.engine.simpy_engine.reach import Reach, held_up, lasts
+from opsim.engine.simpy_engine.state import OUTSIDE, Job, Station, Worker
+from opsim.engine.simpy_engine.ties import Ties
+from opsim.log import HELD
 from opsim.plan.calendar import next_open
 
 
-class Needs:
-    """at_once : by station, how many workers its tasks take at most; 0 where it works alone
+@dataclass(frozen=True, slots=True)
+class Staff:
+    """The others. on_duty : whose shift it is; there : who is there, in overtime too
 
-    to_come : by product and step, the stations that a job there may still come to, as bits of their ranks
+    jobs_of_gone : the jobs that wait each for somebody who is gone: nobody else serves them
     """
+
+    on_duty: list[Worker]
+    there: list[Worker]
+    jobs_of_gone: set[Job]
+
+
+class Needs:
+    """at_once : by station, how many workers its tasks take at most; 0 where it works alone; reach : of jobs"""
 
     def __init__(self, floor: Floor):
         self.at_once = [_at_once(floor, station) for station in floor.stations]
-        here = [
-            [sum(1 << station.rank for station in gate.stations) for _, _, gate in of_product]
-            for of_product in floor.steps
-        ]
-        self.to_come = [_with_later(product, steps) for product, steps in zip(floor.plan.products, here)]
+        self.reach = Reach(floor)
 
-    def need(self, floor: Floor, worker: Worker, on_duty: Iterable[Worker], until_s: float) -> bool:
-        """Whether a job on the floor has something before it that he can do until a time, and too few on duty can."""
+    def need(self, floor: Floor, worker: Worker, staff: Staff, until_s: float, ties: Ties) -> bool:
+        """Whether a job on the floor comes until a time to where he can do something, and too few on duty can."""
+        own = ties.job_of.get(worker.rank)
+        if own is not None and own.kind == HELD and _opens_before(floor, own.station, until_s):
+            return True
+        lacking = self._lacking(floor, worker, staff.on_duty, until_s)
+        if not lacking:
+            return False
+        to_carry = {own, *(claim[3] for claim in ties.left)}
+        if worker.job is not None and worker.job.held_by is worker and worker.job.plan.carried:
+            to_carry.add(worker.job)
+        if any(job is not None and lacking >> job.station.rank & 1 for job in to_carry):
+            return True
+        left = ~held_up(floor, until_s)
+        comes = self.reach.of(lacking & left, self._passed(floor, [worker, *staff.there], until_s) & left)
+        return any(
+            comes[job.product][job.step]
+            and job.station is not OUTSIDE
+            and job not in staff.jobs_of_gone
+            and not lasts(job, until_s)
+            for job in floor.jobs.values()
+        )
+
+    def _passed(self, floor: Floor, there: list[Worker], until_s: float) -> int:
+        """The stations, as bits, that jobs get through: by themselves, or since enough are there who can serve them."""
+        skills = [worker.skills_but_for(DUTY, CREWS, LINES) for worker in there]
+        return sum(
+            1 << station.rank
+            for station, n in zip(floor.stations, self.at_once)
+            if sum(bits >> station.rank & 1 for bits in skills) >= n and _opens_before(floor, station, until_s)
+        )
+
+    def _lacking(self, floor: Floor, worker: Worker, on_duty: list[Worker], until_s: float) -> int:
+        """The stations, as bits, where he may be sent or called, and fewer of the others than their tasks take."""
+        mine = worker.skills_but_for(DUTY, CREWS, LINES)
+        others = [other.skills_but_for(DUTY, CREWS) for other in on_duty]
         lacking = 0
-        others = list(on_duty)
         for station in floor.stations:
             rank = station.rank
-            if worker.rating[rank] > 0 and self.at_once[rank] and _opens_before(floor, station, until_s):
-                able = sum(other.rating[rank] > 0 for other in others)
-                lacking |= (able < self.at_once[rank]) << rank
-        to_come = self.to_come
-        return lacking > 0 and any(
-            job.station is not OUTSIDE and to_come[job.product][job.step] & lacking for job in floor.jobs.values()
-        )
+            if mine >> rank & 1 and self.at_once[rank] and _opens_before(floor, station, until_s):
+                lacking |= (sum(skills >> rank & 1 for skills in others) < self.at_once[rank]) << rank
+        return lacking
 
 
 def _at_once(floor: Floor, station: Station) -> int:
@@ -46,15 +85,3 @@ def _opens_before(floor: Floor, station: Station, until_s: float) -> bool:
     """Whether it is open, or will be before a time."""
     open_s = station.plan.open_s
     return open_s is None or next_open(open_s, floor.now) < until_s
-
-
-def _with_later(product: ProductPlan, here: list[int]) -> list[int]:
-    """Of each step the stations of it and of all that may follow."""
-    found, before = list(here), None
-    while found != before:
-        before = list(found)
-        for step, onward in enumerate(product.onward):
-            for _, then in onward:
-                if then >= 0:
-                    found[step] |= found[then]
-    return found

@@ -9,12 +9,15 @@ from dataclasses import dataclass, field
 from opsim.clock import TICKS_PER_S, on_grid
 from opsim.engine.rules import CALENDAR
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.state import Job, Worker
+from opsim.engine.simpy_engine.state import Worker
 from opsim.plan import Duty, Pause
 
 GONE, HERE, LEAVING, PAUSED = range(4)
 END, BEGIN, PAUSE = range(3)
 """What changes, in the order in which changes of one instant are applied."""
+
+DUTY = "duty"
+"""What restricts somebody who is about to go, or is back for a job that waits for him: he is sent nowhere else."""
 
 Moment = tuple[float, int, Duty, Pause | Duty | None]
 """(when, what, in which shift, which pause or, at the end of a shift, which shift follows at once)"""
@@ -27,8 +30,8 @@ class Presence:
     state  : gone, here, leaving (he will go as soon as he may), or in a pause, on the way to its place included
     duty   : the shift he is on, or stays on after; None: he has none now
     goes   : whether he is leaving because his shift is over, not for a pause
+    misses : whether he is absent from the shift that has followed at once on the one he is leaving
     owed   : pauses that have begun and that he has not had; pause : the one he is in
-    staying : the job whose tasks he does to the end before he goes
     overtime : whether he stays on after his shift; undecided : whether that is still to be seen, in this instant
     """
 
@@ -38,9 +41,9 @@ class Presence:
     state: int = GONE
     duty: Duty | None = None
     goes: bool = False
+    misses: bool = False
     owed: deque[Pause] = field(default_factory=deque)
     pause: Pause | None = None
-    staying: Job | None = None
     overtime: bool = False
     undecided: bool = False
 

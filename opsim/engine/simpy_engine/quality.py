@@ -11,8 +11,8 @@ from opsim.plan.quality import NOWHERE, QualityPlan
 
 ORDER = 10
 """Among what is asked when an operation is done."""
-ACT = 15
-"""Among the ways to begin a task: after those who do not begin it."""
+ACT = 45
+"""Among the ways to begin a task: after those who do not begin it yet, or take over."""
 
 
 def install(floor: Floor) -> None:

@@ -12,6 +12,9 @@ from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import SETUP, WORK
 
+ORDER = 40
+"""Among the ways to begin a task: after the way along a moving line, so that he takes over where the job is."""
+
 
 @dataclass(slots=True, eq=False)
 class Relief:
@@ -36,6 +39,8 @@ class Reliefs:
         self.asked: dict[int, Relief] = {}
         self.coming: dict[int, Relief] = {}
         floor.left_station.append(self.job_gone)
+        for station in floor.stations:
+            station.add_act(ORDER, self.met)
 
     def ask(self, floor: Floor, leaver: Worker, job: Job) -> None:
         """Somebody is wanted."""
@@ -45,8 +50,9 @@ class Reliefs:
         """Nobody is wanted any more; who is on his way comes all the same, and is free there."""
         relief = self.asked.pop(leaver.rank, None)
         if relief is not None and relief.taker is not None:
-            del self.coming[relief.taker.rank]
-            relief.taker.job = None
+            self.coming.pop(relief.taker.rank, None)
+            if relief.taker.job is relief.job:  # else he was stopped on his way along a moving line
+                relief.taker.job = None
 
     def job_gone(self, _floor: Floor, job: Job, _station: Station) -> None:
         """The job has left its station."""
@@ -77,12 +83,14 @@ class Reliefs:
 
     def met(self, floor: Floor, job: Job, worker: Worker) -> bool:
         """Somebody has come to take over, and does, or there is nothing left to take over; False where he had not."""
-        relief = self.coming.pop(worker.rank, None)
+        relief = self.coming.pop(worker.rank, None) if self.coming else None
         if relief is None:
             return False
         relief.taker = None
+        if relief.job is not job:  # he was stopped on his way along a moving line, and sent elsewhere
+            return False
         worker.since_s = floor.now  # what he did until now is written
-        if relief.job is job and relief.may_begin(floor.now):
+        if relief.may_begin(floor.now):
             del self.asked[relief.leaver.rank]
             take_over(floor, job, worker)
         else:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import simpy
 
-from opsim.log import AFTER, IS_DOWN, WAIT
+from opsim.log import AFTER, CLOSED, IS_DOWN, WAIT
 from opsim.plan import Operation, ProductPlan, SourcePlan, StationPlan, WorkerPlan
 
 if TYPE_CHECKING:
@@ -161,6 +161,11 @@ class Station:
     ordered_hooks: list[tuple[int, Hook]] = field(default_factory=list)
     ordered_acts: list[tuple[int, Act]] = field(default_factory=list)
     ordered_readies: list[tuple[int, Ready]] = field(default_factory=list)
+
+    @property
+    def finishes(self) -> bool:
+        """Whether it is closed, and nothing else keeps it from finishing what was begun before."""
+        return self.down == 1 and self.stands_for == CLOSED and self.plan.at_close == "finish"
 
     def add_stage(self, order: int, stage: Stage) -> None:
         """One more preparation; they come in the order of their numbers."""
@@ -318,6 +323,7 @@ class Worker:
     walks_left : that he must still make, there and back, to bring all of the job he carries
     stint    : his part of a team's performance under way, which has a row of its own
     going    : whether he goes off shift as soon as he is done with what he is at
+    staying  : the job whose tasks at its station he does to the end before he goes
     """
 
     plan: WorkerPlan
@@ -341,6 +347,7 @@ class Worker:
     process: simpy.Process | None = None
     stint: Any = None
     going: bool = False
+    staying: Job | None = None
     limits: dict[str, int] = field(default_factory=dict)
 
     def restrict(self, block: str, stations: int | None) -> None:
@@ -349,10 +356,15 @@ class Worker:
             self.limits.pop(block, None)
         else:
             self.limits[block] = stations
+        self.skills = self.skills_but_for()
+
+    def skills_but_for(self, *blocks: str) -> int:
+        """The stations, as bits, that his ratings leave him and all blocks but some."""
         skills = sum(1 << rank for rank, rating in enumerate(self.rating) if rating > 0)
-        for left in self.limits.values():
-            skills &= left
-        self.skills = skills
+        for block, left in self.limits.items():
+            if block not in blocks:
+                skills &= left
+        return skills
 
     def may_serve(self, station: Station) -> bool:
         """Whether he may be sent to a station now."""

@@ -98,6 +98,8 @@ def _not_yet(floor: Floor, station: Station, job: Job, worker: Worker | None) ->
     if worker is not None and job.held_by is not worker:
         set_free(floor, worker)
     if station.down:
+        for told in floor.broken_off:  # the tools of the task before lie at no closed station
+            told(floor, job)
         stand_still(floor, station, job)
     elif not station.tasks:
         floor.tell(OPERATION_DONE, job)

@@ -53,7 +53,7 @@ class Teams:
     def gather(self, floor: Floor) -> bool:
         """Send whole teams, to the jobs that have waited longest. True where one was sent."""
         sent = False
-        for claim in list(self.gathering) if len(floor.free) > 1 else ():
+        for claim in self._in_turn(floor) if len(floor.free) > 1 and self.gathering else ():
             job, station = claim[3], claim[3].station
             if not _calls(job) or station is OUTSIDE or job.number not in floor.jobs:
                 self.gathering.remove(claim)  # its server was taken, or it is gone
@@ -64,6 +64,11 @@ class Teams:
                     self._send(floor, job, station, team)
                     sent = True
         return sent
+
+    def _in_turn(self, floor: Floor) -> list[Claim]:
+        """Jobs that wait for a team; first those for which somebody stays who is to go."""
+        kept = [worker.staying for worker in floor.free.values() if worker.staying is not None]
+        return sorted(self.gathering, key=lambda claim: claim[3] not in kept) if kept else list(self.gathering)
 
     def _team(self, floor: Floor, job: Job, station: Station) -> list[Worker]:
         """Who goes; nobody where too few are free, or the tools are not there."""
@@ -119,7 +124,7 @@ class Teams:
         if progress.working:
             wait_by(floor, worker, TEAM)
             return True
-        if comes_again(job) and all_may_stay(floor, job):
+        if comes_again(job) and not job.station.down and all_may_stay(floor, job):
             ended(floor, job)
             task_done(job)
             self._begin(floor, job, team)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from math import inf
 
 from opsim.plan.hours import Hours
+from opsim.plan.hours.scheduled import floor_has_hours, scheduled
+from opsim.plan.hours.spans import total_s
 from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
 from opsim.plan.loads.rates import Flows, flows_of
 from opsim.plan.loads.shared import REPAIR_TEAM, SharedLoad, shared_loads
@@ -16,12 +18,14 @@ from opsim.plan.plan import Plan
 @dataclass(frozen=True, slots=True)
 class Bottleneck:
     """what : its name in words; load : share of it that is wanted, None where the floor decides what comes in;
-    most_per_h : jobs of the sources an hour that it lets through, if nothing else limits.
+    most_per_h : jobs of the sources an hour of the run that it lets through, if nothing else limits;
+    most_per_scheduled_h : the same an hour for which the floor is scheduled to be open, None where it keeps no hours.
     """
 
     what: str
     load: float | None
     most_per_h: float
+    most_per_scheduled_h: float | None = None
 
 
 def bottleneck(plan: Plan) -> list[Bottleneck]:
@@ -31,20 +35,24 @@ def bottleneck(plan: Plan) -> list[Bottleneck]:
 
 @dataclass(frozen=True, slots=True)
 class Loads:
-    """Everything that was found of a Plan; crew is None where nobody is needed."""
+    """Everything that was found of a Plan; crew is None where nobody is needed.
+
+    scheduled_share : share of the run for which the floor is scheduled to be open, None where it keeps no hours
+    """
 
     flows: Flows
     stations: tuple[StationLoad, ...]
     skills: tuple[SkillLoad, ...]
     crew: Crew | None
     shared: tuple[SharedLoad, ...]
+    scheduled_share: float | None = None
 
     @property
     def limits(self) -> tuple[Bottleneck, ...]:
         """What limits the floor, most first."""
         per_h = None if self.flows.saturated else self.flows.per_h
         found = [
-            Bottleneck(load.station, load.load, load.most_per_h / load.visits)
+            self._limit(load.station, load.load, load.most_per_h / load.visits)
             for load in self.stations
             if load.visits > 0 and load.most_per_h < inf
         ]
@@ -53,11 +61,14 @@ class Loads:
         if self.crew is not None:
             wanted.append((_people(self.crew.workers), self.crew.share))
         found += [
-            Bottleneck(what, None if per_h is None else share, (1.0 if per_h is None else per_h) / share)
+            self._limit(what, None if per_h is None else share, (1.0 if per_h is None else per_h) / share)
             for what, share in wanted
             if share > 0
         ]
         return tuple(sorted(found, key=lambda one: (one.most_per_h, one.what)))
+
+    def _limit(self, what: str, load: float | None, most_per_h: float) -> Bottleneck:
+        return Bottleneck(what, load, most_per_h, most_per_h / self.scheduled_share if self.scheduled_share else None)
 
 
 def loads_of(plan: Plan) -> Loads:
@@ -65,7 +76,8 @@ def loads_of(plan: Plan) -> Loads:
     flows, hours = flows_of(plan), Hours(plan)
     stations, skills = station_loads(plan, flows, hours), skill_loads(plan, flows, hours)
     shared = shared_loads(plan, flows, stations)
-    return Loads(flows, tuple(stations), tuple(skills), crew_load(plan, flows, hours), tuple(shared))
+    share = total_s(scheduled(plan, hours)) / plan.horizon_s if floor_has_hours(plan) else None
+    return Loads(flows, tuple(stations), tuple(skills), crew_load(plan, flows, hours), tuple(shared), share)
 
 
 def _people(workers: tuple[str, ...]) -> str:

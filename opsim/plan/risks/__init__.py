@@ -6,8 +6,10 @@ from opsim.plan.hours import Hours
 from opsim.plan.loads.bottleneck import Loads, loads_of
 from opsim.plan.plan import Plan
 from opsim.plan.risks.breaks import starving_breaks
-from opsim.plan.risks.paced import in_lines, standing_lines, too_long_for_the_takt
+from opsim.plan.risks.leaving import left_under_way
+from opsim.plan.risks.paced import in_lines, standing_lines
 from opsim.plan.risks.posts import empty_posts
+from opsim.plan.risks.takt import too_long_for_the_takt
 from opsim.plan.risks.unmanned import unmanned
 
 __all__ = ["hour_risks"]
@@ -23,6 +25,7 @@ def hour_risks(plan: Plan, loads: Loads | None = None) -> list[str]:
         *unmanned(plan, hours, by_hand - in_lines(plan)),
         *standing_lines(plan, hours, by_hand),
         *too_long_for_the_takt(plan, hours, loads.flows),
+        *left_under_way(plan, hours, by_hand),
         *starving_breaks(plan, hours, loads, by_hand),
         *empty_posts(plan, hours, by_hand),
     ]

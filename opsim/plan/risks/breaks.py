@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from opsim.plan.hours import Hours
 from opsim.plan.hours.people import runs_on_s
-from opsim.plan.hours.spans import Spans, both, total_s, without
+from opsim.plan.hours.spans import Spans, both, together, total_s, without
 from opsim.plan.loads.bottleneck import Loads
 from opsim.plan.loads.stations import StationLoad, hand_and_alone_s
 from opsim.plan.plan import Plan
@@ -42,21 +42,34 @@ def _all_at_once(plan: Plan, hours: Hours, loads: Loads, rank: int, pauses: Span
     lost_s = total_s(pauses) - on_s
     if lost_s <= WORTH * total_s(hours.manned(rank)):
         return
-    remedy = "" if len(hours.able(rank)) == 1 else "let them have breaks one after the other, or "
+    who, at_once = _pausing(hours, rank, pauses)
+    remedy = "let them have breaks one after the other, or " if at_once > hours.team(rank) else ""
     yield (
-        f"{_who(plan, hours, rank)}: it stands for {lasting(lost_s)} of the run; {remedy}give somebody else the skill"
+        f"{_said(plan, hours, rank, who, at_once)}: it stands for {lasting(lost_s)} of the run; {remedy}give the skill "
+        "to somebody else who is there then"
     )
 
 
-def _who(plan: Plan, hours: Hours, station: int) -> str:
+def _pausing(hours: Hours, station: int, pauses: Spans) -> tuple[list[int], int]:
+    """Who of those who can work at a station is on shift in some pauses, and how many at once, at most."""
+    there = {worker: both(pauses, hours.on_duty[worker]) for worker in sorted(hours.able(station))}
+    who = [worker for worker, spans in there.items() if spans]
+    return who, max((len(here) for _, _, here in together([there[worker] for worker in who])), default=0)
+
+
+def _few(plan: Plan, who: list[int]) -> list[str]:
+    names = [plan.workers[worker].name for worker in who]
+    return names if len(names) <= 3 else [*names[:2], f"{len(names) - 2} more"]
+
+
+def _said(plan: Plan, hours: Hours, station: int, who: list[int], at_once: int) -> str:
     """Whose breaks stop the bottleneck."""
-    name, able, team = plan.stations[station].name, hours.able(station), hours.team(station)
-    if len(able) == 1:
-        return f"nobody works at {name}, the bottleneck, in the breaks of {worker_names(plan, able)}"
+    name, names, team = plan.stations[station].name, worker_names(plan, who), hours.team(station)
     if team > 1:
-        who = worker_names(plan, able)
-        return f"breaks leave fewer than the {team} people that {name}, the bottleneck, takes ({who})"
-    return f"all who can work at {name}, the bottleneck, have their breaks at once ({worker_names(plan, able)})"
+        return f"breaks leave fewer than the {team} people that {name}, the bottleneck, takes ({names})"
+    if at_once == 1:
+        return f"nobody works at {name}, the bottleneck, in the breaks of {' and of '.join(_few(plan, who))}"
+    return f"all who are there and can work at {name}, the bottleneck, have their breaks at once ({names})"
 
 
 def _bottleneck(plan: Plan, loads: Loads) -> tuple[int, StationLoad] | None:
@@ -93,8 +106,10 @@ def _starved(plan: Plan, hours: Hours, rank: int, load: StationLoad, before: int
     stops = without(_pauses(plan, hours, before), pauses)
     longest_s = max((end_s - start_s for start_s, end_s in stops), default=0.0)
     if longest_s > n_waiting * each_s:
+        several = _pausing(hours, before, stops)[1] > hours.team(before)
+        remedy = "let them have breaks one after the other, or give it" if several else "give it"
         yield (
             f"{load.station}, the bottleneck, runs dry in the breaks of {plan.stations[before].name}: all who can work "
             f"there pause for {lasting(longest_s)} at once, and the {n_waiting:.0f} jobs that can wait in between last "
-            f"{lasting(n_waiting * each_s)}; let them have breaks one after the other, or give it a larger buffer"
+            f"{lasting(n_waiting * each_s)}; {remedy} a larger buffer"
         )

@@ -1,4 +1,4 @@
-"""Paced lines and crews: work that does not fit into the takt; people who stop all of it when they are away."""
+"""Paced lines and crews: people who stop all of it when they are away."""
 
 from __future__ import annotations
 
@@ -6,23 +6,8 @@ from collections.abc import Collection, Iterator
 
 from opsim.plan.hours import Hours
 from opsim.plan.hours.spans import Spans, at_least, both, total_s, without
-from opsim.plan.loads.rates import Flows
-from opsim.plan.loads.work import task_s
 from opsim.plan.plan import Plan
 from opsim.plan.risks.words import SHORT_S, lasting, on_shifts, station_names
-
-
-def too_long_for_the_takt(plan: Plan, hours: Hours, flows: Flows) -> Iterator[str]:
-    """Stations of paced lines whose mean work, by those who can do it, takes longer than the takt."""
-    for line in plan.lines:
-        for rank in line.stations:
-            mean_s = _mean_s(plan, hours, flows, rank)
-            if mean_s > line.takt_s:
-                so = "most jobs go on unfinished" if line.sends_on else "the line stands at every other job"
-                yield (
-                    f"{plan.stations[rank].name} does not keep the takt of line {line.name}: its work takes "
-                    f"{mean_s:.4g} s on average, and jobs come every {line.takt_s:.4g} s: {so}"
-                )
 
 
 def standing_lines(plan: Plan, hours: Hours, by_hand: Collection[int]) -> Iterator[str]:
@@ -56,17 +41,3 @@ def _stands(plan: Plan, hours: Hours, what: str, so: str, stations: list[int]) -
 
 def _missing(plan: Plan, hours: Hours, station: int) -> Spans:
     return without(both(hours.open(station), hours.somebody), hours.manned(station))
-
-
-def _mean_s(plan: Plan, hours: Hours, flows: Flows, station: int) -> float:
-    """Mean time of a job at a station, over the jobs that come, by the mean rating of those who can do it."""
-    ratings = [plan.workers[worker].rating[station] for worker in hours.able(station)]
-    rating = sum(ratings) / len(ratings) if ratings else 1.0
-    here = [(flow.product, flow.per_h or flow.per_job) for flow in flows.steps if flow.station == station]
-    total = sum(weight for _, weight in here)
-    return sum(weight / total * _work_s(plan, station, product, rating) for product, weight in here) if total else 0.0
-
-
-def _work_s(plan: Plan, station: int, product: int, rating: float) -> float:
-    by_hand = [(task, not plan.tasks[task].automatic) for task in plan.stations[station].tasks]
-    return sum(task_s(plan, task, product) / (rating if manual else 1.0) for task, manual in by_hand)

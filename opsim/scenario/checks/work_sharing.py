@@ -43,7 +43,11 @@ def _tasks(tree: Node, name: str, station: Node, path: tuple[Part, ...]) -> Iter
     for number, node in enumerate(nodes):
         yield from named(node, entries(tree, "tasks"), "task", (*path, "tasks", number))
     known = all(isinstance(task, str) and task in entries(tree, "tasks") for task in (*shared, *here))
-    if nodes and known and (len(shared) >= len(here) or here[len(here) - len(shared) :] != shared):
+    if nodes and known and len(here) == 1:
+        found = f"{shown(here[0])} is the only task of {name}, which must keep one of its own"
+        hint = f"give {name} a task before it, or remove 'share'"
+        yield problem(nodes[0].place, (*path, "tasks"), found, hint)
+    elif nodes and known and (len(shared) >= len(here) or here[len(here) - len(shared) :] != shared):
         found = f"the shared tasks must be the last of those of {name}, after one of its own"
         example = ", ".join(str(task) for task in [*(task for task in here if task not in shared), *shared])
         yield problem(nodes[0].place, (*path, "tasks"), found, f"write 'tasks: [{example}]' at the station")

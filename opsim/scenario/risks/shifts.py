@@ -1,9 +1,10 @@
-"""Shifts that change nothing: nobody follows them, or what they say of people is followed by none."""
+"""Shifts that change nothing: nobody works in them, or what they say of people is followed by none."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from opsim.clock import on_the_clock
 from opsim.names import natural_key
 from opsim.scenario.risks.words import listed
 from opsim.scenario.schema import Scenario, Shift
@@ -16,7 +17,12 @@ def shift_risks(scenario: Scenario) -> Iterator[str]:
     things = _followed([*scenario.stations.values(), *sources])
     idle = sorted(set(scenario.shifts) - people - things, key=natural_key)
     if idle:
-        yield f"shift {listed(idle)}: nobody and nothing follows {'it' if len(idle) == 1 else 'them'}"
+        it = "it" if len(idle) == 1 else "them"
+        yield f"shift {listed(idle)}: nobody works in {it}, and nothing is open by {it}"
+    for name in sorted(people | things, key=natural_key):
+        shift = scenario.shifts[name]
+        if shift.start_s == shift.end_s:
+            yield f"shift {name}: it ends when it begins ({on_the_clock(shift.start_s)}), which is 24 h later"
     for name in sorted(things - people, key=natural_key):
         said = _of_people(scenario.shifts[name])
         if said:

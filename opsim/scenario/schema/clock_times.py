@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated
 
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
 from opsim.clock import DAY_S, DAYS
 from opsim.problems import nearest, shown
@@ -14,6 +14,7 @@ from opsim.scenario.fields import plain_error
 _WORDS = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
 _BY_WORD = {word.casefold(): short for short, long in zip(DAYS, _WORDS) for word in (short, long)}
 _CLOCK = re.compile(r"\s*([0-9]{1,2}):([0-9]{2})(?::([0-9]{2}))?\s*")
+_SPOKEN = re.compile(r"\s*([0-9]{1,2})(?:[:.]([0-9]{2}))?\s*([ap])\.?m\.?\s*", re.IGNORECASE)
 _SPAN = re.compile(r"\s*([A-Za-z]+)\s*(?:-|\u2013|to)\s*([A-Za-z]+)\s*")
 
 
@@ -34,26 +35,33 @@ def clock_s(value: object) -> float:
 
 def _as_clock(value: object) -> str:
     """How a time of the day is written; of a number that may have been one, counted in minutes."""
+    spoken = _SPOKEN.fullmatch(value) if isinstance(value, str) else None
+    if spoken is not None and 1 <= int(spoken[1]) <= 12 and int(spoken[2] or 0) <= 59:
+        hours = int(spoken[1]) % 12 + (12 if spoken[3].casefold() == "p" else 0)
+        return f"write {hours:02d}:{int(spoken[2] or 0):02d}"
     counted = isinstance(value, int) and not isinstance(value, bool) and 60 <= value <= 24 * 60
     return f"write '{value // 60:02d}:{value % 60:02d}'" if counted else "such as 06:00"  # type: ignore[operator]
 
 
-def _day(value: object, number: int) -> str:
+def _day(value: object) -> str:
     day = _BY_WORD.get(value.strip().casefold()) if isinstance(value, str) else None
     if day is None:
         near = nearest(value, [*DAYS, *_WORDS]) if isinstance(value, str) else None
         hint = f"did you mean {shown(_BY_WORD[near.casefold()])}?" if near else f"days: {', '.join(DAYS)}"
-        raise plain_error(f"expected a day of the week, found {shown(value)}", hint, on=number)
+        raise plain_error(f"expected a day of the week, found {shown(value)}", hint)
     return day
 
 
-def _days(value: object) -> list[str]:
-    """Days in the order of the week; each stands once."""
+def _some(value: object) -> object:
     if not isinstance(value, list):
         raise plain_error(f"expected a list of days, found {shown(value)}", _as_list(value))
     if not value:
         raise plain_error("there is no day in this list", "name one, or remove the line: it is then every day")
-    found = [_day(one, number) for number, one in enumerate(value)]
+    return value
+
+
+def _days(found: list[str]) -> list[str]:
+    """Days in the order of the week; each stands once."""
     for number, day in enumerate(found):
         if day in found[:number]:
             raise plain_error(f"{day} stands twice", "remove one of them", on=number)
@@ -75,4 +83,6 @@ _TEXT = {"type": "string", "pattern": r"^\s*([01]?[0-9]|2[0-4]):[0-5][0-9](:[0-5
 _LIST = {"type": "array", "items": {"enum": [*DAYS, *_WORDS]}, "minItems": 1}
 
 Clock = Annotated[float, BeforeValidator(clock_s), WithJsonSchema(_TEXT)]
-Days = Annotated[list[str], BeforeValidator(_days), WithJsonSchema(_LIST)]
+Days = Annotated[
+    list[Annotated[str, BeforeValidator(_day)]], BeforeValidator(_some), AfterValidator(_days), WithJsonSchema(_LIST)
+]

@@ -82,8 +82,8 @@ class Station(Block):
     )
     at_close: Literal["finish", "resume"] = Field(
         "finish",
-        description="the tasks under way when it closes: finish: are done first, and the next task waits for the "
-        "opening; resume: stop at once, and go on with the rest at the opening",
+        description="the tasks under way when it closes: finish: are done first, by whoever takes them over too, and "
+        "the next task, or repeat, waits for the opening; resume: stop at once, and go on with the rest at the opening",
     )
 
     priority: Whole = Field(
@@ -154,7 +154,9 @@ class Product(Block):
     )
     carried: bool = Field(
         False,
-        description="who did the last task at a station carries the job to the next, and waits while that is full",
+        description="who did the last task at a station carries the job to the next, and waits while that is full; "
+        "from a break he comes back to it, and when his shift is over, whoever is free and may serve that station "
+        "comes for it as soon as there is room",
     )
 
     @model_validator(mode="after")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from opsim.clock import DAY_S, DAYS
 from opsim.problems import shown
@@ -15,10 +15,10 @@ from opsim.scenario.schema.clock_times import Clock, Days
 RULES = Literal["finish", "finish_job", "resume", "resume_any", "hand_over", "restart"]
 """What becomes of the task under way when its worker has to go."""
 RULES_SAID = (
-    "finish: the task under way is done first; finish_job: all tasks of the job at this station; resume: he stops at "
-    "once, the job waits, and he goes on with the rest when he is back; resume_any: he stops at once, and whoever is "
-    "free first goes on; hand_over: he works on until somebody free has come and takes over; restart: he stops at "
-    "once, what was done is lost, and anybody begins anew"
+    "finish: the task under way is done first; finish_job: all tasks of the job at this station (who is in a team: "
+    "those that want one); resume: he stops at once, the job waits, and he goes on with the rest when he is back; "
+    "resume_any: he stops at once, and whoever is free first goes on; hand_over: he works on until somebody free has "
+    "come and takes over; restart: he stops at once, what was done is lost, and anybody begins anew"
 )
 
 
@@ -30,6 +30,8 @@ def _one_or_several(value: object) -> object:
         raise plain_error(
             f"expected a shift or a list of shifts, found {shown(value)}", "such as early, or [early, late]"
         )
+    if isinstance(value, list) and len(value) > 1 and all(name == value[0] for name in value):
+        raise plain_error(f"{shown(value[0])} follows itself, week by week", f"write {value[0]} alone")
     return [value] if isinstance(value, str) else value
 
 
@@ -57,13 +59,26 @@ class Pause(Block):
     )
 
 
+def _within_a_day(most_s: float) -> float:
+    if most_s > DAY_S:
+        raise plain_error(f"must be at most 24 h, found {most_s / 3600:g} h", "give it in hours, such as 2 h")
+    return most_s
+
+
 class Overtime(Block):
     """Who stays after the end of the shift: whoever jobs on the floor need, where too few of those on duty can do them.
 
-    Who is not needed goes at the end of his shift; who stays goes as soon as he is needed no more.
+    A job needs him that can come to him in time: through steps that are automatic or that somebody who is there can do,
+    and past no automatic run that lasts longer than his overtime. Who is not needed goes at the end of his shift; who
+    stays goes as soon as he is needed no more.
     """
 
-    most_s: Seconds = Field(alias="most", description="at most so long after the end of the shift", examples=["2 h"])
+    most_s: Annotated[Seconds, AfterValidator(_within_a_day)] = Field(
+        alias="most",
+        description="so long after the end of the shift, not more than a day, he begins nothing more; what is under "
+        "way then ends as at_end says",
+        examples=["2 h"],
+    )
 
 
 def _with_most(value: object) -> object:
@@ -81,7 +96,9 @@ class Shift(Block):
 
     start_s: Clock = Field(alias="from", description="when it begins, a time of the day", examples=["06:00"])
     end_s: Clock = Field(
-        alias="to", description="when it ends; not later than it begins: on the next day", examples=["14:00"]
+        alias="to",
+        description="when it ends; not later than it begins: on the next day, so that the same time is 24 h later",
+        examples=["14:00"],
     )
     days: Days = Field(list(DAYS), description="the days on which it begins", examples=["[Mon, Tue, Wed, Thu, Fri]"])
     breaks: dict[Name, Pause] = Field({}, description="by name", examples=["{lunch: {at: '11:00', lasts: 30 min}}"])

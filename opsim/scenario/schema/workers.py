@@ -53,11 +53,13 @@ class Person(Block):
         None,
         min_length=1,
         description="his own stations: he goes to another one that he has the skill for only where none of these "
-        "calls, and nobody is free whose own it is; absent: all of them are his own",
+        "calls, and neither anybody whose own it is nor a floater is free; absent: all of them are his own",
         examples=["[pack, label]"],
     )
     floater: bool = Field(
-        False, description="he is sent only where nobody else who is free could go: one who steps in, for all stations"
+        False,
+        description="one who steps in: he is sent only where nobody is free whose own station it is, but before people "
+        "are drawn out of their zones; where he has a zone, he leaves it last of all",
     )
     shift: ShiftNames | None = Field(
         None,
@@ -68,7 +70,7 @@ class Person(Block):
     absence: Probability = Field(
         0.0,
         description="share of his shifts that he does not come to, each drawn by itself; what waits for him to go on "
-        "with is then for anybody",
+        "with is then for anybody; where a missed shift follows at once on another, he first finishes what at_end says",
         examples=[0.05],
     )
     home: NameText | None = Field(None, description="the place where the worker stands at the start")
@@ -115,7 +117,7 @@ class Allocation(Block):
     priorities: Annotated[list[Literal["stations", "products"]], AfterValidator(_once)] = Field(
         ["stations"],
         description="what comes before the rule, in this order: the priority of stations, that of the jobs that call "
-        "there; zones and floaters come before both",
+        "there; zones and floaters come before both; an empty list: neither, only the rule",
         examples=["[products, stations]"],
     )
     idle: Literal["stay", "home", "patrol"] = Field(

@@ -121,3 +121,34 @@ def test_hours_are_in_the_json(tmp_path):
     _, shown, _ = opsim("check", line(tmp_path, HOURS), "--json")
     cut, pack = json.loads(shown)["variants"]["base"]
     assert (cut["hours"], pack["hours"], pack["load"]) == (pytest.approx(0.84375), 0, None)
+
+
+ONE_SHIFT = """
+opsim: 1
+name: hours
+run: {start: Mon 06:00, horizon: 24 h, replications: 1}
+layout: {places: {here: [0 m, 0 m]}}
+shifts: {early: {from: 06:00, to: 14:00}}
+tasks: {t: {fixed: 60 s}}
+stations: {m: {at: here, tasks: [t], buffer: 1}}
+products: {p: {route: [m]}}
+release: {kind: saturated}
+workers: {ana: {shift: early, skills: {m: 1.0}}}
+"""
+
+
+def test_where_hours_are_kept_check_says_of_which_hours_it_speaks_and_agrees_with_the_run(tmp_path):
+    code, shown, _ = opsim("check", line(tmp_path, ONE_SHIFT))
+    said = " ".join(shown.split())
+    assert code == 0 and "ana (at most 60.0 jobs per scheduled hour, 20.0 per hour of the run)" in said
+    assert "per h: of the run, for 33.3% of which the floor is scheduled to be open" in said
+    code, shown, _ = opsim("run", line(tmp_path, ONE_SHIFT), "-o", tmp_path / "out")
+    assert code == 0 and "Throughput (good units), per scheduled hour" in shown and "60.00 per hour" in shown
+    limits = json.loads(opsim("check", line(tmp_path, ONE_SHIFT), "--json")[1])
+    assert limits["bottleneck"]["base"][0]["most_per_scheduled_h"] == pytest.approx(60)
+    assert limits["scheduled_share"] == {"base": pytest.approx(1 / 3)}
+
+
+def test_without_hours_check_speaks_of_hours_alone(tmp_path):
+    code, shown, _ = opsim("check", line(tmp_path))
+    assert code == 0 and "jobs per h at most" in shown and "scheduled" not in shown

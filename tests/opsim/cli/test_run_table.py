@@ -44,3 +44,19 @@ def test_of_workers_too(part):
 
 def test_idle_workers_are_what_the_shown_states_leave():
     assert not matters("worker_states", "wait", {"base": {"mean": 0.9}})
+
+
+def test_of_work_broken_off_the_parts_there_are_in_any_variant_are_shown_in_plain_words(capsys):
+    def rows(**per_h):
+        found = [kpi("interruptions_per_h", "", "", "1/h", sum(per_h.values()), 0.0, headline=True)]
+        return [
+            *found,
+            *(kpi("interruptions_per_h", "press", p, "1/h", v, 0.0, headline=True) for p, v in per_h.items()),
+        ]
+
+    some = {"base": result(*rows(by_another=0.0, open=0.0)), "wide": result(*rows(by_another=2.0, open=0.0))}
+    print_results("made", some)
+    shown = capsys.readouterr().out
+    assert "press gone on with by another" in shown and "press not gone on with" not in shown
+    print_results("made", {"base": some["base"]})
+    assert "Work broken off" in (shown := capsys.readouterr().out) and "press" not in shown

@@ -69,14 +69,19 @@ def test_a_worker_helps_outside_his_zone_where_nobody_of_it_is_free():
     assert first_work(BOTH_AT_60, *zones) == [("w1", "b", 60), ("w2", "a", 60)]
 
 
-def test_a_floater_goes_only_where_nobody_else_is_free():
+def test_a_floater_goes_only_where_nobody_is_free_whose_own_station_it_is():
     floats = (W1, W1.replace("}}", "}, floater: true}"))
     assert first_work(arrivals(("pa", 60)), floats) == [("w2", "a", 60)]
     assert first_work(BOTH_AT_60, floats) == [("w1", "b", 60), ("w2", "a", 60)]
 
 
-def test_a_floater_with_a_zone_comes_before_who_is_out_of_his():
+def test_a_floater_goes_before_people_are_drawn_out_of_their_zones():
     edits = ((W1, W1.replace("}}", "}, zone: [a]}")), (W2, W2.replace("}}", "}, floater: true}")))
+    assert first_work(arrivals(("pb", 60)), *edits) == [("w2", "b", 60)]
+
+
+def test_a_floater_leaves_a_zone_of_his_own_last_of_all():
+    edits = ((W1, W1.replace("}}", "}, zone: [a], floater: true}")), (W2, W2.replace("}}", "}, zone: [a]}")))
     assert first_work(arrivals(("pb", 60)), *edits) == [("w2", "b", 60)]
 
 

@@ -178,6 +178,20 @@ def test_who_has_a_break_is_passed_over_and_comes_in_again_at_his_place():
     ]
 
 
+@pytest.mark.parametrize("kind", ["bucket_brigade", "rabbit_chase"])
+def test_who_sets_out_for_his_break_leaves_his_job_to_the_others_from_that_instant(kind):
+    """w2 goes to the yard, half a minute away, at 4 s."""
+    early = "early: {from: 06:00, to: 07:00, breaks: {tea: {at: 06:00:04, lasts: 80 s, place: yard}}}"
+    log, _ = ran(
+        ROW, ("horizon: 100 s", "start: Mon 06:00, horizon: 100 s"), ("bucket_brigade", kind),
+        ("w2: {walk: 1 m/s, ", "w2: {walk: 1 m/s, shift: early, "), ("crews:", f"shifts: {{{early}}}\ncrews:"),
+        ("r: [6 m, 0 m]", "r: [6 m, 0 m], yard: [0 m, 30 m]"),
+        ("[w1, w2]", "[w1, w2]" if kind == "bucket_brigade" else "[w2, w1]"),
+    )  # fmt: skip
+    assert day(log, "w2", 84) == ["0-4 work a 0", "4-34 walk yard", "34-84 break"]
+    assert day(log, "w1", 13)[:3] == ["0-4 wait behind", "4-10 work a 0", "10-13 walk q"]
+
+
 def test_rabbits_go_straight_back_to_the_start():
     log, _ = ran(ROW, RABBITS)
     assert day(log, "w1", 52) == [

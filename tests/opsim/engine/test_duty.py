@@ -114,6 +114,81 @@ def test_nobody_stays_for_a_station_that_stays_closed(tmp_path):
     assert minutes(log, WORK) == [(0, 7), (7, 14), (14, 21)] and minutes(log, OFF, ANA) == [(21, 60)]
 
 
+OVER = ("early: {", "early: {overtime: {most: 30 min}, ")
+
+
+def test_nobody_stays_for_a_job_that_waits_for_somebody_who_is_gone(tmp_path):
+    """Ana leaves hers at 5 min, and is back tomorrow."""
+    short = ("late: {from: 06:20, to: 06:40}", "short: {from: 06:00, to: 06:05, at_end: resume}")
+    two = ("ana: {shift: early, skills: {bench: 1.0}}",
+           "ana: {shift: short, skills: {bench: 2.0}}, ben: {shift: early, "
+           "skills: {bench: 1.0}}}\nallocation: {rule: best_skill")  # fmt: skip
+    log = worked(tmp_path, "0,part", two, short, ("fixed: 7 min", "fixed: 14 min"), OVER)
+    assert minutes(log, OFF, BEN) == [(20, 60)] and minutes(log, HELD, cause=AWAY) == [(5, 60)]
+
+
+def test_who_has_another_post_is_not_counted_on(tmp_path):
+    """Ben has the skill, and a rotation keeps him at the press."""
+    two = ("{bench: 1.0}}}", "{bench: 1.0}}, ben: {skills: {bench: 1.0, press: 1.0}}}\n"
+           "rotations: {one: {workers: [ben], posts: [[press], [bench]], every: 5 h}}")  # fmt: skip
+    press = ("bench: {at: bay, tasks: [weld]}", "bench: {at: bay, tasks: [weld]}, press: {at: bay, tasks: [weld]}")
+    route = ("part: {route: [bench]}", "part: {route: [bench]}, lid: {route: [press]}")
+    log = worked(tmp_path, "0,part 0,part 0,part 0,part 0,lid", two, press, route, OVER)
+    assert minutes(log, WORK, ANA) == [(0, 7), (7, 14), (14, 21), (21, 28)] and minutes(log, OFF, ANA) == [(28, 60)]
+
+
+@pytest.mark.parametrize("kind", ["andon", "regular"])
+def test_who_comes_to_a_line_only_when_called_is_not_counted_on(tmp_path, kind):
+    """The line moves at 8, 16, 24 and 32 min; parts are done a minute before. Cem, where he is, works at it too."""
+    line = "lines: {main: {kind: indexed, stations: [bench], takt: 8 min, andon: {workers: [ben], at: 7.9 min}}}"
+    two = ("{bench: 1.0}}}", "{bench: 1.0}}, ben: {skills: {bench: 1.0}}}\n" + line)
+    if kind == "regular":
+        called = two[1].replace("workers: [ben]", "workers: [cem]")
+        two = two[0], called.replace("ben: {", "cem: {skills: {bench: 1.0}}, ben: {")
+    log = worked(tmp_path, "0,part 0,part 0,part 0,part", two, OVER)
+    assert minutes(log, OFF, ANA)[0][0] == (32 if kind == "andon" else 23)
+
+
+MILL = (
+    ("weld: {fixed: 7 min}", "load: {fixed: 1 min}, mill: {fixed: RUN min, automatic: true}"),
+    ("bench: {at: bay, tasks: [weld]}", "bench: {at: bay, tasks: [load, mill, load]}"),
+)
+
+
+@pytest.mark.parametrize(("run", "off_at"), [("48 min", 50), ("31 min", 33), ("49 min", 20)])
+def test_nobody_stays_for_a_run_that_lasts_longer_than_his_overtime(tmp_path, run, off_at):
+    """Overtime ends at 50 min: a run from 1 to 49 is unloaded in it, and one from 1 to 50 is not waited for."""
+    load, mill = MILL
+    load = load[0], load[1].replace("RUN min", run)
+    assert minutes(worked(tmp_path, "0,part", load, mill, OVER), OFF) == [(off_at, 60)]
+    behind = worked(tmp_path, "0,part 0,part", load, mill, OVER)  # who is behind it gets to the bench after it
+    assert minutes(behind, OFF)[0][0] == {50: 50, 33: 34, 20: 20}[off_at]
+
+
+@pytest.mark.parametrize(("shift", "off_at"), [("day", 20), ("late", 31)])
+def test_nobody_stays_for_a_job_that_gets_stuck_on_its_way_to_him(tmp_path, shift, off_at):
+    """The oven is done at 22 min. Where Ben is there, he files until 29, and Ana packs until 31; else nobody does."""
+    tasks = "bake: {fixed: 22 min, automatic: true}, weld: {fixed: 7 min}, pack: {fixed: 2 min}"
+    stations = "oven: {at: bay, tasks: [bake]}, file: {at: bay, tasks: [weld]}, bench: {at: bay, tasks: [pack]}"
+    edits = (
+        ("weld: {fixed: 7 min}", tasks),
+        ("bench: {at: bay, tasks: [weld]}", stations),
+        ("route: [bench]", "route: [oven, file, bench]"),
+        ("{bench: 1.0}}}", f"{{bench: 1.0}}}}, ben: {{shift: {shift}, skills: {{file: 1.0}}}}}}"),
+        OVER,
+        ("late: {", "day: {from: 09:00, to: 10:00}, late: {"),
+    )
+    log = worked(tmp_path, "0,part", *edits)
+    assert minutes(log, OFF, ANA)[0][0] == off_at
+
+
+def test_a_break_that_ends_with_the_shift_sends_nobody_home_who_is_needed(tmp_path):
+    tea = ("to: 06:20}, late", "to: 06:20, breaks: {tea: {at: 06:16, lasts: 4 min}}}, late")
+    log = worked(tmp_path, "0,part 0,part 0,part 0,part", OVER, tea)
+    assert minutes(log, WORK) == [(0, 7), (7, 14), (14, 16), (20, 25), (25, 32)] and minutes(log, BREAK) == [(16, 20)]
+    assert minutes(log, OFF) == [(32, 60)]
+
+
 def test_a_break_that_would_begin_after_the_shift_is_cut(tmp_path):
     """Ana finishes from 14 to 21 min: the break at 17 is owed at 20, when she is off, and never taken."""
     tea = "to: 06:20, at_break: finish, breaks: {tea: {at: 06:17, lasts: 2 min}}}"
@@ -153,6 +228,17 @@ def test_who_is_absent_leaves_what_he_began_to_others(tmp_path):
     assert all(begin % 1440 == 0 for begin, _ in missed)
     assert not [piece for piece in minutes(log, WORK, ANA) for begin, end in missed if begin <= piece[0] < end]
     assert minutes(log, WORK, BEN)
+
+
+def test_who_misses_a_shift_that_follows_at_once_finishes_and_is_absent_from_the_rest_of_it(tmp_path):
+    """A shift around the clock, and parts of 7 min: 1435 to 1442 min is the last one of a day."""
+    around = ("early: {from: 06:00, to: 06:20}", "early: {from: 06:00, to: 06:00}")
+    absent = ("{shift: early,", "{shift: early, absence: 0.5,")
+    head = HEAD.replace("60 min", "20 d")
+    log = worked(tmp_path, " ".join(["0,part"] * 9000), absent, around, head=head)
+    missed = minutes(log, ABSENT)
+    assert all(end % 1440 == 0 for _, end in missed) and {begin % 1440 for begin, _ in missed} >= {0, 2}
+    assert not [piece for piece in minutes(log, WORK) for begin, end in missed if begin <= piece[0] < end]
 
 
 SHIFT = """

@@ -157,6 +157,46 @@ def test_repeats_of_a_team_task_go_on_when_the_whole_team_is_back(tmp_path):
     assert minutes(log, WORK, -1) == [(0, 8), (11, 19)] and minutes(log, BREAK, ANA) == [(6, 11)]
 
 
+REPEATS = ("{fixed: 10 min, team: 2}", "{fixed: 4 min, team: 2, repeat: 2}")
+NEXT = (
+    ("{fixed: 10 min, team: 2}}", "{fixed: 4 min, team: 2}, turn: {fixed: 2 min, team: 2}, look: {fixed: 1 min}}"),
+    ("tasks: [lift]", "tasks: [lift, turn, look]"),
+)
+
+
+def test_with_finish_job_a_team_stays_for_the_repeats_of_its_task(tmp_path):
+    """Ana waits for Ben, who needs 8 min each time, and goes when both are done."""
+    log = left(tmp_path, TEAM_OF_TWO, "0,part 0,part", "finish_job", REPEATS)
+    assert minutes(log, WORK, -1)[:2] == [(0, 8), (8, 16)]
+    assert minutes(log, WORK, ANA)[:2] == [(0, 4), (8, 12)] and minutes(log, BREAK, ANA) == [(16, 21)]
+    assert minutes(log, WORK, -1)[2] == (21, 29)
+
+
+def test_with_finish_job_a_team_stays_for_all_tasks_that_want_one(tmp_path):
+    """The last task wants one alone: that is who was done last, Ben."""
+    log = left(tmp_path, TEAM_OF_TWO, "0,part 0,part", "finish_job", *NEXT)
+    assert minutes(log, WORK, -1)[:2] == [(0, 8), (8, 12)]
+    assert minutes(log, BREAK, ANA) == [(12, 17)] and (12, 14) in minutes(log, WORK, BEN)
+
+
+def test_who_stays_for_a_job_goes_on_with_it_though_another_one_has_waited_longer_for_a_team(tmp_path):
+    """At 8, Cem is free, and the other job has waited since 0; but Ana and Ben go on with what they began."""
+    other = (
+        ("stations: {", "stations: {other: {at: bay, tasks: [lift]}, "),
+        ("products: {", "products: {else: {route: [other]}, "),
+        ("{ramp: 0.5}", "{ramp: 0.5, other: 1}}, cem: {skills: {other: 1}"),
+    )
+    log = left(tmp_path, TEAM_OF_TWO, "0,part 1,else", "finish_job", *NEXT, *other, ("06:06", "06:07"))
+    of_team = log.where((log["worker"] == -1) & (log["station"] == 1))
+    assert minutes(of_team, WORK, -1) == [(0, 8), (8, 12)] and minutes(log, BREAK, ANA) == [(12, 17)]
+
+
+def test_with_finish_job_a_team_that_has_not_begun_is_given_up(tmp_path):
+    text = TEAM_OF_TWO.replace("walk: 1 m/s", "walk: 0.5 m/s, home: shed")
+    log = left(tmp_path, text, "300,part", "finish_job")
+    assert minutes(log, BREAK, ANA) == [(6, 11)] and minutes(log, WORK, -1) == [(11, 31)]
+
+
 HELD_TOOL = """
 tools: {gun: {n: 1}}
 tasks: {bolt: {fixed: 10 min, hold: {tool: gun, from: 0.5, to: 0.8}}}
@@ -223,6 +263,59 @@ def test_who_has_to_carry_a_blocked_job_puts_it_down_and_comes_back_for_it(tmp_p
     log = left(tmp_path, text, "0,part 0,part", "resume", ("bake: {fixed: 20 min", "bake: {fixed: 5 min"))
     assert minutes(log, WORK, ANA) == [(0, 2), (4, 6)] and minutes(log, BREAK) == [(6, 11)]
     assert minutes(log, TRANSPORT) == [(2, 3), (11, 12)] and minutes(log, BLOCKED) == [(6, 11)]
+
+
+HANDS = """
+tasks: {weld: {fixed: 2 min}, trim: {fixed: 1 min}, bake: {fixed: 17 min, automatic: true}}
+stations:
+  bench: {at: bay, tasks: [weld]}
+  oven: {at: shed, tasks: [bake], buffer: 0}
+  vice: {at: shed, tasks: [trim]}
+products: {part: {route: [bench, oven], carried: true}, lid: {route: [vice]}}
+workers:
+  ana: {shift: early, walk: 1 m/s, skills: {bench: 1.0}}
+  ben: {shift: late, walk: 1 m/s, home: shed, skills: {bench: 1.0, vice: 1.0}}
+  cem: {shift: late, walk: 0.5 m/s, home: shed, skills: {bench: 1.0}}
+  dan: {walk: 2 m/s, home: bay, skills: {vice: 1.0}}
+shifts: {early: {from: 06:00, to: 06:07}, late: {from: 06:07, to: 14:00}}
+allocation: {rule: nearest}
+"""
+
+
+@pytest.mark.parametrize(("near", "far"), [("ben", "cem"), ("cem", "ben")])
+def test_a_carried_job_is_carried_on_by_who_is_there_when_its_carrier_has_gone_home(tmp_path, near, far):
+    """Ana carries the first part from 2 to 3 min, is done with the second at 6, and off at 7. The oven is full until
+    20 min; then Ben, a minute away, comes for it, not Cem, who is two, nor Dan, who cannot serve the bench.
+    """
+    text = (
+        HANDS.replace("ben:", "near:").replace("cem:", "far:").replace("near:", f"{near}:").replace("far:", f"{far}:")
+    )
+    log = ran(tmp_path, text, "0,part 0,part 600,lid", HEAD)
+    comes = log.names["worker"].index(near)
+    assert minutes(log, TRANSPORT) == [(2, 3), (21, 22)] and minutes(log, BLOCKED) == [(6, 21)]
+    assert (20, 21) in minutes(log, WALK, comes) and (21, 22) in minutes(log, WALK, comes)
+    assert minutes(log, WORK, comes) == [(10, 11)]  # nobody is bound to a job that cannot move
+
+
+def test_a_carried_job_waits_through_the_break_of_who_has_gone_for_it(tmp_path):
+    """Ben sets out at 20 min, has his break at 20.5, and goes on from the bay, where he has come at 21, at 25.5."""
+    text = HANDS.replace("to: 14:00}", "to: 14:00, breaks: {tea: {at: 06:20:30, lasts: 270 s}}}")
+    text = text.replace("  cem: {shift: late, walk: 0.5 m/s, home: shed, skills: {bench: 1.0}}\n", "")
+    log = ran(tmp_path, text, "0,part 0,part", HEAD)
+    assert minutes(log, BREAK, BEN) == [(21, 25.5)] and minutes(log, TRANSPORT) == [(2, 3), (25.5, 26.5)]
+
+
+def test_a_carried_job_is_for_others_when_the_shift_ends_in_the_break_of_its_carrier(tmp_path):
+    text = HANDS.replace("to: 06:07}", "to: 06:07, breaks: {tea: {at: 06:06:30, lasts: 30 s}}}", 1)
+    log = ran(tmp_path, text.replace("rule: nearest", "rule: oldest_job"), "0,part 0,part", HEAD)
+    assert minutes(log, BREAK, ANA) == [(6.5, 7)] and minutes(log, BLOCKED) == [(6, 21)]
+
+
+def test_who_has_to_carry_a_job_stays_in_overtime_where_nobody_else_can(tmp_path):
+    text = FLOW.replace("route: [bench, oven]", "route: [bench, oven], carried: true").replace("20 min", "17 min")
+    text += "shifts: {early: {from: 06:00, to: 06:07, overtime: {most: 30 min}}}\n"
+    log = ran(tmp_path, text, "0,part 0,part", HEAD)
+    assert minutes(log, TRANSPORT) == [(2, 3), (20, 21)] and minutes(log, OFF, ANA) == [(21, 60)]
 
 
 def test_who_carries_brings_it_there_first(tmp_path):

@@ -139,6 +139,25 @@ def test_who_is_on_his_way_as_a_station_closes_comes_and_is_free():
     assert spans(log, WAIT)[:2] == [(0, 20), (30, 80)]
 
 
+TEAM = (
+    ("automatic: true", "team: 2, repeat: 2"),
+    (
+        "release: {kind: saturated}",
+        "release: {kind: saturated}\nworkers: {ana: {skills: {m: 1}}, ben: {skills: {m: 1}}}",
+    ),
+)
+
+
+def test_a_team_that_is_done_while_the_station_is_closed_repeats_its_task_when_it_opens():
+    log, _ = ran(ONE, *TEAM)
+    of_jobs = log.where(log["job"] >= 0)
+    assert spans(of_jobs, WORK) == [(20, 30), (30, 40), (40, 50), (50, 60), (80, 90), (90, 100), (100, 110)]
+    log, _ = ran(ONE, *TEAM, ("to: 06:00:55", "to: 06:00:45"))
+    of_jobs = log.where(log["job"] >= 0)
+    assert spans(of_jobs, WORK) == [(20, 30), (30, 40), (40, 50), (80, 90), (90, 100), (100, 110)]
+    assert (50.0, 80.0) in spans(log, HELD, cause=CLOSED)
+
+
 POISSON = ("kind: saturated", "kind: renewal, every: {fixed: 15 s}, shift: [a, b]")
 ALWAYS = ("shift: [b, a]}", "servers: 9}")
 

@@ -3,26 +3,15 @@
 A scenario is told of where jobs stood on a closed station, and some of its work went on after closing, or was stopped.
 """
 
-import re
 from collections import Counter
-from random import Random
 
-import numpy as np
 import pytest
+from checked_floors import checked
 from choices import Lots
 from made_blocks import BLOCKS, floor_with
-from made_floors import FOLDER, text_of
 
-from opsim.engine.simpy_engine import run_plan
-from opsim.kpi import figures
-from opsim.kpi.locked import locked
-from opsim.laws import CHECKS, audit
-from opsim.log import CLOSED, COLUMNS, OFF, SETUP, WORK
-from opsim.plan import compile_plan
-from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.log import CLOSED, OFF, SETUP, WORK
 
-LOCKS = re.compile(r"nothing moves any more|for ever|never fills")
 ENOUGH = 25
 
 
@@ -47,25 +36,6 @@ def _some(pick) -> list[str] | str:
     return names if len(names) > 1 else names[0]
 
 
-def _read(text: str):
-    return scenarios_in(text.encode(), FOLDER / "made.yaml")["base"]
-
-
-def check(values: dict, shuffle: int):
-    """The log and the plan of a scenario, once laws hold, order decides nothing and locks are foretold."""
-    loaded = _read(text_of(values))
-    plan = compile_plan(loaded)
-    log = run_plan(plan)
-    assert audit(log, plan) == CHECKS
-    assert [figure for figure in figures(log, plan) if figure.value < -1e-9] == []
-    again = run_plan(compile_plan(_read(text_of(values, Random(shuffle)))))
-    assert len(again) == len(log)
-    for name in COLUMNS:
-        assert np.array_equal(log[name], again[name], equal_nan=log[name].dtype.kind == "f"), name
-    assert locked(log, plan) is None or any(LOCKS.search(risk) for risk in risks_of(loaded.scenario))
-    return log, plan
-
-
 def told(log, plan) -> set[str]:
     """What closing did: jobs stood, work went on after it, work was broken off at it."""
     found = {"stood"} if (log["cause"] == CLOSED).any() else set()
@@ -84,10 +54,10 @@ def told(log, plan) -> set[str]:
 def test_laws_hold_and_declaration_order_decides_nothing_whatever_opens_and_closes():
     seen: Counter[str] = Counter()
     for seed in range(200):
-        seen.update(told(*check(with_hours(Lots(seed)), seed + 1)))
+        seen.update(told(*checked(with_hours(Lots(seed)), seed + 1)))
     assert seen["stood"] >= ENOUGH and seen["finished"] >= ENOUGH and seen["stopped"] >= ENOUGH, seen
 
 
 def test_a_few_of_them():
     for seed in range(200, 210):
-        check(with_hours(Lots(seed)), seed + 1)
+        checked(with_hours(Lots(seed)), seed + 1)

@@ -7,37 +7,25 @@ without it, or shows what only it does.
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Collection
-from copy import deepcopy
 from functools import partial
-from random import Random
 
-import numpy as np
 import pytest
+from checked_floors import checked
 from choices import Drawn, Lots
-from contests import CONTESTED, contested, met_at_work, stays_on
+from contests import CONTESTED, contested, met_at_work
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_blocks import BLOCKS
 from made_crews import CREWS
-from made_floors import FOLDER, text_of
 from made_people_blocks import ALWAYS, PEOPLE, people_floor_with
 from naive_people import jumps, unjoined
+from shown_blocks import shown
 
-from opsim import log as kinds
-from opsim.engine.simpy_engine import run_plan
-from opsim.kpi import figures
-from opsim.kpi.locked import locked
-from opsim.laws import CHECKS, audit
-from opsim.log import COLUMNS, EventLog
-from opsim.plan import Plan, compile_plan
-from opsim.scenario.read import Loaded, scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.log import EventLog
+from opsim.plan import Plan
 
-LOCKS = re.compile(r"nothing moves any more|for ever|never fills|cannot be finished")
-"""What ``opsim check`` says of a floor that may lock itself."""
 ENOUGH = 25
 AT_LEAST = 2
 """Interruptions in each scenario that counts."""
@@ -52,117 +40,12 @@ def chosen(pick) -> list[str]:
     return [*ALWAYS, *mine, *pick.shuffled(list(BLOCKS))[: pick.whole(0, 3)]]
 
 
-def _loaded(text: str) -> Loaded:
-    return scenarios_in(text.encode(), FOLDER / "made.yaml")["base"]
-
-
-def _plan(text: str) -> Plan:
-    return compile_plan(_loaded(text))
-
-
-def _differ(a: EventLog, b: EventLog) -> list[str]:
-    if len(a) != len(b):
-        return ["rows"]
-    return [c for c in COLUMNS if not np.array_equal(a[c], b[c], equal_nan=a[c].dtype.kind == "f")]
-
-
 def check(values: dict, shuffle: int) -> tuple[EventLog, Plan]:
-    """The log of a scenario, once its laws hold and its order has decided nothing."""
-    loaded = _loaded(text_of(values))
-    p = compile_plan(loaded)
-    log = run_plan(p)
-    assert audit(log, p) == CHECKS
-    assert list(jumps(log, p)) == []
+    """The log of a scenario, once what holds of any floor has held, and what was written to be read of people."""
+    log, plan = checked(values, shuffle)
+    assert list(jumps(log, plan)) == []
     assert list(unjoined(log)) == []
-    assert [f for f in figures(log, p) if f.value < -1e-9] == []
-    again = run_plan(_plan(text_of(values, Random(shuffle))))
-    assert again.names == log.names
-    assert _differ(log, again) == [], "the order of declaration decides something"
-    lock = locked(log, p)
-    assert lock is None or any(LOCKS.search(risk) for risk in risks_of(loaded.scenario)), lock
-    return log, p
-
-
-def _without(section: str, key: str) -> Callable[[dict], dict]:
-    """The scenario without a key in each entry of a section, or in the section itself."""
-
-    def strip(values: dict) -> dict:
-        found = deepcopy(values)
-        for entry in (found.get(section, {}), *found.get(section, {}).values()):
-            if isinstance(entry, dict):
-                entry.pop(key, None)
-        return found
-
-    return strip
-
-
-def _all_good(values: dict) -> dict:
-    """The scenario with the pace of skills alone."""
-    found = deepcopy(values)
-    found["skill_levels"]["learner"].pop("quality")
-    for worker in found["workers"].values():
-        for station, level in worker["skills"].items():
-            worker["skills"][station] = level["pace"] if isinstance(level, dict) else level
-    return found
-
-
-WITHOUT: dict[str, Callable[[dict], dict]] = {
-    "choice_of_work": _without("allocation", "rule"),
-    "levels": _all_good,
-    "zones": _without("workers", "zone"),
-    "floaters": _without("workers", "floater"),
-    "station_priorities": _without("stations", "priority"),
-    "limited": _without("allocation", "serve"),
-    "work_sharing": _without("stations", "share"),
-    "task_rules": _without("tasks", "interruption"),
-    "station_hours": _without("stations", "shift"),
-    "source_hours": lambda values: _without("release", "shift")(_without("sources", "shift")(values)),
-}
-"""Blocks that are contested where the log is another one without them."""
-
-
-def _caused(*causes: int) -> Callable[[EventLog, Plan], bool]:
-    return lambda log, _plan: bool(np.any(np.isin(log["cause"], causes)))
-
-
-def _of(kind: int) -> Callable[[EventLog, Plan], bool]:
-    return lambda log, _plan: bool(len(log.of(kind)))
-
-
-SEEN: dict[str, Callable[[EventLog, Plan], bool]] = {
-    "shifts": _of(kinds.OFF),
-    "breaks": _of(kinds.BREAK),
-    "meetings": _caused(kinds.MEETING),
-    "absence": _of(kinds.ABSENT),
-    "overtime": stays_on,
-    "brigade": _caused(kinds.BEHIND),
-    "rabbits": _caused(kinds.BEHIND),
-    "indexed_line": _caused(kinds.TAKT, kinds.LINE_STOP, kinds.UNFINISHED),
-    "moving_line": _caused(kinds.TAKT, kinds.LINE_STOP, kinds.UNFINISHED),
-    "rotation": lambda log, plan: all(_posts_seen(log, turns) for turns in plan.rotations) and bool(plan.rotations),
-}
-"""Blocks that are contested where the log shows what only they do."""
-
-
-def _posts_seen(log: EventLog, turns) -> bool:
-    """Whether one of those who rotate has worked at two posts."""
-    rows = log.of(kinds.WORK)
-    posts = [
-        {post for post, at in enumerate(turns.posts) if np.any(np.isin(_stations(rows, w), at))} for w in turns.workers
-    ]
-    return max(map(len, posts)) > 1
-
-
-def _stations(rows: EventLog, worker: int) -> np.ndarray:
-    return rows["station"][rows["worker"] == worker]
-
-
-def shown(name: str, values: dict, log: EventLog, p: Plan) -> bool:
-    """Whether a block about people is contested in a scenario."""
-    if name in SEEN:
-        return SEEN[name](log, p)
-    stripped = WITHOUT[name](values)
-    return stripped != values and _differ(log, run_plan(_plan(text_of(stripped)))) != []
+    return log, plan
 
 
 def shown_by(seed: int, wanted: Callable[..., list[str]] = chosen, enough: Collection[str] = ()) -> list[str] | None:

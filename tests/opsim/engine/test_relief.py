@@ -1,9 +1,11 @@
 """Hand-over: somebody is wanted, comes, and takes over; or what happens instead. By hand arithmetic, in minutes."""
 
+import pytest
 from made_shops import ran
 from opsim_minutes import minutes
+from plans import ran as ran_alone
 
-from opsim.log import BREAK, FINISH, HELD, SCRAP, SETUP, TOOL, WALK, WORK
+from opsim.log import BAD, BREAK, FINISH, HELD, NO_CAUSE, SCRAP, SETUP, STANDS, TOOL, WALK, WORK
 
 HEAD = """
 opsim: 1
@@ -47,6 +49,13 @@ def test_of_several_the_rule_of_allocation_sends_one(tmp_path):
     """Cem, who is there, though he is slower."""
     log = relieved(tmp_path, "0,part", ("  ben:", "  cem: {skills: {bench: 0.5}}\n  ben:"))
     assert minutes(log, WORK, CEM) == [(6, 14)] and minutes(log, WALK, BEN) == []
+
+
+def test_who_is_relieved_at_once_goes_to_his_break_before_he_goes_home(tmp_path):
+    home = ("ana: {", "ana: {home: shed, walk: 2 m/s, "), ("workers:", "allocation: {idle: home}\nworkers:")
+    log = relieved(tmp_path, "0,part", *home, ("home: shed, skills", "floater: true, skills"))
+    assert minutes(log, WORK, ANA) == [(1, 6)] and minutes(log, WORK, BEN) == [(6, 11)]
+    assert minutes(log, WALK, ANA)[:1] == [(0, 1)] and minutes(log, BREAK, ANA) == [(6, 11)]
 
 
 def test_who_is_on_the_way_and_has_to_go_himself_is_replaced(tmp_path):
@@ -126,3 +135,41 @@ def test_a_tool_in_the_hands_goes_to_the_other_hands(tmp_path):
     log = relieved(tmp_path, "0,part 60,top", *GUN, hold)
     assert minutes(log, TOOL) == [(5, 8), (8, 11)]
     assert minutes(log, WORK, BEN) == [(6, 10)] and minutes(log, WORK, CEM) == [(1, 6), (8, 13)]
+
+
+LINE = """
+opsim: 1
+name: relief on a moving line
+run: {start: Mon 06:00, horizon: 119 s}
+layout: {places: {bay: [0 m, 0 m]}}
+tasks: {weld: {fixed: 100 s}}
+stations: {bench: {at: bay, tasks: [weld]}}
+lines: {final: {kind: moving, stations: [bench], takt: 120 s, length: 12 m}}
+products: {part: {route: [bench]}}
+release: {kind: saturated}
+shifts: {early: {from: 06:00, to: 06:01, at_end: hand_over}}
+workers:
+  ana: {shift: early, skills: {bench: 1.0}}
+  ben: {walk: 0.2 m/s, skills: {bench: {pace: 1.0, quality: 1.0e-9}}}
+"""
+
+
+def seconds(log, kind, worker):
+    rows = log.where((log["kind"] == kind) & (log["worker"] == worker))
+    return list(zip(rows["start_s"].tolist(), rows["end_s"].tolist()))
+
+
+@pytest.mark.parametrize(("walk", "meets_s"), [("0.2 m/s", None), ("0.3 m/s", 90.0), ("0.7 m/s", 70.0)])
+def test_on_a_moving_line_who_is_relieved_works_on_until_the_taker_is_at_the_job(walk, meets_s):
+    """At 60 s the job is 6 m down the line and moves at 0.1 m/s: he gains on it by what he is faster than that."""
+    log, _ = ran_alone(LINE, ("walk: 0.2 m/s", f"walk: {walk}"))
+    assert seconds(log, WORK, ANA) == [(0, meets_s or 100)]
+    assert seconds(log, WALK, BEN)[0] == (60, meets_s or 100)
+    assert seconds(log, WORK, BEN) == ([(meets_s, 100)] if meets_s else [])
+    assert not len(log.of(STANDS))
+
+
+@pytest.mark.parametrize(("walk", "bad"), [("0.2 m/s", False), ("0.3 m/s", True)])
+def test_who_never_came_to_the_job_on_the_line_leaves_no_defect_in_it(walk, bad):
+    log, _ = ran_alone(LINE, ("walk: 0.2 m/s", f"walk: {walk}"), ("horizon: 119 s", "horizon: 121 s"))
+    assert log.of(FINISH)["cause"].tolist() == [BAD if bad else NO_CAUSE]

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.kpi.open_hours import duty_hours, elapsed_s, has_hours, open_hours, scheduled, station_hours
+from opsim.kpi.open_hours import duty_hours, elapsed_s, is_in, open_hours, station_hours
 from opsim.log import BREAKDOWN, CREATE, DOWN, FINISH, HELD, OFF, QUEUE
+from opsim.plan.hours.scheduled import has_hours, scheduled
 from tests.opsim.kpi.made_logs import found, made, row, work
 
 H = 3600.0
@@ -28,19 +29,44 @@ NOBODY = PEOPLE.replace("shift: early, ", "").replace("shift: late, ", "")
 JAM = "breakdowns"
 
 
+PEOPLES = ((H, 4 * H), (6 * H, 8 * H))
+ONLY_A = FLOOR.replace("[a, b]", "[a]")
+ALONE = ONLY_A.replace("fixed: 10 s", "fixed: 10 s, automatic: true")
+TEAM = PEOPLE.replace("fixed: 10 s", "fixed: 10 s, team: 2").replace("from: 12:00", "from: 09:00")
+CREW = PEOPLE.replace("release:", "crews: {all: {kind: bucket_brigade, stations: [a, b], workers: [ana]}}\nrelease:")
+
+
 @pytest.mark.parametrize(
     ("text", "spans", "hours"),
     [
-        (FLOOR, ((3 * H, 5 * H),), 2),
-        (FLOOR.replace("every: 60 s", "every: 60 s, shift: early"), ((H, 5 * H),), 4),
-        (PEOPLE, ((H, 4 * H), (6 * H, 8 * H)), 5),
-        (PEOPLE.replace("shift: late, ", ""), ((0, 10 * H),), 9),
-        (NOBODY, ((0, 10 * H),), 9),
+        pytest.param(
+            FLOOR, PEOPLES, 5, id="a station without hours is always open, and works when its people are there"
+        ),
+        pytest.param(ONLY_A, ((3 * H, 4 * H),), 1, id="a station with hours, when its people are there too"),
+        pytest.param(ALONE, ((3 * H, 5 * H),), 2, id="a machine needs nobody"),
+        pytest.param(ALONE.replace(", shift: office", ""), ((0, 10 * H),), 9, id="nor has it to keep hours"),
+        pytest.param(FLOOR.replace("every: 60 s", "every: 60 s, shift: office"), PEOPLES, 5, id="sources do not count"),
+        pytest.param(TEAM, ((3 * H, 4 * H),), 1, id="a team, when there are enough of them"),
+        pytest.param(CREW, ((H, 4 * H),), 3, id="members of crews alone at a crew's stations"),
+        pytest.param(PEOPLE.replace("shift: late, ", ""), ((0, 10 * H),), 9, id="who has no shift is always there"),
+        pytest.param(NOBODY, ((0, 10 * H),), 9, id="nobody and nothing keeps hours"),
     ],
 )
-def test_scheduled_hours_are_those_of_things_else_of_all_people_else_all(text, spans, hours):
+def test_the_floor_is_open_while_a_station_on_a_route_may_work(text, spans, hours):
     assert scheduled(plan(text)) == spans and open_hours(plan(text)) == hours
     assert has_hours(plan(text)) is (text != NOBODY)
+
+
+def test_hours_of_a_source_alone_leave_the_floor_open_all_the_time():
+    text = NOBODY.replace("every: 60 s", "every: 60 s, shift: office")
+    assert scheduled(plan(text)) == ((0, 10 * H),) and has_hours(plan(text))
+
+
+def test_a_side_station_with_hours_does_not_close_the_floor():
+    """Ana's bench is always open; 1 job in 100 goes to a bench that is open for an hour of six."""
+    text = NOBODY.replace("tasks: [t]}\n", "tasks: [t], shift: office}\n").replace("[a, b]", "[a]")
+    text = text.replace("{p: {route: [a]}}", "{p: {share: 0.99, route: [a]}, q: {share: 0.01, route: [b]}}")
+    assert open_hours(plan(text)) == 9
 
 
 def test_hours_of_one_station_and_of_one_worker():
@@ -54,12 +80,17 @@ def test_elapsed_time_stands_still_outside_of_the_spans():
     assert elapsed_s((), np.array([4.0])).tolist() == [0]
 
 
+def test_an_instant_is_in_a_time_from_after_its_beginning_to_its_end():
+    assert is_in(((1.0, 3.0), (6.0, 7.0)), np.array([0.5, 1, 2, 3, 4, 7, 8])).tolist() == [0, 0, 1, 1, 0, 1, 0]
+    assert is_in((), np.array([4.0])).tolist() == [False]
+
+
 def jobs_done(*at_s):
     return [row(kind, s, s, job=n) for n, s in enumerate(at_s) for kind in (CREATE, FINISH)]
 
 
 def test_throughput_counts_scheduled_hours_and_beside_it_those_of_the_calendar():
-    for text, hours in ((FLOOR, 2), (PEOPLE, 5), (NOBODY, 9)):
+    for text, hours in ((ONLY_A, 1), (FLOOR, 5), (NOBODY, 9)):
         p = plan(text)
         values = found(made(jobs_done(2 * H, 3 * H, 4 * H), p), p)
         assert values["throughput_per_h", "", ""] == 3 / hours
@@ -69,10 +100,17 @@ def test_throughput_counts_scheduled_hours_and_beside_it_those_of_the_calendar()
 def test_takt_is_scheduled_time_over_demand_and_nights_are_no_gap():
     p = plan(PEOPLE.replace("every: 60 s", "every: 60 s, shift: early"))
     values = found(made(jobs_done(4 * H - 20, 4 * H - 10), p), p)
-    assert values["takt_s", "", ""] == 60
+    assert values["takt_s", "", ""] == 100  # 180 jobs come in 3 h, and the floor has 5 h for them
     p = plan(PEOPLE)  # jobs come for 10 h, and are made in 5 h
     values = found(made(jobs_done(4 * H - 10, 6 * H + 10, 6 * H + 50), p), p)
     assert values["takt_s", "", ""] == 30 and values["takt_attainment", "", ""] == 0.5
+
+
+def test_what_leaves_outside_the_hours_keeps_no_takt():
+    p = plan(PEOPLE)
+    values = found(made(jobs_done(4 * H - 40, 4 * H - 9, 4 * H + 300, 5 * H, 6 * H + 10), p), p)
+    assert values["takt_s", "", ""] == 30 and values["takt_attainment", "", ""] == 0.5  # gaps of 31 s and 10 s
+    assert np.isnan(found(made(jobs_done(4 * H + 300, 5 * H), p), p)["takt_attainment", "", ""])
 
 
 OFF_ROWS = [row(OFF, 0, 3 * H, station=0), row(OFF, 5 * H, 10 * H, station=0)]

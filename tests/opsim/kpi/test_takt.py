@@ -36,3 +36,29 @@ def test_what_leaves_a_queue_is_poisson_too():
     share = {f.kpi: f.value for f in takt(run_plan(p), p)}["takt_attainment"]
     expected = 1 - exp(-1)
     assert share == pytest.approx(expected, abs=4 * sqrt(expected * (1 - expected) / (11000 / 1.25)))
+
+
+MORNING = """
+opsim: 1
+name: a source with hours
+run: {start: Mon 06:00, horizon: 6 h}
+layout: {places: {here: [0 m, 0 m]}}
+shifts: {morning: {from: 06:00, to: 07:00}, day: {from: 06:00, to: 12:00}}
+tasks: {weld: {fixed: 5 min}}
+stations: {s1: {at: here, tasks: [weld]}}
+products: {part: {route: [s1]}}
+release: {kind: renewal, every: {fixed: 1 min}, shift: morning}
+workers: {ana: {shift: day, skills: {s1: 1.0}}}
+"""
+
+
+def test_the_hours_in_which_the_floor_works_are_there_for_what_came_in_an_hour():
+    """60 jobs come in the first of 6 hours; one every 6 min would do, and one leaves every 5 min."""
+    p = plan(MORNING)
+    found = {f.kpi: f.value for f in takt(run_plan(p), p)}
+    assert found == {"takt_s": pytest.approx(360), "takt_attainment": 1}
+
+
+def test_gaps_longer_than_takt_miss_it_long_after_the_last_job_came():
+    p = plan(MORNING.replace("fixed: 5 min", "fixed: 7 min"))
+    assert {f.kpi: f.value for f in takt(run_plan(p), p)} == {"takt_s": pytest.approx(360), "takt_attainment": 0}

@@ -13,6 +13,13 @@ def test_the_summary_gives_each_figure_with_its_interval():
     assert certainty.startswith("20 replications, counted from Mon 06:30 to Mon 14:00; in brackets the 95 %")
 
 
+def test_where_hours_are_kept_and_stock_lies_the_first_sentence_says_so():
+    rows = [*summary()["kpis"], kpi("stock", "shelf", unit="jobs")]
+    first = sentences(summary(kpis=rows, scheduled_h=6.5))[0]
+    assert first.startswith("60.1 (59.1 to 61.1) jobs per scheduled hour are finished")
+    assert first.endswith("are inside on average, stock included.")
+
+
 def test_one_replication_is_said_to_prove_nothing():
     alone = [kpi("throughput_per_h", unit="1/h", mean=60.0, half_width=None, n=1)]
     first, certainty = sentences(summary(kpis=alone, replications=1))

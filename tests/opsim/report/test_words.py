@@ -6,6 +6,16 @@ from tests.made_result import kpi
 
 def test_throughput_says_of_what():
     assert kpi_name("throughput_per_h") == "Throughput (good units)"
+    assert kpi_name("throughput_per_h", hours=True) == "Throughput (good units), per scheduled hour"
+    assert kpi_name("time_in_system_s", hours=True) == kpi_name("time_in_system_s")
+
+
+@pytest.mark.parametrize("half_width", [0.0, 3e-17])
+def test_an_interval_of_no_width_is_written_in_one_way_whatever_rounding_left_of_it(half_width):
+    assert plus_minus(kpi("x", unit="share", mean=0.26, half_width=half_width)) == "26.00 ± 0 %"
+    cells = interval_cells(kpi("x", unit="share", mean=0.26, half_width=half_width))
+    assert (cells["mean"], cells["interval"]) == ("26.00", "26.00 to 26.00")
+    assert plus_minus(kpi("x", unit="share", mean=0.0, half_width=0.0)) == "0 ± 0 %"
 
 
 @pytest.mark.parametrize(

@@ -74,6 +74,7 @@ CASES = [
     ("list", ("{quality: 0.99}", "[1.0]"), ["ana.skills.back: expected a number, found"]),
     ("share station", ("with: back", "with: bak"), ["front.share.with: no station 'bak'", "did you mean 'back'?"]),
     ("share itself", ("with: back", "with: front"), ["front shares work with itself"]),
+    ("all shared", ("[base, lid]", "[lid]"), ["'lid' is the only task of front", "give front a task before it"]),
     ("share task", ("{tasks: [lid]", "{tasks: [lit]"), ["front.share.tasks[0]: no task 'lit'"]),
     (
         "share first",

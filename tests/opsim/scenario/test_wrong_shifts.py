@@ -196,3 +196,43 @@ def test_defaults_and_likes_hold_for_shifts():
         ["early", "late", "night"], "hand_over"
     )
     assert scenario.shifts["late"].overtime.most_s == 7200
+
+
+@pytest.mark.parametrize(("old", "new", "answer"), [
+    ("shift: night}", "shift: [night, night]}",
+     "16: workers.ben.shift: 'night' follows itself, week by week | write night alone"),
+    ("most: 2 h", "most: 30 h",
+     "7: shifts.early.overtime.most: must be at most 24 h, found 30 h | give it in hours, such as 2 h"),
+    ("shift: night}", "shift: night, absence: 5 %}",
+     "16: workers.ben.absence: expected a probability, found '5 %' | write 0.05"),
+    ("from: 22:00, to", "from: 10 pm, to",
+     "9: shifts.night.from: expected a time of the day, found '10 pm' | write 22:00"),
+    ("from: 22:00, to", "from: 12:30am, to",
+     "9: shifts.night.from: expected a time of the day, found '12:30am' | write 00:30"),
+    ("days: [Mon, Tue]", "days: [Mon, Tues, 3]",
+     "7: shifts.early.days[1]: expected a day of the week, found 'Tues' | did you mean 'Tue'?\n"
+     "7: shifts.early.days[2]: expected a day of the week, found 3 | days: Mon, Tue, Wed, Thu, Fri, Sat, Sun"),
+    ("late: {like: early, from: 14:00, to: 22:00}", "late: {like: erly}",
+     "8: shifts.late.like: no 'erly' among the shifts | did you mean 'early'?"),
+    ("late: {like: early, from: 14:00, to: 22:00}", "late: [14:00, 22:00]",
+     "8: shifts.late: expected a block of keys, found a list of 2 | such as {from: 06:00, to: 14:00}"),
+    ("breaks: {meal: {at: 02:00, lasts: 30 min, place: canteen}}", "breaks: [02:00]",
+     "9: shifts.night.breaks: expected a block of names, found a list of 1 | such as {lunch: {at: '11:00', "
+     "lasts: 30 min}}, or remove the line"),
+    ("shift: night}", "shift: night, floater: maybe}",
+     "16: workers.ben.floater: expected true or false, found 'maybe' | without the line it is false"),
+    ("shift: night}", "shift: night, zone: []}",
+     "16: workers.ben.zone: expected at least one entry, found none | such as [pack, label], or remove the line"),
+    ("shift: night}", "shift: night}\ncrews: []",
+     "17: crews: expected a block of names, found an empty list | such as {line: {kind: bucket_brigade, "
+     "stations: [a, b, c], workers: [slow, fast]}}, or remove the line"),
+    ("shift: night}", "shift: night}\nrotations: {r: {workers: [ana], posts: [s], after: 2.5}}",
+     "17: rotations.r.posts: expected at least 2 entries, found 1 | such as [pack, label, [lift, stack]]\n"
+     "17: rotations.r.after: expected a whole number, found 2.5 | write 2 or 3"),
+])  # fmt: skip
+def test_one_mistake_is_told_once_with_the_way_out(old, new, answer):
+    assert said((old, new)) == answer
+
+
+def test_a_turn_of_weeks_may_name_a_shift_twice_beside_another():
+    assert read(("shift: night", "shift: [night, night, early]")).workers["ben"].shift == ["night", "night", "early"]

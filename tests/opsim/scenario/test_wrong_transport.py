@@ -72,7 +72,8 @@ def test_belts_that_cannot_be(old, new, answer, tmp_path):
     (", legs: [[drill, pack]]", "",
      "9: transporters.truck: 'legs' is missing | add e.g. 'legs: [[drill, paint], [paint, pack]]'"),
     ("[[drill, pack]]", "[]",
-     "9: transporters.truck.legs: expected at least one entry, found none | "),
+     "9: transporters.truck.legs: expected at least one entry, found none | "
+     "such as [[drill, paint], [paint, pack]]"),
     ("[[drill, pack]]", "[[drill, pack]], capacity: 0",
      "9: transporters.truck.capacity: must be at least 1, found 0 | write 1 or more"),
     ("[[drill, pack]]", "[[drill, pack]], roads: [[door, b]]",

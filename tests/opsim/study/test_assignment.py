@@ -29,8 +29,8 @@ PLAIN = (
 def test_everything_that_decides_who_works_is_said():
     said = [says for _, says in assignment(plan(TEXT))]
     assert len(said) == 6
-    assert said[0].endswith("nobody is free whose own it is: ana (front)")
-    assert said[1] == "ben: sent only where nobody else who is free could go"
+    assert said[0].endswith("nobody whose own it is, and no floater, is free: ana (front)")
+    assert said[1] == "ben: sent only where nobody is free whose own station it is, but before others leave their zones"
     assert said[2].startswith("where jobs of a higher priority call")
     assert said[3].endswith("before the rule: front (2)")
     assert said[4].startswith(

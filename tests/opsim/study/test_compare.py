@@ -82,6 +82,34 @@ def test_the_same_step_in_every_replication_is_certain():
     assert found.verdict == "higher" and found.p == 0 and found.interval.half_width == 0
 
 
+def open_for(hours, **figures):
+    one = made(**figures)
+    return Made({**one.summary, "window_s": [0, 24 * 3600], **hours}, one.table)
+
+
+def test_what_comes_out_per_scheduled_hour_is_not_judged_between_variants_of_other_hours():
+    night = open_for({}, throughput_per_h=[2.3, 2.4, 2.5], throughput_per_calendar_h=[2.3, 2.4, 2.5])
+    days = {"throughput_per_h": [3.0, 3.1, 3.3], "throughput_per_calendar_h": [2.0, 2.1, 2.3]}
+    two, same = (open_for({"scheduled_h": 16}, **days) for _ in range(2))
+    two.summary["kpis"] = two.summary["kpis"][:1]  # nobody asks for the throughput per calendar hour
+    found = compare({"base": two, "night": night, "same": same})
+    assert {(d.variant, d.key[0]): d.verdict for d in found.differences} == {
+        ("night", "throughput_per_h"): "other hours",
+        ("night", "throughput_per_calendar_h"): "higher",
+        ("same", "throughput_per_h"): "identical",
+        ("same", "throughput_per_calendar_h"): "identical",
+    }
+    assert "all comparisons together (1)" in found.words[1]
+    assert "(base 16 h, night 24 h)" in found.words[-1] and "per calendar hour" in found.words[-1]
+
+
+def test_variants_of_the_same_hours_are_judged_per_scheduled_hour():
+    found = compare(
+        {name: open_for({"scheduled_h": 8}, throughput_per_h=v) for name, v in (("base", [1, 2]), ("b", [2, 3]))}
+    )
+    assert [d.verdict for d in found.differences] == ["higher"] and "Other hours" not in "".join(found.words)
+
+
 def test_one_replication_says_nothing_and_nothing_observed_is_said():
     (found,) = compare({"base": made(out=[1.0]), "more": made(out=[2.0])}).differences
     assert found.verdict == "one replication says nothing" and found.interval.mean == 1

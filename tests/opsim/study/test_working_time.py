@@ -60,9 +60,10 @@ def said(*edits):
         (
             [("1 min}", "1 min, shift: all}")],
             "hours",
-            "throughput per hour counts the 16 scheduled hours of the window",
+            "throughput per hour counts the 8 scheduled hours of the window: while at least one station on a route may",
         ),
-        ([], "hours", "throughput per hour counts the 8 scheduled hours of the window"),
+        ([("ben: {shift: day", "ben: {shift: all")], "hours", "throughput per hour counts the 16 scheduled hours"),
+        ([], "hours", "hours of sources do not count"),
     ],
 )
 def test_what_is_assumed_of_hours_is_told(edits, topic, words):

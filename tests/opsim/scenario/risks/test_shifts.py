@@ -34,9 +34,9 @@ def test_shifts_that_are_followed_are_no_risk():
 
 
 @pytest.mark.parametrize(("old", "new", "answer"), [
-    (", shift: day", "", "shift day: nobody and nothing follows it"),
+    (", shift: day", "", "shift day: nobody works in it, and nothing is open by it"),
     ("15 min}}}\n", "15 min}}}\n  late: {like: early}\n  night: {like: early}\n",
-     "shift late and night: nobody and nothing follows them"),
+     "shift late and night: nobody works in them, and nothing is open by them"),
     ("shift: day", "shift: [day, early]", None),
     ("to: 15:00", "to: 15:00, meetings: {m: {at: 08:00, lasts: 1 min}}, breaks: {b: {at: 12:00, lasts: 1 h}}",
      "shift day: its breaks and meetings are for people, and no worker follows it; a station closes over noon where it "
@@ -44,3 +44,8 @@ def test_shifts_that_are_followed_are_no_risk():
 ])  # fmt: skip
 def test_shifts_without_use_are_told(old, new, answer):
     assert risks((old, new)) == ([answer] if answer else [])
+
+
+def test_a_shift_that_ends_when_it_begins_is_told_to_last_a_day():
+    assert risks(("to: 15:00", "to: 07:00")) == ["shift day: it ends when it begins (07:00), which is 24 h later"]
+    assert risks(("from: 07:00, to: 15:00", "from: 00:00, to: 24:00")) == []
