@@ -1,7 +1,7 @@
 """Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round."""
 
 from opsim.engine.simpy_engine.floor import Floor, pair_key
-from opsim.engine.simpy_engine.state import Job, Station, Worker
+from opsim.engine.simpy_engine.state import CREWS, Job, Station, Worker
 from opsim.engine.simpy_engine.station import call_off, perform
 from opsim.engine.simpy_engine.worker import log_worker, walk
 
@@ -99,7 +99,7 @@ def on_round(worker: Worker, station: Station) -> bool:
 
 
 def _go_home(floor: Floor) -> None:
-    away = [w for w in floor.free.values() if w.place != w.plan.place and "crews" not in w.limits]
+    away = [w for w in floor.free.values() if w.place != w.plan.place and CREWS not in w.limits]
     for worker in away:
         metres = floor.plan.distance_m[worker.place][worker.plan.place]
         if metres > 0:

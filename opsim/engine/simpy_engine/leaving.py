@@ -14,13 +14,10 @@ from opsim.engine.simpy_engine.floor import Floor, progress
 from opsim.engine.simpy_engine.interruption import call_again, forget_progress, interrupt
 from opsim.engine.simpy_engine.members import disband
 from opsim.engine.simpy_engine.relief import Reliefs
-from opsim.engine.simpy_engine.state import Job, Worker
+from opsim.engine.simpy_engine.state import CREWS, Job, Worker
 from opsim.engine.simpy_engine.ties import Ties
 from opsim.engine.simpy_engine.worker import set_free
 from opsim.log import AWAY, HELD, NO_TOOL, NO_WORKER, SETUP, TRANSPORT, WAIT, WALK, WORK
-
-CREWS = "crews"
-"""The block whose members' jobs wait for nobody: whoever comes along the line goes on."""
 
 
 class Leaving:

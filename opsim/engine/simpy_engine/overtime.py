@@ -4,10 +4,9 @@ from dataclasses import dataclass
 
 from opsim.engine.simpy_engine.andon import LINES
 from opsim.engine.simpy_engine.floor import Floor
-from opsim.engine.simpy_engine.leaving import CREWS
 from opsim.engine.simpy_engine.presence import DUTY
 from opsim.engine.simpy_engine.reach import Reach, held_up, lasts
-from opsim.engine.simpy_engine.state import OUTSIDE, Job, Station, Worker
+from opsim.engine.simpy_engine.state import CREWS, OUTSIDE, Job, Station, Worker
 from opsim.engine.simpy_engine.ties import Ties
 from opsim.log import HELD
 from opsim.plan.calendar import next_open

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from opsim.engine.simpy_engine.floor import Floor
     from opsim.engine.simpy_engine.setup import Servers
 
+CREWS = "crews"
+"""The limit of who is in a crew: his crew alone sends him."""
 GOES_ON = -1
 """The ``stage`` of a job that lost its server in the middle of a task, and goes on there when it is seated again."""
 

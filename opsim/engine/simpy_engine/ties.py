@@ -5,7 +5,7 @@ from bisect import insort
 from opsim.engine.simpy_engine.allocation import send
 from opsim.engine.simpy_engine.floor import Floor, pair_key
 from opsim.engine.simpy_engine.interruption import call_again
-from opsim.engine.simpy_engine.state import Claim, Job, Station, Worker, claim_of
+from opsim.engine.simpy_engine.state import CREWS, Claim, Job, Station, Worker, claim_of
 from opsim.engine.simpy_engine.worker import hold, set_free
 from opsim.log import HELD
 
@@ -32,7 +32,7 @@ class Ties:
         set_free(floor, worker)
         if job.plan.carried and not _is_fetched(floor, job):
             job.gate.claims = [claim for claim in job.gate.claims if claim[3] is not job]
-            if "crews" not in worker.limits:  # else whoever of his crew comes to it carries it on
+            if CREWS not in worker.limits:  # else whoever of his crew comes to it carries it on
                 self.job_of[worker.rank] = job
 
     def untie(self, _floor: Floor, job: Job, _station: Station) -> None:
