@@ -12,7 +12,8 @@ LONG = {
     *(("gershwin", variant) for variant in ("n10", "n20", "uneven", "infinite")),
     *(("base_stock", "base"), ("priorities", "restart"), ("priorities", "shortest"), ("batches", "eight")),
     *(("kitting", "uneven"), ("interrupted", "in_use_spread"), ("transfer_line", "k10")),
-    *(("polling", "limited"), ("mmc", "two_servers")),
+    *(("polling", "limited"), ("mmc", "two_servers"), ("mmc", "eight_servers"), ("priorities", "resume")),
+    ("interrupted", "any_time"),
 }
 """Need more replications than there is time for here: ``make known-answers`` alone simulates them."""
 HERE = [case for case in CASES if (case.file, case.variant) not in LONG]
