@@ -6,6 +6,7 @@ from opsim.engine.simpy_engine import run_plan
 from opsim.laws import audit
 from opsim.log import EventLog
 from opsim.plan import Plan, compile_plan
+from opsim.problems import ScenarioError
 from opsim.scenario.read import Loaded, scenarios_in
 
 HERE = Path(__file__).parent
@@ -28,6 +29,18 @@ def ran(text: str, *edits: tuple[str, str]) -> tuple[EventLog, Plan]:
     log = run_plan(made)
     audit(log, made)
     return log, made
+
+
+def answer(text: str, *edits: tuple[str, str]) -> str:
+    """What is said of a scenario in which some words, each there once, are replaced; "good" where nothing is wrong."""
+    for old, new in edits:
+        assert text.count(old) == 1, (old, text.count(old))
+        text = text.replace(old, new)
+    try:
+        scenarios_in(text.encode(), Path("line.yaml"))
+    except ScenarioError as error:
+        return str(error)
+    return "good"
 
 
 def line(

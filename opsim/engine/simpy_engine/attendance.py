@@ -71,7 +71,7 @@ class Attendance:
         one.overtime = one.undecided = False
         worker.restrict(DUTY, 0)
         self.watched.add(worker.rank)
-        shift = floor.plan.shifts[one.duty.shift]  # type: ignore[union-attr]
+        shift = floor.plan.shifts[one.shift_on.shift]
         worker.staying = self.leaving.leave(floor, worker, shift.at_end if goes else shift.at_break)
         if worker.rank in floor.free:
             self._go(floor, one)
@@ -135,7 +135,7 @@ class Attendance:
         if floor.stirred:
             return False
         one.undecided = False
-        most_s = floor.plan.shifts[one.duty.shift].overtime_s  # type: ignore[union-attr]
+        most_s = floor.plan.shifts[one.shift_on.shift].overtime_s
         if stays_on(self._is_needed(floor, one), most_s):
             self.be_here(one)
         else:
@@ -144,7 +144,7 @@ class Attendance:
 
     def _is_needed(self, floor: Floor, one: Presence) -> bool:
         """Whether too few of those whose shift it is can do what is left for him to do before his overtime is over."""
-        duty: Duty = one.duty  # type: ignore[assignment]
+        duty = one.shift_on
         until_s = duty.end_s + floor.plan.shifts[duty.shift].overtime_s
         ties = self.leaving.ties
         there = [worker for worker in floor.workers if worker is not one.worker and not self._is_gone(worker.rank)]

@@ -6,7 +6,7 @@ from opsim.engine.rules.duty import is_absent
 from opsim.engine.simpy_engine.attendance import Attendance
 from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.pauses import PAUSE_OVER, end_pause
-from opsim.engine.simpy_engine.presence import BEGIN, DUTY, END, GONE, HERE, LEAVING, PAUSED, Presence, alarm
+from opsim.engine.simpy_engine.presence import BEGIN, DUTY, GONE, HERE, LEAVING, PAUSED, Presence, alarm
 from opsim.engine.simpy_engine.state import Worker
 from opsim.engine.simpy_engine.worker import log_worker, set_free, take_off
 from opsim.log import ABSENT, OFF
@@ -32,10 +32,10 @@ class Calendars:
             _, what, duty, other = one.due
             if what == BEGIN:
                 self._begin(floor, one, duty)
-            elif what == END:
-                self._end(floor, one, duty, other)  # type: ignore[arg-type]
+            elif isinstance(other, Pause):
+                self._owe(floor, one, duty, other)
             else:
-                self._owe(floor, one, duty, other)  # type: ignore[arg-type]
+                self._end(floor, one, duty, other)
             one.due = next(one.to_come, None)
         if one.due is not None:
             alarm(floor, one, one.due[0] - floor.now, 0, CALENDAR_TURNS, (self, one))

@@ -47,6 +47,12 @@ class Presence:
     overtime: bool = False
     undecided: bool = False
 
+    @property
+    def shift_on(self) -> Duty:
+        """The shift of somebody who has one now."""
+        assert self.duty is not None
+        return self.duty
+
 
 def moments(duties: tuple[Duty, ...]) -> Iterator[Moment]:
     """All changes in order of time, on the grid; a shift that the horizon cuts has no end."""
