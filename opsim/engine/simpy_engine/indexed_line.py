@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from opsim.engine.simpy_engine.andon import Andon
 from opsim.engine.simpy_engine.floor import Floor
@@ -72,12 +73,12 @@ class IndexedLine(PacedLine):
                 move_on(floor, job)
         if self.andon is not None:
             call_s = self.clock.now_s(floor.now) + self.plan.call_s
-            self.clock.at(floor, call_s, self.stations[0].rank, TICK, self._call)
+            self.clock.at(floor, call_s, self.stations[0].rank, TICK, partial(self._call, self.andon))
 
-    def _call(self, floor: Floor) -> None:
+    def _call(self, andon: Andon, floor: Floor) -> None:
         for job in self._jobs():
             if job.number not in self.done:
-                self.andon.call(floor, job)  # type: ignore[union-attr]
+                andon.call(floor, job)
 
     def _done_here(self, floor: Floor, job: Job) -> bool:
         """The job stays on its server until the line moves."""

@@ -75,7 +75,7 @@ class MovingLine(PacedLine):
         if self.andon is not None:
             call_s = max(began_s + plan.start_s(at) + plan.call_s, now_s)
             if call_s > now_s:
-                clock.at(floor, call_s, station.rank, job.number, partial(self._call, job, at))
+                clock.at(floor, call_s, station.rank, job.number, partial(self._call, self.andon, job, at))
             else:
                 self.andon.call(floor, job)
         reach_s = began_s + plan.reach_s[at]
@@ -95,9 +95,9 @@ class MovingLine(PacedLine):
                 return
         self.late.add(job.number)
 
-    def _call(self, job: Job, at: int, floor: Floor) -> None:
+    def _call(self, andon: Andon, job: Job, at: int, floor: Floor) -> None:
         if self.open_at.get(job.number) == at:
-            self.andon.call(floor, job)  # type: ignore[union-attr]
+            andon.call(floor, job)
 
     def _done_here(self, floor: Floor, job: Job) -> bool:
         """On to the next station; from the last one the job rides to the end of the line, off its server."""
