@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from opsim.ergonomics.options import USUAL, Options
 from opsim.names import natural_key
 from opsim.plan.assembly import BatchPlan, KitPlan
 from opsim.plan.calendar import ShiftPlan
@@ -9,6 +10,7 @@ from opsim.plan.cards import CardPlan
 from opsim.plan.conveyors import ConveyorPlan
 from opsim.plan.crews import CrewPlan
 from opsim.plan.failures import BreakdownPlan, MaintenancePlan, RepairTeamPlan
+from opsim.plan.human import NO_EFFECTS, HumanPlan
 from opsim.plan.lines import LinePlan
 from opsim.plan.material import ProductPlan
 from opsim.plan.quality import QualityPlan
@@ -44,6 +46,8 @@ class Plan:
              taken; ahead : mean times that their rules look at, where some do
     priorities : what comes before the rule of allocation, in this order: ``stations``, ``products``
     serve : what somebody who patrols does at a station: ``exhaustive`` or ``one``
+    ergonomics : how postures are scored; human : what becomes of people as they work; posture : whether anybody looks
+                 at postures at all
     """
 
     name: str
@@ -86,6 +90,9 @@ class Plan:
     shares: tuple[SharePlan, ...] = ()
     priorities: tuple[str, ...] = ()
     serve: str = "exhaustive"
+    ergonomics: Options = USUAL
+    human: HumanPlan = NO_EFFECTS
+    posture: bool = True
 
     @property
     def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:

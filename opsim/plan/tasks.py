@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from opsim.names import natural_key
+from opsim.plan.handling import NOT_SAID, Handling
 from opsim.plan.setup import setup_tasks
 from opsim.plan.tools import HoldPlan, Needs, hold_of, needs_of
 from opsim.task import TaskModel
@@ -20,6 +21,7 @@ class TaskPlan:
     needs, hold : tools for the whole of the task, and between two moments of each performance
     per_lot : done once for a lot; else for each of its units
     interruption : the rule by which it is left, whatever the shift says; None: the shift's
+    handling : what is in the hands, and what carries the body
     """
 
     name: str
@@ -32,6 +34,7 @@ class TaskPlan:
     hold: HoldPlan | None = None
     per_lot: bool = False
     interruption: str | None = None
+    handling: Handling = NOT_SAID
 
     def mean_s(self, worker=None) -> float:
         """Mean time of all repeats together for one unit, in seconds, of a worker with skill rating 1."""
