@@ -26,6 +26,11 @@ class HumanPlan:
     start_s: float = 0.0
 
     @property
+    def any(self) -> bool:
+        """Whether any effect is on."""
+        return self.changes_times or self.rest is not None or self.errors is not None
+
+    @property
     def changes_times(self) -> bool:
         """Whether any effect acts on the time of a performance."""
         effects = (self.learning, self.forgetting, self.fatigue, self.state_pace, self.circadian)

@@ -12,6 +12,7 @@ def attend(floor: Floor, job: Job, worker: Worker) -> bool:
         return False
     task = station.tasks[job.task_position]
     duration_s, k = (job.rest_s, job.k) if job.rest_s else drawn_run_s(floor, station, task)
+    worker.pace_shift = 0.0
     begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = job.kind, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)

@@ -13,6 +13,7 @@ from opsim.engine.simpy_engine import (
     duty,
     failures,
     hands,
+    humans,
     kits,
     lines,
     opening,
@@ -54,6 +55,7 @@ INSTALL: tuple[Callable[[Floor], None], ...] = (
     duty.install,
     crews.install,
     rotations.install,
+    humans.install,
 )
 """Each looks at its own part of the plan, and does nothing where that is empty."""
 

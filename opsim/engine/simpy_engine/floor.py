@@ -42,6 +42,7 @@ class Floor:
     helping      : who helps others at their work, where somebody may be called to; called : by the rank of a worker
                    who is on his way because he was called to a job that others may be at, who called him
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
+    humans       : of each worker, what becomes of him as he works; empty where no effect is on
     prefix       : of a worker, a station and the job that calls there: what comes before the rule's own key
     """
 
@@ -85,6 +86,7 @@ class Floor:
         self.called: dict[int, Any] = {}
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.prefix: Callable[[Worker, Station, Job], tuple[float, ...]] | None = None
+        self.humans: tuple[Any, ...] = ()
         self.now = 0.0
         self.n_performances = 0
         self._reports: list[tuple] = []
@@ -160,7 +162,7 @@ class Floor:
             to = 1.0 if now - start_s == job.duration_s else progress(job, now)
             self.write(pack_row(
                 kind, start_s, now, job.worker, station, -1, -1, job.source, number, product, operation,
-                job.task, job.performance_id, job.k, job.progress_from, to, 0.0, 0,
+                job.task, job.performance_id, job.k, job.progress_from, to, job.pace_shift, 0,
             ))  # fmt: skip
         else:
             self.write(pack_row(

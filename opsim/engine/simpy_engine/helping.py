@@ -35,7 +35,11 @@ class Helping:
         self.slower[job.number] = alone_s / rest_s
         _go_on_at_another_pace(floor, job, done, rest_s)
         number = _another(floor)
-        worker.stint = Stint(station.rank, job.product, job.operation_rank, job.task, number, k, rest_s, done)
+        worker.stint = Stint(
+            station.rank, job.product, job.operation_rank, job.task, number, k, rest_s, done, worker.pace_shift
+        )
+        if floor.humans:
+            floor.humans[worker.rank].works(now, job.task, now + rest_s)
         worker.job, worker.station = job, station
         worker.kind, worker.since_s = WORK, now
         job.team = [worker]
@@ -79,6 +83,8 @@ def _go_on_at_another_pace(floor: Floor, job: Job, done: float, rest_s: float) -
     job.performance_id = _another(floor)
     stop(floor, worker)
     worker.since_s = floor.now
+    if floor.humans:
+        floor.humans[worker.rank].works(floor.now, job.task, floor.now + rest_s)
     floor.at_end_of(rest_s, worker.stretch_over)
 
 

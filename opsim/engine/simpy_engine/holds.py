@@ -59,6 +59,8 @@ class Holds:
         attended = floor.plan.tasks[station.tasks[job.task_position]].attended
         if doing is not None and (doing.worker is worker or attended) and (job.rest_s or not doing.begun):
             doing.worker = worker
+            if attended:
+                worker.pace_shift = 0.0
             if doing.begun:
                 doing.pass_by(doing.left_s - job.rest_s)
         else:
@@ -117,6 +119,8 @@ class Holds:
             job.rest_s, job.progress_from = doing.left_s, done
             if job.station.meter is not None:
                 job.station.meter.end(floor)
+            if floor.humans:
+                floor.humans[doing.worker.rank].stops(floor.now)
         wait_by(floor, doing.worker, NO_TOOL)
 
     def _given(self, floor: Floor, job: Job, doing: Doing) -> None:
@@ -138,11 +142,13 @@ class Holds:
         plan = floor.plan.tasks[task]
         if plan.attended:
             luck, k, rating = self._of("station", floor, task, station.rank), station.next_k.get(task, 0), 1.0
-            station.next_k[task] = k + 1
+            station.next_k[task], worker.pace_shift = k + 1, 0.0
         else:
             luck, k = self._of("worker", floor, task, worker.rank), worker.next_k[task]
             worker.next_k[task], rating = k + 1, worker.rating[station.rank]
         drawn_s, start, end = next(luck)
+        if worker.human is not None and not plan.attended:
+            drawn_s = worker.human.drawn(floor, station, task, k, drawn_s)
         whole_s = on_grid(drawn_s / rating)
         left_s = on_grid(whole_s * (1.0 - job.progress_from)) if job.rest_s else whole_s
         start_s, end_s = (round(share * whole_s * TICKS_PER_S) / TICKS_PER_S for share in (start, end))

@@ -205,7 +205,7 @@ class Job:
     step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
                       ``gate`` is in front of the operation
     task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
-    worker .. duration_s : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
+    worker .. pace_shift : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
     progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
     over            : the end of an automatic run under way
     stage           : how many of the station's preparations are done
@@ -235,6 +235,7 @@ class Job:
     performance_id: int = -1
     k: int = -1
     duration_s: float = 0.0
+    pace_shift: float = 0.0
     held_by: Worker | None = None
     visits: dict[int, int] | None = None
     progress_from: float = 0.0
@@ -326,6 +327,7 @@ class Worker:
     stint    : his part of a team's performance under way, which has a row of its own
     going    : whether he goes off shift as soon as he is done with what he is at
     staying  : the job whose tasks at its station he does to the end before he goes
+    human    : the effects on him (``humans.Human``); pace_shift : by how much they shifted the log time he drew last
     """
 
     plan: WorkerPlan
@@ -350,6 +352,8 @@ class Worker:
     stint: Any = None
     going: bool = False
     staying: Job | None = None
+    human: Any = None
+    pace_shift: float = 0.0
     limits: dict[str, int] = field(default_factory=dict)
 
     def restrict(self, block: str, stations: int | None) -> None:

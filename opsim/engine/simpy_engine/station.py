@@ -186,7 +186,10 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
             luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
         k = worker.next_k[task]
         worker.next_k[task] = k + 1
-        duration_s = on_grid(next(luck) / worker.rating[station.rank])
+        time_s = next(luck)
+        if worker.human is not None:
+            time_s = worker.human.drawn(floor, station, task, k, time_s)
+        duration_s = on_grid(time_s / worker.rating[station.rank])
     begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = job.kind, floor.now
     floor.at_end_of(duration_s, worker.stretch_over)
@@ -207,7 +210,10 @@ def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> tuple[
         luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
     k = worker.next_k[task]
     worker.next_k[task] = k + 1
-    return on_grid(next(luck) / worker.rating[station.rank]), k
+    time_s = next(luck)
+    if worker.human is not None:
+        time_s = worker.human.drawn(floor, station, task, k, time_s)
+    return on_grid(time_s / worker.rating[station.rank]), k
 
 
 def run_automatic(floor: Floor, station: Station, job: Job) -> None:
@@ -247,6 +253,9 @@ def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: fl
     if not job.rest_s or job.worker != worker or job.k != k:  # a rest by the same performer is the same performance
         job.performance_id = floor.n_performances
         floor.n_performances += 1
+        job.pace_shift = floor.workers[worker].pace_shift if worker >= 0 else 0.0
+    if floor.humans and worker >= 0:
+        floor.humans[worker].works(now, task, now + duration_s)
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
     station = job.station
     if station.meter is not None:

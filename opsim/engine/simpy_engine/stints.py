@@ -22,6 +22,7 @@ class Stint:
     k: int
     duration_s: float
     progress_from: float
+    pace_shift: float = 0.0
 
     def log(self, floor: Floor, worker: Worker) -> None:
         """Write the part until now, which began when the worker's state did; it names no job."""
@@ -30,5 +31,5 @@ class Stint:
         to = 1.0 if done == 1.0 else self.progress_from + (1.0 - self.progress_from) * done
         floor.write(pack_row(
             WORK, start_s, now, worker.rank, self.station, -1, -1, -1, -1, self.product, self.operation,
-            self.task, self.performance_id, self.k, self.progress_from, to, 0.0, 0,
+            self.task, self.performance_id, self.k, self.progress_from, to, self.pace_shift, 0,
         ))  # fmt: skip

@@ -142,14 +142,17 @@ class Teams:
         share, start = (1.0 - job.progress_from, job.progress_from) if job.rest_s else (1.0, 0.0)
         run = drawn_run_s(floor, station, task) if floor.plan.tasks[task].attended else None
         times = [run or drawn_s(floor, station, worker, task) for worker in team]
+        shifts = [0.0 if run else worker.pace_shift for worker in team]
         seconds = [on_grid(whole_s * share) if share < 1 else whole_s for whole_s, _ in times]
         begin(floor, job, -1, task, -1, max(seconds))
         self.of[job.number].working = len(team)
-        for worker, part_s, (_, k) in zip(team, seconds, times):
+        for worker, part_s, (_, k), shift in zip(team, seconds, times, shifts):
             log_worker(floor, worker)
             worker.stint = Stint(
-                station.rank, job.product, job.operation_rank, task, floor.n_performances, k, part_s, start
+                station.rank, job.product, job.operation_rank, task, floor.n_performances, k, part_s, start, shift
             )
+            if floor.humans:
+                floor.humans[worker.rank].works(floor.now, task, floor.now + part_s)
             floor.n_performances += 1
             worker.kind, worker.since_s = WORK, floor.now
             floor.at_end_of(part_s, worker.stretch_over)

@@ -29,6 +29,8 @@ def working_life(floor: Floor, worker: Worker) -> Generator[simpy.Event, None, N
 def stop(floor: Floor, worker: Worker) -> None:
     """The stretch under way means nothing any more, and the worker is given another event to wait for."""
     worker.stretch_over = simpy.Event(floor.env)
+    if worker.human is not None:
+        worker.human.stops(floor.now)
     process = worker.process
     if process is not None and process is not floor.env.active_process:
         process.interrupt()

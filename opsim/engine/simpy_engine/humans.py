@@ -1,0 +1,73 @@
+"""What becomes of people as they work: each effect hangs in at a worker, and is asked where his next time is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import exp
+from typing import Protocol
+
+from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.state import Station, Worker
+
+Effect = Callable[[Floor, Worker, Station, int, int], float]
+"""Of a worker's k-th performance of a task at a station, which begins now: a factor, or a shift of its log time."""
+
+
+class Told(Protocol):
+    """Who is told what a worker does. Between he rests: he waits, walks, has a break or is off."""
+
+    def works(self, now: float, task: int, until_s: float) -> None: ...
+    def stops(self, now: float) -> None: ...
+
+
+class Human:
+    """The effects on one worker.
+
+    shifts  : of log time; posture follows them, where they act on it (``pace_shift``), else they are factors
+    factors : of time alone
+    told    : who is told when he works, and when he is broken off
+    """
+
+    __slots__ = ("factors", "on_posture", "shifts", "told", "worker")
+
+    def __init__(self, worker: Worker, on_posture: bool):
+        self.worker, self.on_posture = worker, on_posture
+        self.shifts: list[Effect] = []
+        self.factors: list[Effect] = []
+        self.told: list[Told] = []
+
+    def drawn(self, floor: Floor, station: Station, task: int, k: int, drawn_s: float) -> float:
+        """His own next time as it is now; neutral effects leave its bits alone."""
+        worker, shift = self.worker, 0.0
+        for effect in self.shifts:
+            shift += effect(floor, worker, station, task, k)
+        for effect in self.factors:
+            drawn_s *= effect(floor, worker, station, task, k)
+        worker.pace_shift = shift if self.on_posture else 0.0
+        return drawn_s * exp(shift)
+
+    def works(self, now: float, task: int, until_s: float) -> None:
+        """He works on a task from now, until then if nothing comes between."""
+        for told in self.told:
+            told.works(now, task, until_s)
+
+    def stops(self, now: float) -> None:
+        """What he worked on is broken off, or waits for something."""
+        for told in self.told:
+            told.stops(now)
+
+
+INSTALL: tuple[Callable[[Floor], None], ...] = ()
+"""Each looks whether its effect is on, and hangs it on ``floor.humans``."""
+
+
+def install(floor: Floor) -> None:
+    """A human side for every worker, where any effect is on."""
+    plan = floor.plan.human
+    if not plan.any:
+        return
+    floor.humans = tuple(Human(worker, plan.acts_on == "posture") for worker in floor.workers)
+    for worker, human in zip(floor.workers, floor.humans):
+        worker.human = human
+    for effect in INSTALL:
+        effect(floor)
