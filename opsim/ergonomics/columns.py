@@ -12,10 +12,18 @@ arm elevation is always against gravity; the rest as ``angles.py``. Neck flexion
 LENGTHS = (
     *("left_elbow_above_m", "right_elbow_above_m"),
     *("left_across_m", "right_across_m", "left_outside_m", "right_outside_m"),
-    *("left_hand_up_m", "right_hand_up_m", "hands_forward_m", "left_ankle_up_m", "right_ankle_up_m", "pelvis_up_m"),
+    *(
+        "left_hand_up_m",
+        "right_hand_up_m",
+        "hands_forward_m",
+        "hands_left_m",
+        "left_ankle_up_m",
+        "right_ankle_up_m",
+        "pelvis_up_m",
+    ),
 )
 """Metres: elbow above its shoulder; hand beyond the midline, and outside its own shoulder, both in the trunk's frame;
-hands above the floor (the lowest foot), the middle of the hands forward of the middle of the ankles (level); ankles and
-pelvis above the floor."""
+hands above the floor (the lowest foot), the middle of the hands forward and to the left of the middle of the ankles, in
+the body's frame (level); ankles and pelvis above the floor. The wrist stands for a hand that is missing."""
 COLUMNS = (*ANGLES, *LENGTHS)
 AT = {name: place for place, name in enumerate(COLUMNS)}
