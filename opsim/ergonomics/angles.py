@@ -84,8 +84,7 @@ def upper_arm_angles(positions_m: np.ndarray, names: Sequence[str], reference: s
     u is the unit vector from shoulder to elbow, in the trunk's frame or (reference "gravity") in the body's, whose z is
     up: arms that hang in a stoop are flexed by it against the trunk and not at all against gravity.
     """
-    if reference not in REFERENCES:
-        raise ValueError(f"no reference {shown(reference)} for arms; {did_you_mean(reference, REFERENCES)}")
+    check_reference(reference)
     frame = (trunk_frame if reference == "trunk" else body_frame)(positions_m, names)[..., None, :, :]
     shoulder, elbow = (both_sides_m(positions_m, names, joint) for joint in ("shoulder", "elbow"))
     u = in_frame(frame, unit(elbow - shoulder))
@@ -93,6 +92,12 @@ def upper_arm_angles(positions_m: np.ndarray, names: Sequence[str], reference: s
     down = u * np.array([1.0, 1.0, -1.0])
     elevation_rad = np.arctan2(np.hypot(u[..., 0], u[..., 1]), down[..., 2])
     return UpperArmAngles(_forward(down), abduction_rad, elevation_rad, np.abs(abduction_rad) > SINGULAR_RAD)
+
+
+def check_reference(reference: str) -> None:
+    """Raises ValueError, with the nearest word, for what arms are not measured against."""
+    if reference not in REFERENCES:
+        raise ValueError(f"no reference {shown(reference)} for arms; {did_you_mean(reference, REFERENCES)}")
 
 
 def neck_angles(positions_m: np.ndarray, names: Sequence[str], neutral_rad: float = 0.0) -> NeckAngles:
