@@ -1,0 +1,125 @@
+"""What shifts cost in energy: postures, lifts and lowers, holding, walking, by Garg, Chaffin & Herrin 1978.
+
+Not seen are work of the arms without a load, which widens the figure (none to light work of both arms), tools, pushing
+and pulling, and loads that nobody told. Who walks within a task walks at his own speed. Whose sex is not said has the
+range of both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from opsim.ergonomics.columns import AT
+from opsim.ergonomics.garg import (
+    ARM_WORK_KCAL_PER_MIN,
+    POSTURES,
+    holding_kcal_per_min,
+    moved_kcal,
+    walking_kcal_per_min,
+)
+from opsim.ergonomics.lifts import Lifted, Lifts, loads_kg
+from opsim.ergonomics.stepping import stepping
+from opsim.ergonomics.strength import MASS_KG
+from opsim.ergonomics.stretch import Frames
+from opsim.plan import Plan
+
+BENT_DEG = 20.0
+"""Trunk flexion from which one stands bent. Source: design; the paper says "standing bent position"."""
+SQUAT_DEG = 60.0
+"""Bend of the knees at the lower end from which a lift is a squat and not a stoop. Source: design."""
+SEXES = {"m": (1.0, 1.0), "f": (0.0, 0.0)}
+"""The paper's number of a sex, at least and at most."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Energy:
+    """Of W workers: (W, 2) kcal at least and at most of the time they were there and in no break, (W,) minutes of it;
+    (W,) kcal and minutes of breaks, taken as sitting."""
+
+    work_kcal: np.ndarray
+    work_min: np.ndarray
+    break_kcal: np.ndarray
+    break_min: np.ndarray
+
+    @property
+    def kcal_per_min(self) -> np.ndarray:
+        """(W, 2) over all the time they were there; nan for who never was."""
+        return (self.work_kcal + self.break_kcal[:, None]) / _or_nan(self.work_min + self.break_min)[:, None]
+
+    @property
+    def work_kcal_per_min(self) -> np.ndarray:
+        """(W, 2) breaks aside."""
+        return self.work_kcal / _or_nan(self.work_min)[:, None]
+
+
+class Spent:
+    """A fold over workers' days: seconds bent and seated, kilograms held, ways within tasks, free arms, lifts.
+
+    bent_s, sitting_s, free_s : (W,) seconds; free_s of standing work without a load
+    kg_s     : (W,) seconds of standing with a load in the hands, times its kilograms
+    walked_s : (W, tasks, 2) seconds of walking within a task, without and with its load
+    """
+
+    def __init__(self, plan: Plan):
+        n, n_tasks = len(plan.workers), len(plan.tasks)
+        self._loads_kg = np.r_[loads_kg(plan), 0.0, 0.0]
+        self._sits = np.array([*(task.handling.sitting is True for task in plan.tasks), False, False])
+        self._lifted = Lifted(plan)
+        self.bent_s, self.sitting_s, self.kg_s, self.free_s = (np.zeros(n) for _ in range(4))
+        self.walked_s = np.zeros((n, n_tasks, 2))
+
+    def add(self, frames: Frames, scores: Any = None) -> None:
+        """The next stretch."""
+        rank, seconds, sits = frames.worker, frames.seconds, self._sits[frames.task]
+        bent = frames.measures[:, AT["trunk_flexion"]] >= BENT_DEG
+        held_kg = np.where(frames.carrying, self._loads_kg[frames.task], 0.0)
+        self.bent_s[rank] += seconds[bent & ~sits].sum()
+        self.sitting_s[rank] += seconds[sits].sum()
+        works = frames.task >= 0
+        walks = works & ~sits & stepping(frames.measures, frames.start_s, seconds)
+        np.add.at(self.walked_s[rank], (frames.task[walks], (held_kg[walks] > 0).astype(int)), seconds[walks])
+        self.kg_s[rank] += seconds[~walks] @ held_kg[~walks]
+        self.free_s[rank] += seconds[(held_kg <= 0) & works & ~walks].sum()
+        self._lifted.add(frames)
+
+    def lifts(self) -> Lifts:
+        """All lifts and lowers."""
+        return self._lifted.lifts()
+
+
+def energy(spent: Spent, there_s: np.ndarray, break_s: np.ndarray, walk_s: np.ndarray, plan: Plan) -> Energy:
+    """The energy of each of W workers, from what his body did and how long, (W,) each, he was there, in a break, and
+    walking."""
+    mass = np.array([MASS_KG if one.body.mass_kg is None else one.body.mass_kg for one in plan.workers], float)
+    speed = np.array([one.walk_m_per_s for one in plan.workers], float)
+    work_s = np.maximum(there_s - break_s, 0.0)
+    standing_s = np.maximum(work_s - spent.bent_s - spent.sitting_s, 0.0)
+    times_s = {"standing": standing_s, "bent": spent.bent_s, "sitting": spent.sitting_s}
+    posture = mass * sum(POSTURES[name] * seconds / 60.0 for name, seconds in times_s.items())
+    moving = walking_kcal_per_min(mass, speed) * (walk_s + spent.walked_s[:, :, 0].sum(axis=1)) / 60.0
+    loaded = walking_kcal_per_min(mass[:, None], speed[:, None], loads_kg(plan)) * spent.walked_s[:, :, 1] / 60.0
+    moving = moving + loaded.sum(axis=1) + holding_kcal_per_min(spent.kg_s) / 60.0
+    arms = ARM_WORK_KCAL_PER_MIN["light"] * spent.free_s / 60.0
+    kcal = (posture + moving)[:, None] + lifting_kcal(spent.lifts(), plan) + np.stack([0.0 * arms, arms], axis=1)
+    return Energy(kcal, work_s / 60.0, mass * POSTURES["sitting"] * break_s / 60.0, break_s / 60.0)
+
+
+def lifting_kcal(lifts: Lifts, plan: Plan) -> np.ndarray:
+    """(W, 2) net kcal of each worker's lifts and lowers, at least and at most over what his sex may be."""
+    load_kg, found = loads_kg(plan)[lifts.task], np.zeros((len(plan.workers), 2))
+    lower = np.take_along_axis(lifts.knee_deg, lifts.height_m.argmin(axis=1)[:, None], axis=1)[:, 0]
+    for rank, worker in enumerate(plan.workers):
+        own = lifts.worker == rank
+        mass = MASS_KG if worker.body.mass_kg is None else worker.body.mass_kg
+        squat, sexes = lower[own] >= SQUAT_DEG, SEXES.get(worker.body.sex or "", (0.0, 1.0))
+        taken_m, let_go_m = lifts.height_m[own].T
+        by_sex = [moved_kcal(mass, load_kg[own], taken_m, let_go_m, sex, squat) for sex in sexes]
+        found[rank] = np.minimum(*by_sex).sum(), np.maximum(*by_sex).sum()
+    return found
+
+
+def _or_nan(minutes: np.ndarray) -> np.ndarray:
+    return np.where(minutes > 0, minutes, np.nan)

@@ -1,0 +1,119 @@
+"""Energy that work costs, and the rest that it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from opsim.ergonomics.energy import Energy, Spent, energy
+from opsim.ergonomics.hold_shares import hold_share
+from opsim.ergonomics.rest_allowance import (
+    STANDARD_KCAL_PER_MIN,
+    murrell_rest_share,
+    of_whole,
+    price_relaxation,
+    rohmert_rest_share,
+)
+from opsim.ergonomics.still import Still
+from opsim.kpi.duty import present_s
+from opsim.kpi.figure import Figure
+from opsim.kpi.values import inside_s
+from opsim.log import BREAK, WALK, EventLog
+from opsim.plan import Plan
+
+ENERGY, REST = "energy_kcal_per_min", "rest_allowance_share"
+PARTS = ("", "at_most")
+LEANING = ("trunk", "left_arm", "right_arm")
+
+
+class Resting:
+    """A fold for rest allowances: what is spent, and what is held."""
+
+    def __init__(self, plan: Plan):
+        self.spent, self.still = Spent(plan), Still(len(plan.workers), plan.start_s)
+
+    def add(self, frames: Any, scores: Any = None) -> None:
+        """The next stretch."""
+        self.spent.add(frames)
+        self.still.add(frames)
+
+
+def energy_spent(spent: Spent, log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """energy_kcal_per_min : of each worker, over the time in which he is there, breaks included, at least and
+    (``at_most``) with light work of both arms whenever he works without a load; without a subject, of all together, and
+    of the one who spends most (``worst``)."""
+    found = _energy(spent, log, plan)
+    minutes = found.work_min + found.break_min
+    together = (found.work_kcal + found.break_kcal[:, None]).sum(axis=0) / (minutes.sum() or np.nan)
+    each = found.kcal_per_min
+    for side, part in enumerate(PARTS):
+        yield Figure(ENERGY, "", part, "kcal/min", together[side])
+        for worker, value in zip(plan.workers, each[:, side].tolist()):
+            yield Figure(ENERGY, worker.name, part, "kcal/min", value)
+    yield Figure(ENERGY, "", "worst", "kcal/min", _most(each[:, 0]))
+
+
+def rest_allowances(resting: Resting, log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """rest_allowance_share : of each worker, the share of his time, rest included, that should be rest
+
+    murrell, price : for the energy of his work, at least; murrell_at_most, price_at_most : at most
+    rohmert : for what his back and shoulders hold still out of neutral, whichever asks for most
+    """
+    rate = _energy(resting.spent, log, plan).work_kcal_per_min
+    rohmert = _rohmert(resting.still, log, plan)
+    for rank, worker in enumerate(plan.workers):
+        standards = [STANDARD_KCAL_PER_MIN[sex] for sex in ("mm", "ff", "mf")[_known(worker.body.sex)]]
+        values = {
+            "murrell": murrell_rest_share(rate[rank, 0], standards[0]),
+            "murrell_at_most": murrell_rest_share(rate[rank, 1], standards[1]),
+            "price": of_whole(price_relaxation(rate[rank, 0])),
+            "price_at_most": of_whole(price_relaxation(rate[rank, 1])),
+            "rohmert": rohmert[rank],
+        }
+        for part, value in values.items():
+            yield Figure(REST, worker.name, part, "share", float(value))
+
+
+def _energy(spent: Spent, log: EventLog, plan: Plan) -> Energy:
+    return energy(spent, present_s(log, plan), _spent_s(log, plan, BREAK), _spent_s(log, plan, WALK), plan)
+
+
+def _spent_s(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
+    """(W,) seconds of the window in one state."""
+    rows = np.flatnonzero((log["kind"] == kind) & (log["worker"] >= 0))
+    return np.bincount(log["worker"][rows], weights=inside_s(log, rows, plan), minlength=len(plan.workers))
+
+
+def _known(sex: str | None) -> int:
+    return {"m": 0, "f": 1}.get(sex or "", 2)
+
+
+def _rohmert(still: Still, log: EventLog, plan: Plan) -> np.ndarray:
+    """(W,) share of the time that should be rest."""
+    rest_s = np.zeros((len(plan.workers), len(LEANING)))
+    runs = still.close()
+    for place, region in enumerate(LEANING):
+        own = runs[region]
+        for rank, worker in enumerate(plan.workers):
+            mine = own.worker == rank
+            share = hold_share(region, own.angle_deg[mine], worker.body)
+            rest_s[rank, place] = own.seconds[mine] @ rohmert_rest_share(own.seconds[mine] / 60.0, share)
+    there_s = present_s(log, plan)
+    return of_whole(rest_s.max(axis=1) / np.where(there_s > 0, there_s, np.nan))
+
+
+def _most(values: np.ndarray) -> float:
+    return float(np.nanmax(values)) if np.isfinite(values).any() else float("nan")
+
+
+def sentences(
+    figures: dict[tuple[str, str, str], float], breaks_share: dict[str, float] | None = None
+) -> Iterator[str]:
+    """Whose work asks for rest, from (kpi, subject, part) -> value; breaks_share : share of his time each one has."""
+    for (kpi, subject, part), value in figures.items():
+        if kpi == REST and part in ("murrell", "price", "rohmert") and value >= 0.01:
+            why = "what is held still" if part == "rohmert" else "the energy of the work"
+            has = "" if breaks_share is None else f"; his breaks are {breaks_share.get(subject, 0.0):.0%}"
+            yield f"{subject}: {value:.0%} of the time should be rest for {why} ({part.capitalize()}){has}."

@@ -1,0 +1,86 @@
+"""What figures of lifting, holding still, energy and rest take as given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from opsim.ergonomics.energy import BENT_DEG, SQUAT_DEG
+from opsim.ergonomics.holds import STATIC_WORK
+from opsim.ergonomics.lifting_pattern import PAUSE_S
+from opsim.ergonomics.lifts import LEAST_TRAVEL_M
+from opsim.ergonomics.rest_allowance import PRICE_ACCEPTABLE_W, PRICE_RESTING_W, STANDARD_KCAL_PER_MIN
+from opsim.ergonomics.strength import HEIGHT_M, MASS_KG
+from opsim.kpi.better import read_asked
+from opsim.kpi.names import ENERGY, HELD, LIFTED, REST
+from opsim.names import listed
+from opsim.plan import Plan
+
+Lines = Iterator[tuple[str, str]]
+
+
+def strain(loaded, plan: Plan) -> Lines:
+    """(topic, what is assumed), for those of these figures that are asked for."""
+    if not plan.posture:
+        return
+    asked = {*loaded.scenario.outputs, *(read_asked(one).kpi for one in loaded.scenario.frontier or ())}
+    if not asked.isdisjoint(LIFTED):
+        yield from (("lifting", sentence) for sentence in _lifting())
+    if not asked.isdisjoint(HELD):
+        yield from (("limits", sentence) for sentence in _holding())
+    if not asked.isdisjoint((*ENERGY, *REST)):
+        yield from (("energy", sentence) for sentence in _energy(plan))
+    if not asked.isdisjoint(REST):
+        yield "rest", _resting()
+
+
+def _lifting() -> Iterator[str]:
+    yield (
+        "a lift is a performance with a load whose hands go up or down by at least "
+        f"{LEAST_TRAVEL_M * 100:g} cm between the first and the last posture with it; lowering counts alike; distances "
+        "are from the middle of the ankles to the middle of the hands, asymmetry is against the hips"
+    )
+    yield (
+        "at least: only where it is taken counts; at most: where it is let go too, as if it had to be put down with "
+        "care; a grip that nobody told is between good and poor"
+    )
+    yield (
+        f"a time of more than {PAUSE_S / 60:g} min without a lift is recovery; lifts a minute are those of the time of "
+        "lifting; beyond the equation's range (63 cm, 175 cm, 135 degrees, too often) the edge of the range stands"
+    )
+
+
+def _holding() -> Iterator[str]:
+    yield (
+        "the numbers of ISO 11226 and EN 1005-4 are as the literature about them gives them: check them against the "
+        "standards before judging by them; nothing supports trunk, head or arms; the neck's zones are taken of the "
+        "lean of the head, as nobody sees where eyes look"
+    )
+    yield (
+        f"held still: within {STATIC_WORK.band_deg:g} degrees for more than {STATIC_WORK.least_s:g} s, and out of "
+        f"neutral ({STATIC_WORK.trunk_deg:g} degrees of trunk and arms, {STATIC_WORK.neck_deg:g} of the neck), also "
+        "from one performance to the next; a slow drift within these is still; movements are counted by the minute"
+    )
+
+
+def _energy(plan: Plan) -> Iterator[str]:
+    yield (
+        f"one is bent from {BENT_DEG:g} degrees of trunk flexion, and lifts from the knees where they are bent by "
+        f"{SQUAT_DEG:g} degrees; breaks are sat, waiting is stood; who walks within a task, as his feet tell, walks at "
+        "the speed of his ways; not in it: tools, pushing, pulling; at most: light work of both arms while he stands "
+        "at work without a load"
+    )
+    heavy = [worker.name for worker in plan.workers if worker.body.mass_kg is None]
+    if heavy:
+        yield f"{MASS_KG:g} kg are taken for {listed(heavy)}, whose mass nobody told"
+    unknown = [worker.name for worker in plan.workers if worker.body.sex is None]
+    if unknown:
+        yield f"of both sexes the range, for {listed(unknown)}, of whom nobody told"
+
+
+def _resting() -> str:
+    standard = STANDARD_KCAL_PER_MIN
+    return (
+        f"Murrell: {standard['m']:g} kcal/min may be spent all day ({standard['f']:g} by women, both where it is not "
+        f"said); Price: {PRICE_ACCEPTABLE_W:g} W, {PRICE_RESTING_W:g} W at rest, from memory and to be checked; "
+        f"Rohmert: of the back and of straight arms, without load, of {HEIGHT_M:g} m where no height is told"
+    )
