@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from emulator.composite_frames import n_frames
-from emulator.composite_part import Part, checked
+from emulator.composite_part import CONDITIONS, Part, checked
 from emulator.composite_performances import CompositePerformances
 from emulator.composite_told import CompositeReport, Join, joins_of, report_of
 from emulator.composite_worker import CompositeEffect, drawn_worker
@@ -86,6 +86,11 @@ class CompositeEmulator:
         body : besides what the parts read, ``walk_m_per_s``: how fast he walks
         """
         return drawn_worker(self.parts, rng, body, people, slowness, own)
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """What ``sample`` may be asked for: what all parts may."""
+        return tuple(name for name in CONDITIONS if all(name in getattr(p.model, "conditions", ()) for p in self.parts))
 
     knows_people = knows_slowness = knows_parts = True
     """``draw_worker`` takes ``people``, ``slowness`` and ``own``."""

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from emulator import dwell_times
-from emulator.conditions import given
+from emulator.conditions import CONDITIONS, given
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
@@ -208,6 +208,9 @@ class MotionEmulator:
     def knows_slowness(self) -> bool:
         """``draw_worker`` takes ``slowness``."""
         return True
+
+    conditions = CONDITIONS
+    """What ``sample`` may be asked for."""
 
     @property
     def body_keys(self) -> tuple[str, ...]:

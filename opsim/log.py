@@ -29,10 +29,11 @@ CAUSES = (
     *("", "idle", "blocked", "gate", "worker", "full", "down", "parts", "tool", "team", "card", "batch", "after"),
     *("stock", "pickup", "setup", "preempted", "place", "breakdown", "maintenance", "bad"),
     *("false_alarm", "away", "closed", "meeting", "takt", "line_stop", "unfinished", "behind"),
+    "rest",
 )
 NO_CAUSE, IDLE, JOB_BLOCKED, GATE, NO_WORKER, FULL, IS_DOWN, NO_PARTS, NO_TOOL, TEAM, NO_CARD, BATCH, AFTER = range(13)
 STOCK, PICKUP, SETTING_UP, PREEMPTED, NO_PLACE, BREAKDOWN, MAINTENANCE, BAD, FALSE_ALARM = range(13, 22)
-AWAY, CLOSED, MEETING, TAKT, LINE_STOP, UNFINISHED, BEHIND = range(22, 29)
+AWAY, CLOSED, MEETING, TAKT, LINE_STOP, UNFINISHED, BEHIND, REST = range(22, 30)
 
 COLUMNS: dict[str, type] = {
     "kind": np.int8,

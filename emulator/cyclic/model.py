@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from emulator.cyclic.asked import asked_of
+from emulator.cyclic.asked import CONDITIONS, asked_of
 from emulator.cyclic.contact_states import contact_of_state
 from emulator.cyclic.crew import Crew, CyclicWorker
 from emulator.cyclic.guide import Guide
@@ -76,6 +76,7 @@ class CyclicEmulator:
 
     mark_names = ()
     body_keys = ("height_m", "pace", "person")
+    conditions = CONDITIONS
 
     @classmethod
     def fit(cls, recording: Recording, *, task: str = "walk", **settings: Any) -> CyclicEmulator:

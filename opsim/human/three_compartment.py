@@ -59,9 +59,8 @@ class ThreeCompartment(Checked):
     )  # fmt: skip
 
     rests_below: float = parameter(
-        0.05, "load under which muscles recover as at rest; 0: only where nothing at all is asked of them", unit="share",
-        at_least=0.0, at_most=1.0,
-    )  # fmt: skip
+        0.05, "load under which muscles recover as at rest", unit="share", at_least=0.0, at_most=1.0
+    )
 
     needs_burden: ClassVar[bool] = True
 
@@ -73,7 +72,7 @@ class ThreeCompartment(Checked):
         return Compartments(np.array([(0.0, 0.0, *of_joint) for of_joint in rates]))
 
     def felt(self, course: np.ndarray | None) -> np.ndarray | None:
-        """A course of loads (P, J) as muscles take it: what is below ``rests_below`` is nothing.
+        """A course of loads (P, J) as muscles take it: what is below ``rests_below`` is nothing; at 0 it is left alone.
 
         An assumption: the papers' rests are of no load at all, and no arm ever hangs quite without one.
         """

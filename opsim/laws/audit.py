@@ -5,8 +5,10 @@ from collections.abc import Callable, Iterator
 from opsim.laws.away import away
 from opsim.laws.closed import closed
 from opsim.laws.duty import duty
+from opsim.laws.fatigue import rests, shifts
 from opsim.laws.jobs import conserved, integral, tiled
 from opsim.laws.outages import outages
+from opsim.laws.pace import pace
 from opsim.laws.places import places
 from opsim.laws.progress import progress
 from opsim.laws.rooms import rooms
@@ -31,6 +33,9 @@ LAWS: dict[str, Law] = {
     "nobody works at a station that is down": outages,
     "nothing begins at a station that its calendar closes": closed,
     "no more tools, cards, repair teams and vehicles are in use than there are": shared,
+    "who learns, or goes at another pace, takes what was drawn for him times what that makes of it": pace,
+    "a time is shifted by as much as the worker's day has tired him": shifts,
+    "who rests by need was too tired, and rests for as long as it takes": rests,
 }
 """Each law yields what it finds wrong, in words; nothing where the log obeys it."""
 CHECKS = tuple(LAWS)

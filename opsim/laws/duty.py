@@ -8,7 +8,7 @@ from opsim.clock import ticks
 from opsim.laws.pauses import pauses
 from opsim.laws.staying import overrun
 from opsim.laws.stays import Stays, words
-from opsim.log import ABSENT, BREAK, OFF, WORKER_KINDS, EventLog
+from opsim.log import ABSENT, BREAK, OFF, REST, WORKER_KINDS, EventLog
 from opsim.plan import Duty, Plan
 
 
@@ -73,7 +73,7 @@ def _outside(own: EventLog, begins: np.ndarray, ends: np.ndarray, from_: np.ndar
 
 
 def _rested(own: EventLog, one: Duty) -> Iterator[str]:
-    rested = ticks(own.duration_s[own["kind"] == BREAK]).sum()
+    rested = ticks(own.duration_s[(own["kind"] == BREAK) & (own["cause"] != REST)]).sum()
     planned = sum(int(ticks(pause.end_s - pause.start_s)) for pause in one.pauses)
     if rested > planned:
         yield f"breaks of {words(rested)} in the shift from {one.start_s:g} s, planned are {words(planned)}"

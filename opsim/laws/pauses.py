@@ -7,7 +7,7 @@ import numpy as np
 from opsim.clock import ticks
 from opsim.laws.staying import overrun
 from opsim.laws.stays import words
-from opsim.log import BREAK, IDLE, SETUP, WAIT, WALK, WORK, EventLog
+from opsim.log import BREAK, IDLE, REST, SETUP, WAIT, WALK, WORK, EventLog
 from opsim.plan import Duty, Pause, Plan
 
 
@@ -51,7 +51,9 @@ def _to_have(one: Duty) -> Iterator[Pause]:
 def _sets_out(own: EventLog, at: int, pause: Pause) -> bool:
     """Whether a row is the beginning of a pause: a rest, or the walk to where it is spent."""
     kind = own["kind"][at]
-    return kind == BREAK or (kind == WALK and _goes_nowhere(own, at) and own["place_to"][at] == pause.place >= 0)
+    if kind == BREAK:
+        return bool(own["cause"][at] != REST)  # a rest by need is none of them
+    return bool(kind == WALK and _goes_nowhere(own, at) and own["place_to"][at] == pause.place >= 0)
 
 
 def _idles(own: EventLog, at: int, begun: bool) -> bool:

@@ -61,6 +61,8 @@ class Switched(ABC):
     """What all switches share; whatever the model has beyond the seam is found through the switch."""
 
     by_index = False
+    conditions = ()
+    """What ``sample`` may be asked for, whatever the model may be: nothing."""
 
     def __init__(self, model: Any):
         self._model = model

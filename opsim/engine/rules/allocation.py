@@ -26,6 +26,11 @@ def best_skill(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_r
     return (-rating, oldest_since_s, walk_s, -n_waiting, station_rank, worker_rank)
 
 
+def least_exposed(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_rank):
+    """Whose body has gone through least so far, by ``less_gone_through``, which comes before; then the oldest call."""
+    return (oldest_since_s, walk_s, -rating, -n_waiting, station_rank, worker_rank)
+
+
 def whose_it_is(outside_zone, floater):
     """Before everything else: people whose own station it is, then floaters, then people out of their zones; a floater
     out of a zone of his own is the last.
@@ -43,10 +48,16 @@ def nearer_to_its_end(steps_to_go):
     return (steps_to_go,)
 
 
+def less_gone_through(dose):
+    """Before the keys of ``least_exposed``: the least dose so far, RULA x seconds."""
+    return (dose,)
+
+
 ALLOCATION_RULES = {
     "longest_queue": longest_queue,
     "nearest": nearest,
     "oldest_job": oldest_job,
     "most_downstream": most_downstream,
     "best_skill": best_skill,
+    "least_exposed": least_exposed,
 }

@@ -16,4 +16,11 @@ def least_time(turns_away, at_post_s, here_s, member):
     return (at_post_s, turns_away, member)
 
 
-ROTATION_RULES = {"in_turn": in_turn, "least_time": least_time}
+def least_exposed(turns_away, at_post_s, here_s, member):
+    """Posts by how heavy they are, each to whose body has gone through least so far, by ``less_gone_through``, which
+    comes before; of several to the one whose turn comes first.
+    """
+    return (turns_away, member)
+
+
+ROTATION_RULES = {"in_turn": in_turn, "least_time": least_time, "least_exposed": least_exposed}

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable
 
-from opsim.engine.rules.allocation import more_urgent, nearer_to_its_end, whose_it_is
+from opsim.engine.rules.allocation import less_gone_through, more_urgent, nearer_to_its_end, whose_it_is
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.plan import Plan
+from opsim.plan.evenness import LEAST_EXPOSED
 from opsim.plan.sequence import MOST_DOWNSTREAM
 
 ORDER = 1
@@ -19,7 +20,7 @@ def install(floor: Floor) -> None:
 
     Nothing is hung on the floor where neither is so.
     """
-    parts = tuple(_parts(floor.plan))
+    parts = (*_parts(floor.plan), *_doses(floor))
     if parts:
         floor.prefix = parts[0] if len(parts) == 1 else lambda *pair: sum((part(*pair) for part in parts), ())
     if floor.plan.idle == "patrol" and floor.plan.serve == "one":
@@ -36,6 +37,11 @@ def _parts(plan: Plan):
     if plan.rule == MOST_DOWNSTREAM:
         to_go = plan.ahead.left_steps if plan.ahead is not None else ()
         yield lambda _worker, _station, job: nearer_to_its_end(to_go[job.product][job.step])
+
+
+def _doses(floor: Floor):
+    if floor.plan.rule == LEAST_EXPOSED:
+        yield lambda worker, _station, _job: less_gone_through(floor.doses[worker.rank].so_far(floor.now))
 
 
 def _by_zone(worker: Worker, station: Station, _job: Job) -> tuple[float, ...]:

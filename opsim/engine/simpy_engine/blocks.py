@@ -10,6 +10,7 @@ from opsim.engine.simpy_engine import (
     completion,
     conveyors,
     crews,
+    doses,
     duty,
     failures,
     hands,
@@ -56,6 +57,7 @@ INSTALL: tuple[Callable[[Floor], None], ...] = (
     crews.install,
     rotations.install,
     humans.install,
+    doses.install,
 )
 """Each looks at its own part of the plan, and does nothing where that is empty."""
 
@@ -70,4 +72,5 @@ HANDLERS: dict[str, Handler] = {
     **lines.HANDLERS,
     **rotations.HANDLERS,
     **duty.HANDLERS,
+    **humans.HANDLERS,
 }

@@ -52,7 +52,7 @@ class Draws:
 
     def __init__(self, plan: Plan, replication: int):
         self._plan, self._replication = plan, replication
-        self._workforce = plan.workforce_of(replication)
+        self._workforce = self.workforce = plan.workforce_of(replication)
         self._durations: dict[tuple[int, int], Items] = {}
         self._chances: dict[tuple[str | int, ...], Scattered] = {}
 

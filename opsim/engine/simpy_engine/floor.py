@@ -43,6 +43,7 @@ class Floor:
                    who is on his way because he was called to a job that others may be at, who called him
     legs         : by (station, station): who is told of a job that has its place there, and fetches it
     humans       : of each worker, what becomes of him as he works; empty where no effect is on
+    doses        : of each worker, what his body has gone through so far; empty where no rule asks
     prefix       : of a worker, a station and the job that calls there: what comes before the rule's own key
     """
 
@@ -87,6 +88,7 @@ class Floor:
         self.legs: dict[tuple[int, int], Callable[[Floor, Job, Station], None]] = {}
         self.prefix: Callable[[Worker, Station, Job], tuple[float, ...]] | None = None
         self.humans: tuple[Any, ...] = ()
+        self.doses: tuple[Any, ...] = ()
         self.now = 0.0
         self.n_performances = 0
         self._reports: list[tuple] = []

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from math import exp
 from typing import Protocol
 
-from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine import human_clock, human_fatigue, human_learning, human_pace, human_rest
+from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.state import Station, Worker
+from opsim.human.tired import Tired
 
 Effect = Callable[[Floor, Worker, Station, int, int], float]
 """Of a worker's k-th performance of a task at a station, which begins now: a factor, or a shift of its log time."""
@@ -26,15 +28,17 @@ class Human:
     shifts  : of log time; posture follows them, where they act on it (``pace_shift``), else they are factors
     factors : of time alone
     told    : who is told when he works, and when he is broken off
+    tired   : his fatigue, where people tire: told first, and with where in his task he begins
     """
 
-    __slots__ = ("factors", "on_posture", "shifts", "told", "worker")
+    __slots__ = ("factors", "on_posture", "shifts", "tired", "told", "worker")
 
     def __init__(self, worker: Worker, on_posture: bool):
         self.worker, self.on_posture = worker, on_posture
         self.shifts: list[Effect] = []
         self.factors: list[Effect] = []
         self.told: list[Told] = []
+        self.tired: Tired | None = None
 
     def drawn(self, floor: Floor, station: Station, task: int, k: int, drawn_s: float) -> float:
         """His own next time as it is now; neutral effects leave its bits alone."""
@@ -46,18 +50,32 @@ class Human:
         worker.pace_shift = shift if self.on_posture else 0.0
         return drawn_s * exp(shift)
 
-    def works(self, now: float, task: int, until_s: float) -> None:
-        """He works on a task from now, until then if nothing comes between."""
+    def level(self, now: float) -> float:
+        """How tired he is, 0 (fresh, or where nobody tires) to 1."""
+        return 0.0 if self.tired is None else self.tired.level_at(now)
+
+    def works(self, now: float, task: int, until_s: float, done: float = 0.0) -> None:
+        """He works on a task from now, ``done`` of which is done, until then if nothing comes between."""
+        if self.tired is not None:
+            self.tired.works(now, task, until_s, done)
         for told in self.told:
             told.works(now, task, until_s)
 
     def stops(self, now: float) -> None:
         """What he worked on is broken off, or waits for something."""
+        if self.tired is not None:
+            self.tired.stops(now)
         for told in self.told:
             told.stops(now)
 
 
-INSTALL: tuple[Callable[[Floor], None], ...] = ()
+INSTALL: tuple[Callable[[Floor], None], ...] = (
+    human_clock.install,
+    human_pace.install,
+    human_fatigue.install,
+    human_rest.install,
+    human_learning.install,
+)
 """Each looks whether its effect is on, and hangs it on ``floor.humans``."""
 
 
@@ -71,3 +89,6 @@ def install(floor: Floor) -> None:
         worker.human = human
     for effect in INSTALL:
         effect(floor)
+
+
+HANDLERS: dict[str, Handler] = human_rest.HANDLERS

@@ -4,6 +4,7 @@ from collections import Counter
 
 from opsim.engine.rules.quality import leaves_defect, reworked, share_of_good, turned_down
 from opsim.engine.simpy_engine.floor import Floor
+from opsim.engine.simpy_engine.human_errors import share_of_good_by
 from opsim.engine.simpy_engine.material import go_to, leave_floor, leave_station, withdraw
 from opsim.engine.simpy_engine.state import Job, Worker
 from opsim.log import BAD, FALSE_ALARM, REWORK, SCRAP
@@ -71,12 +72,15 @@ class _Gauge:
         self.turn_down(floor, job, BAD if job.bad else FALSE_ALARM)
         return False
 
-    def note(self, _floor: Floor, job: Job, worker: Worker) -> bool:
+    def note(self, floor: Floor, job: Job, worker: Worker) -> bool:
         """Somebody works on the job, and on those that are with it: of several, the worst counts. Never sees to it."""
         station, qualities = job.station, worker.plan.quality
-        if qualities and not station.down and job.setup_task < 0:
+        if station.down or job.setup_task >= 0:
+            return False
+        good = (qualities[station.rank] if qualities else 1.0) * share_of_good_by(floor, worker)
+        if good < 1:
             for one in (job, *job.members):
-                self.worst[one.number] = min(self.worst.get(one.number, 1.0), qualities[station.rank])
+                self.worst[one.number] = min(self.worst.get(one.number, 1.0), good)
         return False
 
     def forget(self, _floor: Floor, job: Job) -> None:

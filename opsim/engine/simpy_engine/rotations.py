@@ -1,11 +1,15 @@
 """Job rotation: people change posts by the clock, by what was done, or by a rule."""
 
+from collections.abc import Callable
 from functools import partial
 
 from opsim.engine.rules import CALENDAR
+from opsim.engine.rules.allocation import less_gone_through
+from opsim.engine.simpy_engine.doses import heaviest_first
 from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.log import ABSENT, OFF
+from opsim.plan.evenness import LEAST_EXPOSED
 from opsim.plan.rotations import RotationPlan
 from opsim.plugins import rule_of
 from opsim.posts import given_out
@@ -18,6 +22,7 @@ COUNT = 1
 class Rotation:
     """Who of a rotation is at which post. Members and posts are numbers in their lists.
 
+    order : posts by how heavy they are, once a rule has asked
     turn : changes so far; at : {member: post} of those who are there; since_s : since when these are the posts
     time_s, here_s : (members, posts) seconds so far, and since he came there
     """
@@ -31,6 +36,7 @@ class Rotation:
         self.leaves = [plan.leaves(post, everywhere) for post in range(len(plan.posts))]
         self.turn, self.due = 0, False
         self.there: list[int] = []
+        self.order: list[int] = []
         self.at: dict[int, int] = {}
         self.since_s = 0.0
         self.n_done = [0] * len(plan.posts)
@@ -50,7 +56,7 @@ class Rotation:
 
     def _give_out(self, floor: Floor) -> None:
         self._count_time(floor)
-        at = self._posts()
+        at = self._posts(floor)
         for member, worker in enumerate(self.members):
             post = at.get(member)
             if post != self.at.get(member):
@@ -58,7 +64,7 @@ class Rotation:
                 worker.restrict(self.name, None if post is None else self.leaves[post])
         self.at = at
 
-    def _posts(self) -> dict[int, int]:
+    def _posts(self, floor: Floor) -> dict[int, int]:
         """{member: post} from now on, by the rule."""
         if not self.there:
             return {}
@@ -68,7 +74,25 @@ class Rotation:
             post = slot % n_posts
             return self.rule(away(member, slot), self.time_s[member][post], self.here_s[member][post], member)
 
+        if self.plan.rule == LEAST_EXPOSED:
+            return self._by_dose(floor, key)
         return given_out(n_posts, self.there, self.can, key)
+
+    def _by_dose(self, floor: Floor, key: Callable[[int, int], tuple[float, ...]]) -> dict[int, int]:
+        """{member: post}: the heaviest post first, each to whose body has gone through least so far."""
+        order = self.order = self.order or heaviest_first(floor, self.plan.posts, self.plan.workers)
+        n_posts, dose = len(order), {n: floor.doses[self.members[n].rank].so_far(floor.now) for n in self.there}
+
+        def slot_of(number: int) -> int:
+            return order[number % n_posts] + number - number % n_posts
+
+        at = given_out(
+            n_posts,
+            self.there,
+            lambda member, number: self.can(member, order[number]),
+            lambda member, number: (*less_gone_through(dose[member]), *key(member, slot_of(number))),
+        )
+        return {member: order[number] for member, number in at.items()}
 
     def _count_time(self, floor: Floor) -> None:
         for member, post in self.at.items():

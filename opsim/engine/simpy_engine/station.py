@@ -255,7 +255,7 @@ def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: fl
         floor.n_performances += 1
         job.pace_shift = floor.workers[worker].pace_shift if worker >= 0 else 0.0
     if floor.humans and worker >= 0:
-        floor.humans[worker].works(now, task, now + duration_s)
+        floor.humans[worker].works(now, task, now + duration_s, job.progress_from)
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
     station = job.station
     if station.meter is not None:

@@ -32,8 +32,8 @@ def test_it_is_the_integrated_equations():
 
 
 def test_a_hand_worked_shift_of_work_rest_and_work():
-    # half tired in 4 h: after 2 h 1 - 2^-0.5 = 0.292893; half rested in 20 min: after 10 min 0.292893 / 2^0.5 = 0.207107;
-    # after 2 h more 1 - (1 - 0.207107) / 2^0.5 = 0.439340
+    # half tired in 4 h: after 2 h 1 - 2^-0.5 = 0.292893; half rested in 20 min: after 10 min 0.292893 / 2^0.5 =
+    # 0.207107; after 2 h more 1 - (1 - 0.207107) / 2^0.5 = 0.439340
     model = Lffrm(tires_half_in_s=14_400.0, recovers_half_in_s=1_200.0)
     level = model.passed(model.fresh(), 1.0, 0.0, 1.0, 7_200.0, 0.0)
     assert level == pytest.approx(0.292893, abs=1e-6)
@@ -74,9 +74,9 @@ def test_a_rest_ends_where_it_was_said():
 
 
 def test_all_that_is_wrong_is_said():
-    with pytest.raises(ValueError, match="tires_half_in_s.*slows"):
+    with pytest.raises(ValueError, match=r"tires_half_in_s.*slows"):
         Lffrm(tires_half_in_s=-1.0, slows=-0.1)
     with pytest.raises(ValueError, match="by: found 'load'"):
         Lffrm(by="load")
-    with pytest.raises(ValueError, match="until: found 0.5, expected less than above, 0.3"):
+    with pytest.raises(ValueError, match=r"until: found 0\.5, expected less than above, 0\.3"):
         RestByNeed(above=0.3, until=0.5)

@@ -1,0 +1,75 @@
+"""The laws of fatigue: how far each time was shifted is what the worker's day made of him; and he rests when tired."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from opsim.clock import ticks
+from opsim.laws.stays import Stays
+from opsim.log import BREAK, REST, EventLog
+from opsim.plan import Plan
+from opsim.tiredness import levels_at, tiredness
+
+SLACK = 1e-9
+
+
+def shifts(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
+    """``pace_shift`` of a performance = what the fatigue as it begins, and the time of the day, shift.
+
+    Nothing can be asked where the state of the line acts too, where effects are plain factors, of a time that is the
+    station's, of a performance that waits for a tool, and of who is helped and goes on at the pace of two.
+    """
+    human = plan.human
+    if human.fatigue is None or human.state_pace is not None or human.acts_on == "time":
+        return
+    found = tiredness(log, plan)
+    rows = found.row
+    asked = np.array([not task.attended and task.hold is None for task in plan.tasks])[log["task"][rows]]
+    asked &= ~np.isin(log["station"][rows], [s for line in plan.lines if line.helps for s in line.stations])
+    first = np.zeros(rows.size, bool)
+    first[np.unique(log["performance_id"][rows], return_index=True)[1]] = True
+    at = np.flatnonzero(asked & first)
+    expected = np.array([human.fatigue.shift(level) for level in found.begin[at].tolist()])
+    if human.circadian is not None:
+        expected += [human.circadian.shift(human.start_s + now) for now in log["start_s"][rows[at]].tolist()]
+    wrong = np.flatnonzero(np.abs(log["pace_shift"][rows[at]] - expected) > SLACK)
+    for one in wrong[:1]:
+        row = rows[at[one]]
+        yield (
+            f"{plan.workers[log['worker'][row]].name}, at {log['start_s'][row]:.9g} s: log time is shifted by "
+            f"{log['pace_shift'][row]:.9g}, and his fatigue makes {expected[one]:.9g}"
+        )
+
+
+def rests(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
+    """A rest by need begins where somebody is too tired, and lasts until he is down to what was said, and no longer; or
+    less, where his calendar calls him away, or the run ends.
+    """
+    rows = np.flatnonzero((log["kind"] == BREAK) & (log["cause"] == REST))
+    human = plan.human
+    if rows.size and (human.rest is None or human.fatigue is None):
+        who = plan.workers[log["worker"][rows[0]]].name
+        yield f"{who} rests by need at {log['start_s'][rows[0]]:.9g} s, and nobody does"
+        return
+    for rank in np.unique(log["worker"][rows]).tolist():
+        own = rows[log["worker"][rows] == rank]
+        times_s = np.stack([log["start_s"][own], log["end_s"][own]], axis=1)
+        levels = levels_at(log, plan, rank, times_s.ravel()).reshape(-1, 2)
+        called = ticks([log.horizon_s, *_calls(plan, rank)])
+        for (start_s, end_s), (before, after) in zip(times_s.tolist(), levels.tolist()):
+            said = f"{plan.workers[rank].name} rests from {start_s:.9g} s to {end_s:.9g} s"
+            if before <= human.rest.above - SLACK:
+                yield f"{said}, and his fatigue was {before:.6g}"
+                return
+            if after < human.rest.until - 1e-4 or (after > human.rest.until + SLACK and ticks(end_s) not in called):
+                yield f"{said}, and comes back with a fatigue of {after:.6g}"
+                return
+
+
+def _calls(plan: Plan, rank: int) -> Iterator[float]:
+    """When a worker's calendar may call him away from a rest."""
+    for duty in plan.workers[rank].duties or ():
+        yield from (duty.end_s, duty.end_s + plan.shifts[duty.shift].overtime_s)
+        yield from (pause.start_s for pause in duty.pauses)
