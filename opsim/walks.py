@@ -30,8 +30,7 @@ class Walks:
 
 def walks_of(log: EventLog, plan: Plan) -> Walks:
     """The walks behind the rows of one replication."""
-    rows = np.flatnonzero((log["kind"] == WALK) & (log["worker"] >= 0))
-    rows = rows[np.lexsort([log["start_s"][rows], log["worker"][rows]])]
+    rows = walk_rows(log)
     worker, place_from, place_to = (log[name][rows] for name in ("worker", "place_from", "place_to"))
     first = np.searchsorted(worker, worker)
     speed_m_per_s = np.array([person.walk_m_per_s for person in plan.workers])[worker]
@@ -46,6 +45,12 @@ def walks_of(log: EventLog, plan: Plan) -> Walks:
         log["end_s"][rows],
         on_grid_each(distance_m / speed_m_per_s),
     )
+
+
+def walk_rows(log: EventLog) -> np.ndarray:
+    """(R,) rows of the log in which somebody walks, by worker and time."""
+    rows = np.flatnonzero((log["kind"] == WALK) & (log["worker"] >= 0))
+    return rows[np.lexsort([log["start_s"][rows], log["worker"][rows]])]
 
 
 def ways_m(log: EventLog, plan: Plan, rows: np.ndarray, speed_m_per_s: np.ndarray) -> np.ndarray:

@@ -76,13 +76,13 @@ def trunk_exposure(log: EventLog, plan: Plan) -> Exposure:
     found = Exposure(np.zeros((n, DEGREES.size - 1)), np.zeros(n), np.zeros(n))
     with one_blas_thread():
         for block, pieces in drawn_again(pieces_in_window(log, plan), log.replication, plan):
-            with _named(plan.tasks[pieces.task[0]]):
+            with named_by(plan.tasks[pieces.task[0]]):
                 add_flexion(found, block, pieces)
     return found
 
 
 @contextmanager
-def _named(task: TaskPlan) -> Iterator[None]:
+def named_by(task: TaskPlan) -> Iterator[None]:
     """What goes wrong in here is said with the task's name, or is the mistake of the plug-in behind it."""
     behind = getattr(task.model, "found", None)
     try:
@@ -109,7 +109,7 @@ def _count(found: Exposure, block: Any, pieces: Pieces) -> None:
     worker = pieces.worker[0]
     rows, which = np.unique(pieces.k % BLOCK, return_inverse=True)
     degrees = np.rad2deg(flexion_rad(block, rows))[which]
-    seconds, nowhere_s = _spread(pieces, degrees.shape[1])
+    seconds, nowhere_s = spread(pieces, degrees.shape[1])
     known = np.isfinite(degrees)
     at, spent_s = degrees[known], seconds[known]
     cell = np.clip(np.floor(at).astype(int) - DEGREES[0], 0, DEGREES.size - 2)
@@ -118,7 +118,7 @@ def _count(found: Exposure, block: Any, pieces: Pieces) -> None:
     found.unmeasured_s[worker] += seconds[~known].sum() + nowhere_s
 
 
-def _spread(pieces: Pieces, n_cells: int) -> tuple[np.ndarray, float]:
+def spread(pieces: Pieces, n_cells: int) -> tuple[np.ndarray, float]:
     """(P, C) seconds of each piece in each of C even parts of its performance; and those of pieces without progress."""
     edges = np.linspace(0.0, 1.0, n_cells + 1)
     begin, end = pieces.progress_from[:, None], pieces.progress_to[:, None]

@@ -42,7 +42,7 @@ def measures_of(
     """
     rows, cells = np.asarray(rows, dtype=int), n_cells(block, options)
     out = np.empty((rows.size, cells, len(COLUMNS)))
-    filled, n_times = (_by_directions, cells) if _has_directions(block) else (_by_positions, 2 * cells + 1)
+    filled, n_times = (_in_the_middles, cells) if _has_directions(block) else (_by_positions, 2 * cells + 1)
     together = max(1, AT_ONCE_BYTES // (24 * len(block.skeleton.names) * n_times))
     apart = hasattr(type(block), "__getitem__")
     for start in range(0, rows.size if apart else 0, together):
@@ -57,7 +57,11 @@ def measures_of(
 
 def first_measures(block: Any, options: Options = USUAL) -> np.ndarray:
     """Measures (n, len(COLUMNS)) of the postures in which the performances of a block begin; neck against the trunk."""
-    return measures_of_joints(_joints_m(block, 2)[:, 0], block.skeleton.names, options)
+    if not _has_directions(block):
+        return measures_of_joints(_joints_m(block, 2)[:, 0], block.skeleton.names, options)
+    out = np.empty((len(block.duration_s), 1, len(COLUMNS)))
+    _by_directions(block, np.zeros(1), options, 0.0, out)
+    return out[:, 0]
 
 
 def measures_of_joints(
@@ -84,12 +88,16 @@ def _has_directions(block: Any) -> bool:
     return hasattr(block, "directions") and hasattr(block, "bone_length_m") and hasattr(block.skeleton, "parents")
 
 
-def _by_directions(block: Any, options: Options, neck_neutral_rad: float, out: np.ndarray) -> None:
-    """Measures of all of a block into out (n, C, COLUMNS), from directions and lengths of bones."""
+def _in_the_middles(block: Any, options: Options, neck_neutral_rad: float, out: np.ndarray) -> None:
+    """Measures of all of a block into out (n, C, COLUMNS), in the middles of C even parts."""
+    _by_directions(block, (np.arange(out.shape[1]) + 0.5) / out.shape[1], options, neck_neutral_rad, out)
+
+
+def _by_directions(block: Any, shares: np.ndarray, options: Options, neck_neutral_rad: float, out: np.ndarray) -> None:
+    """Measures of all of a block into out (n, C, COLUMNS) at shares (C,) of its times, from bones alone."""
     from opsim.ergonomics.kernels.measuring import measure_hung
 
     check_reference(options.arm_reference)
-    shares = (np.arange(out.shape[1]) + 0.5) / out.shape[1]
     directions = np.asarray(block.directions(times_s=np.asarray(block.duration_s)[:, None] * shares))
     lengths_m, chain = np.asarray(block.bone_length_m, dtype=float), bone_chain(block.skeleton.parents)
     _check(block, "directions", directions, (*out.shape[:2], len(chain), 3))

@@ -15,6 +15,7 @@ import numpy as np
 
 from opsim.ergonomics.columns import AT
 from opsim.ergonomics.measures import first_measures, has_body
+from opsim.one_thread import one_blas_thread
 from opsim.streams import BLOCK, stream
 
 UPRIGHT_DEG = 15.0
@@ -36,7 +37,8 @@ def neck_neutral_rad(performances: Any) -> float:
 
 def neck_neutral_told_rad(performances: Any) -> float | None:
     """The same, None where it cannot be told."""
-    return _told_rad(_drawn(performances))
+    with one_blas_thread():
+        return _told_rad(_drawn(performances))
 
 
 def neck_neutrals_rad(models: Mapping[str, Any]) -> dict[str, float]:
@@ -44,9 +46,10 @@ def neck_neutrals_rad(models: Mapping[str, Any]) -> dict[str, float]:
 
     A task that cannot tell takes that of the others; where none can it is 0. Times without a body have 0.
     """
-    drawn = {task: _drawn(model) for task, model in models.items()}
+    with one_blas_thread():
+        drawn = {task: _drawn(model) for task, model in models.items()}
+        told = {task: _told_rad(block) for task, block in drawn.items()}
     kin = {task: _kin(model, drawn[task]) for task, model in models.items()}
-    told = {task: _told_rad(block) for task, block in drawn.items()}
     return {task: _median([told[other] for other in models if kin[other] == kin[task]]) for task in models}
 
 

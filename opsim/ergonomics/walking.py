@@ -59,8 +59,8 @@ def walking_exposure(log: EventLog, plan: Plan) -> Walked:
     unmeasured_s = np.bincount(walks.worker[~can], pieces.seconds[~can], n)
     found = Walked(Exposure(np.zeros((n, DEGREES.size - 1)), np.zeros(n), unmeasured_s), np.zeros(n), np.zeros(n))
     wanted = can & (pieces.seconds > 0)
-    looked = pieces._replace(seconds=_stood_for(walks, np.where(wanted, pieces.seconds, 0.0)))
-    with one_blas_thread(), _named(plan.walking.name):
+    looked = pieces._replace(seconds=stood_for(walks, np.where(wanted, pieces.seconds, 0.0)))
+    with one_blas_thread(), said_by(plan.walking.name):
         for rows, block in drawn_walks(walks, plan, log.replication, wanted):
             _count(found, walks, rows[wanted[rows]], block, pieces)
             _look(found, walks, rows[looked.seconds[rows] > 0], block, looked)
@@ -74,7 +74,7 @@ def _pieces(walks: Walks, low: float, high: float) -> Pieces:
     return Pieces(walks.worker, np.full(walks.k.size, -1), walks.k, first, last, end_s - begin_s)
 
 
-def _stood_for(walks: Walks, seconds: np.ndarray) -> np.ndarray:
+def stood_for(walks: Walks, seconds: np.ndarray) -> np.ndarray:
     """(R,) seconds of walking that each walk stands for, 0 where it is not looked at; those of a worker sum to his.
 
     Of many walks, every so many seconds of them put in a row by length, one is taken: a systematic sample with
@@ -123,7 +123,7 @@ def _apart(block: Any, pieces: Pieces) -> tuple[Any, Pieces]:
 
 
 @contextmanager
-def _named(name: str) -> Iterator[None]:
+def said_by(name: str) -> Iterator[None]:
     """What goes wrong in here is said with the emulator's name."""
     try:
         yield

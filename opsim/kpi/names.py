@@ -33,6 +33,23 @@ POSTURE = (
 """What needs the postures behind the work. They are made only where one is asked for, as decoding takes longer than a
 run; and how much of the work was measured then stands beside what was asked for."""
 
+SCORED = (
+    *("rula_from_5_min_per_h", "rula_from_7_min_per_h", "reba_from_8_min_per_h", "owas_from_3_min_per_h"),
+    *("arm_beyond_60_min_per_h", "arm_beyond_90_min_per_h"),
+    *("rula_mean", "rula_p90", "rula_most", "reba_mean", "reba_p90", "reba_most"),
+    *("posture_dose", "exposure_gini"),
+    *("exposure_by_station", "exposure_by_task", "exposure_by_product", "exposure_by_hour"),
+)
+REGION = ("exposure_by_region",)
+LIFTED = ("lifting_index", "composite_lifting_index", "lifts_per_h", "lifts_out_of_range_share")
+HELD = (
+    *("static_hold_min_per_h", "longest_hold_s", "iso_11226_min_per_h", "en_1005_4_min_per_h", "movements_per_min"),
+    "repetitions_per_min",
+)
+ENERGY, REST = ("energy_kcal_per_min",), ("rest_allowance_share",)
+EXPOSURE = (*SCORED, *REGION, *LIFTED, *HELD, *ENERGY, *REST)
+"""What bodies went through in the whole shift: one pass over all postures, made only where one of these is asked."""
+
 KPIS = (
     *USUAL,
     "time_in_system_quantile_s",
@@ -83,13 +100,19 @@ KPIS = (
     "handoff_position",
     "incomplete_share",
     "line_stopped_share",
+    "learned_share",
+    "experience",
+    "fatigue_mean",
+    "fatigue_most",
+    "rest_taken_min_per_h",
     *POSTURE,
+    *EXPOSURE,
 )
 
 
 def needs_postures(asked: Iterable[str]) -> bool:
-    """Whether any of some figures is one of ``POSTURE``."""
-    return not set(POSTURE).isdisjoint(asked)
+    """Whether any of some figures is one of ``POSTURE`` or ``EXPOSURE``."""
+    return not {*POSTURE, *EXPOSURE}.isdisjoint(asked)
 
 
 def headline(outputs: Iterable[str]) -> set[str]:

@@ -17,7 +17,7 @@ BY_KIND = {
 }
 BY_CAUSE = {
     **{(WAIT, kinds.JOB_BLOCKED): "held", (WAIT, kinds.TEAM): "team", (WAIT, kinds.NO_TOOL): "tool"},
-    **{(WAIT, kinds.BEHIND): "behind", (BREAK, kinds.MEETING): "meeting"},
+    **{(WAIT, kinds.BEHIND): "behind", (BREAK, kinds.MEETING): "meeting", (BREAK, kinds.REST): "rest"},
 }
 STATES = tuple(dict.fromkeys([*BY_KIND.values(), *BY_CAUSE.values()]))
 
@@ -27,8 +27,8 @@ def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     held : standing by a blocked job, where allocation holds him, or he is to carry it; setup : setting a station up;
     team : waiting for the others of a team, before the work or after it; tool : waiting, in the middle of a task, for
-    the tool it takes now; behind : waiting for the member of his crew who is ahead of him; break, meeting, off, absent
-    : of floors where people work in shifts
+    the tool it takes now; behind : waiting for the member of his crew who is ahead of him; rest : by need; break,
+    meeting, off, absent : of floors where people work in shifts
     """
     rows, state = states_of_rows(log)
     cell = log["worker"][rows].astype(np.int64) * len(STATES) + state
@@ -62,6 +62,7 @@ def possible(plan: Plan) -> list[str]:
         "team": any(task.team > 1 for task in plan.tasks),
         "tool": any(task.hold is not None for task in plan.tasks),
         "behind": bool(plan.crews),
+        "rest": plan.human.rest is not None,
         **dict.fromkeys(("break", "meeting", "off", "absent"), any(w.duties is not None for w in plan.workers)),
     }
     return [WORK, WALK, IDLE, *(part for part, can in can_be.items() if can)]

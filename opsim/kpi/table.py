@@ -11,11 +11,14 @@ from opsim.kpi.crews import crews
 from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
 from opsim.kpi.due import due_dates
 from opsim.kpi.duty import duty
+from opsim.kpi.exposure import exposure
+from opsim.kpi.fatigue import fatigue
 from opsim.kpi.figure import Figure
 from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
+from opsim.kpi.human import learned
 from opsim.kpi.interruptions import interruptions
 from opsim.kpi.lines import lines
-from opsim.kpi.names import needs_postures
+from opsim.kpi.names import POSTURE
 from opsim.kpi.oee import oee
 from opsim.kpi.outages import outages
 from opsim.kpi.posture import trunk_flexion
@@ -58,16 +61,21 @@ _FUNCTIONS = (
     interruptions,
     crews,
     lines,
+    learned,
+    fatigue,
 )
 
 
 def figures(log: EventLog, plan: Plan, asked: Iterable[str] = ()) -> list[Figure]:
     """Every figure this log has, in one fixed order; those that need postures only where one of them is asked for.
 
+    Where the plan looks at no postures (``posture: off``) these are left out, whoever asks.
     Raises ValueError where a task's postures cannot be had.
     """
-    functions = (*_FUNCTIONS, trunk_flexion) if needs_postures(asked) else _FUNCTIONS
-    return [figure._replace(value=float(figure.value)) for function in functions for figure in function(log, plan)]
+    wanted = set(asked) if plan.posture else set()
+    functions = _FUNCTIONS if wanted.isdisjoint(POSTURE) else (*_FUNCTIONS, trunk_flexion)
+    found = [*(figure for function in functions for figure in function(log, plan)), *exposure(log, plan, wanted)]
+    return [figure._replace(value=float(figure.value)) for figure in found]
 
 
 def samples(log: EventLog, plan: Plan) -> dict[tuple[str, str], np.ndarray]:

@@ -224,7 +224,7 @@ def test_many_walks_are_stood_for_by_some_of_every_length():
     some = walked(rows, of).exposure
     assert some.measured_s[0] == pytest.approx(100 * 3 + 70 * 9)
     walks = walks_of(made(rows, of), of)
-    stands = looking._stood_for(walks, walks.whole_s)
+    stands = looking.stood_for(walks, walks.whole_s)
     assert (stands > 0).sum() == looking.LOOKED_AT
     short = walks.distance_m < 5
     assert stands[short].sum() == pytest.approx(300, abs=930 / looking.LOOKED_AT)

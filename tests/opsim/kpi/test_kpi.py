@@ -12,6 +12,7 @@ from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import KPIS, figures, samples
 from opsim.kpi.names import USUAL
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
+from opsim.plan.handling import Handling
 from opsim.report.words import NAMES
 from tests.opsim.kpi.made_logs import found, made, row, tiled, work
 from tests.opsim.made_walks import walking
@@ -113,14 +114,19 @@ workers:
   ben: {skills: {s1: 1.2, s2: 1.2}}
   cem: {skills: {s3: 1.0, s4: 1.0}}
   dan: {skills: {s4: 1.0}}
+human:
+  learning: {model: wright}
+  fatigue: {model: lffrm}
+  rest: {above: 0.5, until: 0.2}
 """
 
 
 def test_every_name_a_scenario_may_ask_for_is_computed():
     """Walks by a cell with an emulator of walking, the blocks of the station model by the shipped plant, and hours, a
-    crew and a paced line by a small floor.
+    crew, a paced line and people who learn, tire and rest by a small floor; the cell's tasks have a load.
     """
     cell = walking(plan(CELL))
+    cell = replace(cell, tasks=tuple(replace(task, handling=Handling(load_kg=5.0)) for task in cell.tasks))
     plant = replace(shipped("pump_plant.yaml"), horizon_s=7200.0)
     asked = {cell: KPIS, plant: (), plan(PEOPLE): ()}
     named = {figure.kpi for p, kpis in asked.items() for figure in figures(run_plan(p), p, kpis)}

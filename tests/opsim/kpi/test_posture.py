@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from opsim.kpi import figures
-from opsim.kpi.names import KPIS, POSTURE, USUAL, headline, needs_postures
+from opsim.kpi.names import EXPOSURE, KPIS, POSTURE, USUAL, headline, needs_postures
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, made_plan
 from tests.opsim.kpi.made_logs import made, work
 
@@ -78,7 +78,7 @@ def test_leaning_back_is_a_flexion_below_zero():
 def test_postures_are_made_only_where_a_figure_that_needs_them_is_asked_for():
     plan = made_plan(Bending(kind=lambda *_: pytest.fail("drawn")))
     log = made([work(0, 9, 0, worker=0, k=0, task=BEND)], plan)
-    others = [kpi for kpi in KPIS if kpi not in POSTURE]
+    others = [kpi for kpi in KPIS if kpi not in (*POSTURE, *EXPOSURE)]
     assert {figure.kpi for figure in figures(log, plan, others)} <= set(others)
     assert not needs_postures(USUAL) and needs_postures([*USUAL, "trunk_flexion_p95_deg"])
 

@@ -1,0 +1,32 @@
+"""The scores of a stretch of somebody's shift: each frame with what the scenario says of its task."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from opsim.ergonomics.bounds import NOTHING_OPEN, WALKING, Bounds, bounds_of
+from opsim.ergonomics.scoring import Scores, score
+from opsim.ergonomics.stretch import WAITING, Frames
+from opsim.plan import Plan
+
+
+def scored(frames: Frames, plan: Plan) -> Scores:
+    """The scores of N frames by ``plan.ergonomics``; 0 where no posture is known, so that nothing can be said."""
+    n, known = len(frames), frames.known
+    rula, reba, owas = np.zeros((3, n, 2), np.int8)
+    found = Scores(rula, reba, owas, np.zeros(n, np.int8))
+    for task in np.unique(frames.task[known]).tolist():
+        rows = np.flatnonzero(known & (frames.task == task))
+        some = frames.some(rows)
+        flags = (some.repeated, some.static, some.carrying)
+        own = score(some.measures, said_of(task, plan), plan.ergonomics, *flags)
+        for name in ("rula", "reba", "owas", "worse"):
+            getattr(found, name)[rows] = getattr(own, name)
+    return found
+
+
+def said_of(task: int, plan: Plan) -> Bounds:
+    """What is said of a task; of walking and of waiting, which is standing with nothing in the hands."""
+    if task >= 0:
+        return bounds_of(plan.tasks[task].handling)
+    return NOTHING_OPEN if task == WAITING else WALKING
