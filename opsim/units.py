@@ -31,10 +31,17 @@ UNITS: dict[str, dict[str, Fraction]] = {
         "ft/s": Fraction(3048, 10000),
     },
     "mass": {"g": Fraction(1, 1000), "kg": Fraction(1), "t": Fraction(1000), "lb": Fraction(45359237, 100_000_000)},
+    "angle": {"deg": Fraction(math.pi) / 180, "rad": Fraction(1)},
 }
-EXAMPLES = {"time": "45 s", "length": "1.5 m", "speed": "1.2 m/s", "mass": "6 kg"}
-_USUAL = {"time": ("s", "min", "h"), "length": ("m", "cm"), "speed": ("m/s", "km/h"), "mass": ("kg", "g")}
-SI = {"time": "s", "length": "m", "speed": "m/s", "mass": "kg"}
+EXAMPLES = {"time": "45 s", "length": "1.5 m", "speed": "1.2 m/s", "mass": "6 kg", "angle": "10 deg"}
+_USUAL = {
+    "time": ("s", "min", "h"),
+    "length": ("m", "cm"),
+    "speed": ("m/s", "km/h"),
+    "mass": ("kg", "g"),
+    "angle": ("deg", "rad"),
+}
+SI = {"time": "s", "length": "m", "speed": "m/s", "mass": "kg", "angle": "rad"}
 
 # Words people use for a unit; they are not read, but the hint says how to write them.
 _SPELLED = {
@@ -53,9 +60,11 @@ _SPELLED = {
     **dict.fromkeys(("kgs", "kilo", "kilos", "kilogram", "kilograms", "KG", "Kg"), "kg"),
     **dict.fromkeys(("gram", "grams"), "g"),
     **dict.fromkeys(("lbs", "pound", "pounds"), "lb"),
+    **dict.fromkeys(("degree", "degrees", "degs", "Deg", "\u00b0"), "deg"),
+    **dict.fromkeys(("radian", "radians", "Rad"), "rad"),
 }
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_PIECE = re.compile(rf"\s*({_NUMBER})\s*([^\W\d_]+(?:/[^\W\d_]+)?)?\s*")
+_PIECE = re.compile(rf"\s*({_NUMBER})\s*([^\W\d_]+(?:/[^\W\d_]+)?|\u00b0)?\s*")
 _CLOCK = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9](?:\.[0-9]+)?)")
 _HALF_CLOCK = re.compile(r"([0-9]{1,4}):([0-9]{2})")
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?[0-9]+,[0-9]+")
@@ -71,18 +80,21 @@ class UnitError(ValueError):
 
 
 def parse(value: object, kind: str) -> float:
-    """The number in SI (s, m, m/s, kg) of a quantity written with its unit.
+    """The number in SI (s, m, m/s, kg, rad) of a quantity written with its unit.
 
-    kind : "time", "length", "speed" or "mass". A time may also be written in parts ("1 min 30 s") or as a clock
-    with seconds ("00:45:00"); a length in parts ("5 ft 11 in"). The result is the nearest float to the written number.
+    kind : "time", "length", "speed", "mass" or "angle". A time may also be written in parts ("1 min 30 s") or as a
+    clock with seconds ("00:45:00"); a length in parts ("5 ft 11 in"). The result is the nearest float to the written
+    number.
     Raises UnitError for a bare number, an unknown unit, a unit of another kind, or text that is no quantity.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise UnitError(
-            f"expected a {kind}, found {shown(value)}", f"write it with its unit, such as '{EXAMPLES[kind]}'"
+            f"expected {a(kind)}, found {shown(value)}", f"write it with its unit, such as '{EXAMPLES[kind]}'"
         )
     if not isinstance(value, str) and not math.isfinite(value):
-        raise UnitError(f"expected a {kind}, found {value}", f"write a finite number with its unit: '{EXAMPLES[kind]}'")
+        raise UnitError(
+            f"expected {a(kind)}, found {value}", f"write a finite number with its unit: '{EXAMPLES[kind]}'"
+        )
     if not isinstance(value, str):
         raise _bare(shown(value), kind)
     return _read(value, kind)
@@ -94,6 +106,20 @@ def _read(text: str, kind: str) -> float:
     if kind == "time" and ":" in text:
         return _clock_s(text.strip())
     return _sum(_pieces(text, kind), text, kind)
+
+
+def a(kind: str) -> str:
+    """A kind of quantity with its article: "a time", "an angle"."""
+    return f"an {kind}" if kind == "angle" else f"a {kind}"
+
+
+def written(value: float, kind: str, digits: int = 6) -> str:
+    """A number in SI as people write it: angles in degrees, the rest in SI.
+
+    >>> written(math.pi / 4, "angle")
+    '45 deg'
+    """
+    return f"{math.degrees(value):.{digits}g} deg" if kind == "angle" else f"{value:.{digits}g} {SI[kind]}"
 
 
 def pattern(kind: str) -> str:
@@ -109,7 +135,7 @@ def _pieces(text: str, kind: str) -> list[tuple[str, str]]:
     """The (number, unit) pairs of a text; every unit is known and of this kind."""
     if _DECIMAL_COMMA.match(text):
         raise UnitError(
-            f"cannot read {shown(text)} as a {kind}", f"write a decimal point: '{text.replace(',', '.')[:40]}'"
+            f"cannot read {shown(text)} as {a(kind)}", f"write a decimal point: '{text.replace(',', '.')[:40]}'"
         )
     pieces, at = [], 0
     while at < len(text):
@@ -120,7 +146,7 @@ def _pieces(text: str, kind: str) -> list[tuple[str, str]]:
         at = match.end()
     if not pieces:
         raise UnitError(
-            f"expected a {kind}, found empty text", f"write a number and its unit, such as '{EXAMPLES[kind]}'"
+            f"expected {a(kind)}, found empty text", f"write a number and its unit, such as '{EXAMPLES[kind]}'"
         )
     if any(unit not in UNITS[kind] for _, unit in pieces):
         raise _wrong_unit(pieces, text, kind)
@@ -133,7 +159,7 @@ def _sum(pieces: list[tuple[str, str]], text: str, kind: str) -> float:
     in_order = all(larger > smaller for larger, smaller in pairwise(sizes))
     signed = any(number[0] in "+-" for number, _ in pieces[1:]) or (len(pieces) > 1 and pieces[0][0][0] == "-")
     if not in_order or signed or (len(pieces) > 1 and kind not in ("time", "length")):
-        raise UnitError(f"cannot read {shown(text)} as a {kind}", "write one number and one unit, or '1 min 30 s'")
+        raise UnitError(f"cannot read {shown(text)} as {a(kind)}", "write one number and one unit, or '1 min 30 s'")
     total = sum((_fraction(number, text) * size for (number, _), size in zip(pieces, sizes)), Fraction(0))
     return float(total)
 
@@ -161,12 +187,12 @@ def _clock_s(text: str) -> float:
 
 def _unreadable(text: str, kind: str) -> UnitError:
     hint = f"write a number and its unit, such as '{EXAMPLES[kind]}'"
-    return UnitError(f"cannot read {shown(text)} as a {kind}", hint)
+    return UnitError(f"cannot read {shown(text)} as {a(kind)}", hint)
 
 
 def _bare(number: str, kind: str) -> UnitError:
     usual = [f"'{number} {unit}'" for unit in _USUAL[kind]]
-    return UnitError(f"{number} has no unit; expected a {kind}", f"write {', '.join(usual[:-1])} or {usual[-1]}")
+    return UnitError(f"{number} has no unit; expected {a(kind)}", f"write {', '.join(usual[:-1])} or {usual[-1]}")
 
 
 def _wrong_unit(pieces: list[tuple[str, str]], text: str, kind: str) -> UnitError:
@@ -176,7 +202,7 @@ def _wrong_unit(pieces: list[tuple[str, str]], text: str, kind: str) -> UnitErro
         return _bare(pieces[0][0], kind) if len(pieces) == 1 else _unreadable(text, kind)
     other = next((name for name, units in UNITS.items() if unit in units), None)
     if other is not None:
-        return UnitError(f"{shown(text)} is a {other}; expected a {kind}", f"such as '{EXAMPLES[kind]}'")
+        return UnitError(f"{shown(text)} is {a(other)}; expected {a(kind)}", f"such as '{EXAMPLES[kind]}'")
     rewritten = [(number, _SPELLED.get(part, part)) for number, part in pieces]
     if all(part in UNITS[kind] for _, part in rewritten):
         plain = " ".join(f"{number} {part}" for number, part in rewritten)

@@ -6,7 +6,9 @@ from opsim.plan.calendar import plan_shifts
 from opsim.plan.cards import plan_cards
 from opsim.plan.conveyors import plan_conveyors
 from opsim.plan.crews import plan_crews
+from opsim.plan.ergonomics import plan_ergonomics
 from opsim.plan.failures import plan_breakdowns, plan_maintenance, plan_repair_teams, repair_tasks
+from opsim.plan.human import plan_human
 from opsim.plan.lines import plan_lines
 from opsim.plan.material import plan_products
 from opsim.plan.plan import Plan
@@ -82,4 +84,8 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         shares=plan_shares(scenario, ranks),
         priorities=tuple(scenario.allocation.priorities),
         serve=scenario.allocation.serve,
+        ergonomics=plan_ergonomics(scenario),
+        human=plan_human(scenario, ranks),
+        posture=scenario.run.posture,
+        start_s=scenario.run.start_s,
     )

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
-from opsim.plan.tools import Moment
+from opsim.plan.tools import Moment, moment_of
 
 GRIPS = ("good", "fair", "poor", "unacceptable")
 FORCES = ("intermittent", "repeated", "static", "shock")
 FOREARMS = ("mid", "end")
 START, END = Moment(share=0.0), Moment(share=1.0)
 LEGS = ("balanced", "unbalanced")
+SAID = ("grip", "force", "forearm", "arms_supported", "sitting", "legs", "rapid")
+"""What ``handling:`` of a task may say beside its load."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,3 +42,17 @@ class Handling:
 
 
 NOT_SAID = Handling()
+
+
+def handling_of(task, scenario, model) -> Handling:
+    """What a scenario says of a task; its marks by the names that the model has for them.
+
+    Raises ValueError for another name. Tasks that no scenario names, such as repairs, have NOT_SAID.
+    """
+    said, loaded = getattr(task, "handling", None), getattr(task, "loaded", None)
+    more: dict[str, Any] = {} if said is None else {key: getattr(said, key) for key in SAID}
+    names = tuple(getattr(model, "mark_names", ()))
+    if loaded is not None:
+        more |= {"start": moment_of(loaded.start, names), "end": moment_of(loaded.end, names)}
+    made = Handling(load_kg=getattr(task, "load_kg", None), **more)
+    return NOT_SAID if made == NOT_SAID else made

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from opsim.names import natural_key
+from opsim.plan.ranks import Ranks
+
 
 @dataclass(frozen=True, slots=True)
 class HumanPlan:
@@ -38,3 +41,32 @@ class HumanPlan:
 
 
 NO_EFFECTS = HumanPlan()
+EFFECTS = ("learning", "forgetting", "fatigue", "state_pace", "circadian", "rest", "errors")
+
+
+def plan_human(scenario, ranks: Ranks) -> HumanPlan:
+    """The effects that a scenario names, each made by ``opsim.human``; NO_EFFECTS where it names none."""
+    said = scenario.human
+    named = {effect: getattr(said, effect) for effect in EFFECTS if getattr(said, effect) is not None}
+    experience = _experience(scenario, ranks)
+    if not named and not experience:
+        return NO_EFFECTS
+    from opsim.human.catalogue import made
+
+    models = {
+        effect: made(effect, getattr(block, "model", effect), parameters(block)) for effect, block in named.items()
+    }
+    return HumanPlan(**models, acts_on=said.acts_on, experience=experience, start_s=scenario.run.start_s)
+
+
+def parameters(block: Any) -> dict[str, Any]:
+    """What the file, or the default, says of a model, by names of its parameters."""
+    return {name: getattr(block, name) for name in type(block).model_fields if name != "model"}
+
+
+def _experience(scenario, ranks: Ranks) -> tuple[tuple[float, ...], ...]:
+    """(workers, tasks), both in natural order; nothing where nobody has any."""
+    workers = [worker for _, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))]
+    if not any(worker.experience for worker in workers):
+        return ()
+    return tuple(tuple(worker.experience.get(task, 0.0) for task in ranks.tasks) for worker in workers)

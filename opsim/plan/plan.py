@@ -48,6 +48,7 @@ class Plan:
     serve : what somebody who patrols does at a station: ``exhaustive`` or ``one``
     ergonomics : how postures are scored; human : what becomes of people as they work; posture : whether anybody looks
                  at postures at all
+    start_s : when on the clock the run begins, seconds after Monday 00:00
     """
 
     name: str
@@ -93,6 +94,7 @@ class Plan:
     ergonomics: Options = USUAL
     human: HumanPlan = NO_EFFECTS
     posture: bool = True
+    start_s: float = 0.0
 
     @property
     def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:

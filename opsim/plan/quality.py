@@ -14,7 +14,7 @@ NOWHERE = -1
 class QualityPlan:
     """Of one station. yield_share : share of operations that leave no defect; inspects : whether jobs are looked at
 
-    by_worker : whether some of those who can work here leave defects of their own
+    by_worker : whether some of those who can work here leave defects of their own, always or as they tire
     finds, false_alarms : share of bad jobs, and of good ones, that are held to be bad
     back : by product and step, the step that such a job is sent back to; ``NOWHERE``: it is scrapped. () : always scrap
     most : so many reworks of a job from here, then scrap
@@ -43,7 +43,10 @@ def plan_quality(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> t
 
 
 def _by_worker(scenario) -> set[str]:
-    """Stations where somebody leaves defects of his own."""
+    """Stations where somebody leaves defects of his own, or whoever works there may, as he tires."""
+    if scenario.human.errors is not None:
+        manned = {name for name, task in scenario.tasks.items() if task.automatic is not True}
+        return {name for name, station in scenario.stations.items() if not manned.isdisjoint(station.tasks)}
     skills = [(name, skill) for worker in scenario.workers.values() for name, skill in worker.skills.items()]
     return {name for name, skill in skills if getattr(skill, "quality", 1.0) < 1}
 

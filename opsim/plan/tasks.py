@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from opsim.names import natural_key
-from opsim.plan.handling import NOT_SAID, Handling
+from opsim.plan.handling import NOT_SAID, Handling, handling_of
 from opsim.plan.setup import setup_tasks
 from opsim.plan.tools import HoldPlan, Needs, hold_of, needs_of
 from opsim.task import TaskModel
@@ -63,4 +63,5 @@ def _task(name: str, task, scenario, model: TaskModel) -> TaskPlan:
         hold=hold_of(task, scenario, model),
         per_lot=task.per == "lot",
         interruption=getattr(task, "interruption", None),
+        handling=handling_of(task, scenario, model),
     )

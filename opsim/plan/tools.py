@@ -49,11 +49,12 @@ def hold_of(task, scenario, model) -> HoldPlan | None:
     if task.hold is None:
         return None
     names = tuple(getattr(model, "mark_names", ()))
-    moments = (_moment(said, names) for said in (task.hold.start, task.hold.end))
+    moments = (moment_of(said, names) for said in (task.hold.start, task.hold.end))
     return HoldPlan(ranked(scenario.tools)[task.hold.tool], *moments)
 
 
-def _moment(said: float | str, names: tuple[str, ...]) -> Moment:
+def moment_of(said: float | str, names: tuple[str, ...]) -> Moment:
+    """A moment by a share of a performance, or by the name of one of its marks. Raises ValueError for another name."""
     if isinstance(said, float):
         return Moment(share=said)
     if said not in names:

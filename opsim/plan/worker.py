@@ -69,13 +69,20 @@ def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
             tuple(ranks.stations[name] for name in worker.patrol or ()),
             worker.most_load_kg,
             duties[name],
-            worker.absence,
+            _absence(worker, scenario.human.absence),
             zone=tuple(sorted(ranks.stations[name] for name in worker.zone or ())),
             floater=worker.floater,
             quality=_qualities(worker, ranks.stations),
         )
         for name, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))
     )
+
+
+def _absence(worker, of_all: float | None) -> float:
+    """His own, else what is said of everybody with a shift."""
+    if worker.absence is not None:
+        return worker.absence
+    return of_all if of_all is not None and worker.shift is not None else 0.0
 
 
 def _ratings(worker, ranks: dict[str, int], kept_away: set[str]) -> tuple[float, ...]:

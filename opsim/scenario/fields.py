@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, WrapValidator
 from pydantic_core import PydanticCustomError
 
 from opsim import units
@@ -51,7 +52,7 @@ def _quantity(
     why: str = "",
 ) -> BeforeValidator:
     """Reads a quantity of a kind; bounds in SI, and why they are there."""
-    unit, example = units.SI[kind], f"'{units.EXAMPLES[kind]}'"
+    example = f"'{units.EXAMPLES[kind]}'"
 
     def read(value: object) -> float:
         try:
@@ -59,14 +60,15 @@ def _quantity(
         except units.UnitError as error:
             raise plain_error(error.message, error.hint) from None
         if above is not None and not number > above:
-            raise plain_error(f"must be more than {above:g} {unit}, found {shown(value)}", f"such as {example}")
+            least = units.written(above, kind)
+            raise plain_error(f"must be more than {least}, found {shown(value)}", f"such as {example}")
         if at_least is not None and number < at_least:
             raise plain_error(
-                f"must be at least {at_least:g} {unit}, found {shown(value)}",
+                f"must be at least {units.written(at_least, kind)}, found {shown(value)}",
                 why if number >= 0 else f"such as {example}",
             )
         if at_most is not None and number > at_most:
-            raise plain_error(f"must be at most {at_most:.10g} {unit}, found {shown(value)}", why)
+            raise plain_error(f"must be at most {units.written(at_most, kind, 10)}, found {shown(value)}", why)
         return number
 
     return BeforeValidator(read)
@@ -77,6 +79,21 @@ def _as_text(kind: str) -> WithJsonSchema:
     return WithJsonSchema(
         {"type": "string", "pattern": units.pattern(kind), "examples": [units.EXAMPLES[kind]], "quantity": kind}
     )
+
+
+NEVER = "never"
+
+
+def or_never(seconds: Any) -> Any:
+    """A kind of time that may also be ``never``, which is longer than any."""
+
+    def read(value: object, as_time: Callable[[object], float]) -> float:
+        return math.inf if value == NEVER else as_time(value)
+
+    text = {"type": "string", "pattern": f"{units.pattern('time')}|^{NEVER}$", "quantity": "time"}
+    return Annotated[
+        seconds, WrapValidator(read), WithJsonSchema({**text, "examples": [units.EXAMPLES["time"], NEVER]})
+    ]
 
 
 _YEARS = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*years?\s*")
@@ -159,6 +176,7 @@ Mass = Annotated[float, _body("mass", "mass_kg"), _as_text("mass")]
 Age = Annotated[float, BeforeValidator(_age_years), WithJsonSchema(_AGE)]
 Pace = Annotated[float, Field(ge=BODY_RANGES["pace"][0], le=BODY_RANGES["pace"][1])]
 Load = Annotated[float, _quantity("mass", at_least=0, at_most=10_000), _as_text("mass")]
+Angle = Annotated[float, _quantity("angle", at_least=0, at_most=math.pi), _as_text("angle")]
 MostLoad = Annotated[float, _quantity("mass", above=0, at_most=10_000), _as_text("mass")]
 Rating = Annotated[float, Field(ge=0.01, le=10)]
 NameText = Annotated[str, BeforeValidator(_name_text)]

@@ -83,10 +83,10 @@ def _told(node: Schema) -> Schema:
     """A quantity says its units, and its default with one; examples are values, not text of a file."""
     if "quantity" in node:
         kind = node["quantity"]
-        known = f"a {kind} in {', '.join(units.UNITS[kind])}"
+        known = f"{units.a(kind)} in {', '.join(units.UNITS[kind])}"
         node = {**node, "description": f"{node['description']}; {known}" if "description" in node else known}
         if isinstance(node.get("default"), int | float):
-            node = {**node, "default": f"{node['default']:g} {units.SI[kind]}"}
+            node = {**node, "default": units.written(node["default"], kind)}
     elif isinstance(node.get("examples"), list) and node.get("type") != "string":
         node = {**node, "examples": [yaml.safe_load(one) if isinstance(one, str) else one for one in node["examples"]]}
     return node

@@ -13,10 +13,11 @@ from opsim.scenario import like
 from opsim.scenario.positions import Node, Part, child, dotted, problem
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.schema.cycles import CYCLE_KINDS, SO_MANY
+from opsim.scenario.schema.human_models import MODEL_TAGS
 from opsim.scenario.schema.skills import RATING, SKILL, Skill
 from opsim.scenario.yaml_nodes import scalar
 
-_FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS)
+_FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS, *MODEL_TAGS)
 _MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", *_FORMS)
 _TYPES = {
     "string_type": "text",
@@ -102,7 +103,8 @@ def _such_as(kind: str, ctx: dict[str, Any], loc: tuple[Part, ...]) -> str:
         return ""
     field = _fields(_model_at(loc[:-1])).get(str(loc[-1]))
     if kind == "bool_type":
-        return "" if field is None or field.is_required() else f"without the line it is {shown(field.default)}"
+        default = None if field is None or field.is_required() else field.default
+        return "" if default is None else f"without the line it is {shown(default)}"
     if kind == "model_type":
         model = _model_at(loc)
         needed = {key: field for key, field in _fields(model).items() if field.is_required()}
@@ -178,7 +180,8 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     """The block at a location, found by walking down the models; marks say which kind of a task, a path, a step."""
-    marked: dict[str, type[Block]] = {**TASK_KINDS, "<path>": Path, "<step>": Step, SKILL: Skill, **CYCLE_KINDS}
+    marked: dict[str, type[Block]] = {"<path>": Path, "<step>": Step, SKILL: Skill}
+    marked |= TASK_KINDS | MODEL_TAGS | CYCLE_KINDS
     model: type[Block] = Scenario
     parts = iter(loc)
     for part in parts:

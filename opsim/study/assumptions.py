@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
+from opsim.study.ergonomics import ergonomics
 from opsim.study.flow import flow
+from opsim.study.human import human
 from opsim.study.people import asked_for_pace, people
+from opsim.study.strain import strain
 from opsim.study.walking import walking
 from opsim.tasks.motions import emulators_of
 
@@ -28,7 +31,7 @@ Assumption = tuple[str, str]
 
 def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
-    lines = [line for part in (_switched, _times, people, walking, flow, _window) for line in part(loaded, plan)]
+    lines = [line for part in PARTS for line in part(loaded, plan)]
     return [*lines, *_run(loaded, asked)]
 
 
@@ -103,3 +106,6 @@ def _run(loaded, asked: Asked) -> Iterator[Assumption]:
         elif used is not None and not (in_file and used == own):
             instead = f"instead of the file's {own}" if in_file else "the file says nothing"
             yield "run", f"{name}: {used}, given with the call; {instead}"
+
+
+PARTS = (_switched, _times, people, human, ergonomics, strain, walking, flow, _window)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from opsim.kpi.names import POSTURE
+from opsim.kpi.names import needs_postures
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
@@ -108,7 +108,7 @@ def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[st
     """
     _check(results, base)
     tables = {name: result.kpis() for name, result in results.items()}
-    hours = _hours(results)
+    hours = scheduled_hours(results)
     apart = {name for name in hours if hours[name] != hours[base]}
     keys = _keys(results[base], list(tables[base]), kpis, by_calendar=bool(apart))
     shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
@@ -163,7 +163,7 @@ def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, flo
     return interval, float(2 * stdtr(interval.n - 1, -abs(t))), apart / interval.sd**2 if apart > 0 else None
 
 
-def _hours(results: Mapping[str, Result]) -> dict[str, float]:
+def scheduled_hours(results: Mapping[str, Result]) -> dict[str, float]:
     """By variant, its scheduled hours; all of the window where it keeps none. Nothing where none of them does."""
     said = {name: result.summary.get("scheduled_h") for name, result in results.items()}
     if all(found is None for found in said.values()):
@@ -201,9 +201,9 @@ def _check(results: Mapping[str, Result], base: str) -> None:
         raise NotComparable(f"pairs need the same random numbers: {said}; run all variants with one seed")
 
 
-def _remedy(kpi: str, names: set[str]) -> str:
+def remedy(kpi: str, names: set[str]) -> str:
     """What to do about a figure that is not there: some are made only where the scenario asks for them."""
-    if kpi in POSTURE:
+    if needs_postures([kpi]):
         return "it is made where the scenario's 'outputs' list it: add it there, and run again"
     return did_you_mean(kpi, names)
 
@@ -211,7 +211,7 @@ def _remedy(kpi: str, names: set[str]) -> str:
 def _keys(base: Result, keys: list[Key], kpis: Sequence[str], by_calendar: bool) -> list[Key]:
     """by_calendar : whether the throughput per calendar hour has to stand beside that per scheduled hour."""
     names = {key[0] for key in keys}
-    unknown = [f"no figure {kpi!r}; {_remedy(kpi, names)}" for kpi in kpis if kpi not in names]
+    unknown = [f"no figure {kpi!r}; {remedy(kpi, names)}" for kpi in kpis if kpi not in names]
     if unknown:
         raise NotComparable("\n".join(unknown))
     if kpis:

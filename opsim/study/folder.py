@@ -10,7 +10,7 @@ from opsim.study.resolved import differences, read_resolved, resolved_text, with
 from opsim.whole import whole_file, write_json, write_text
 
 MANIFEST, RESOLVED = "manifest.json", "scenario.resolved.yaml"
-RESULTS = ("summary.json", "kpis.parquet", "report.html", "replay.html")
+RESULTS = ("summary.json", "kpis.parquet", "report.html", "replay.html", "postures.json")
 MOST_DIFFERENCES = 5
 
 

@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from opsim.kpi.names import KPIS
+from opsim.kpi.names import KPIS, needs_postures
 from opsim.problems import did_you_mean, shown
 from opsim.study.interval import Interval, t_interval
 from opsim.study.replicate import Replicated
@@ -37,9 +37,14 @@ class Precision:
         key = (self.kpi, self.subject, self.part)
         found = [figure.value for one in done for figure in one.figures if figure[:3] == key]
         if done and not found:
-            same = ["/".join(filter(None, figure[:3])) for figure in done[0].figures]
-            raise NoSuchFigure(f"precision: no figure {shown(self.name)}; {did_you_mean(self.name, same)}")
+            raise NoSuchFigure(f"precision: no figure {shown(self.name)}; {self._instead(done[0])}")
         return found
+
+    def _instead(self, one: Replicated) -> str:
+        """What there is, where the figure is not."""
+        if needs_postures([self.kpi]) and self.kpi not in {figure.kpi for figure in one.figures}:
+            return "it is made from postures, and nobody looks at them ('posture: off'), or nobody works"
+        return did_you_mean(self.name, ["/".join(filter(None, figure[:3])) for figure in one.figures])
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-NOT_IN_ROWS = ("name", "outputs", "run.seed", "run.replications", "run.warm_up")
+NOT_IN_ROWS = ("name", "outputs", "frontier", "run.posture", "run.seed", "run.replications", "run.warm_up")
 """What two runs may differ in and still have the same rows; of these the manifest names the seed by itself."""
 
 

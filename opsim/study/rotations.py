@@ -6,18 +6,19 @@ from collections.abc import Iterator
 
 from opsim.names import listed
 from opsim.plan import Plan
+from opsim.plan.evenness import LEAST_EXPOSED
 from opsim.plan.rotations import IN_TURN, RotationPlan
 
 
 def rotations(plan: Plan) -> Iterator[tuple[str, str]]:
     """(topic, what is assumed) of each rotation."""
+    new = ", and nobody is slower for being new at a post" if plan.human.learning is None else ""
     for rotation in plan.rotations:
         names = listed([plan.workers[worker].name for worker in rotation.workers])
         yield (
             "rotation",
             f"{rotation.name}: {names} share {len(rotation.posts)} posts, and change {_when(rotation)}, "
-            f"{_who(rotation)}; what was begun is finished at the old post, a change takes no time but the walk, and "
-            "nobody is slower for being new at a post",
+            f"{_who(rotation)}; what was begun is finished at the old post, a change takes no time but the walk{new}",
         )
 
 
@@ -34,4 +35,6 @@ def _who(rotation: RotationPlan) -> str:
         return "each to the next post"
     if rotation.rule == "least_time":
         return "a post going to who was there for the shortest time so far, breaks included"
+    if rotation.rule == LEAST_EXPOSED:
+        return "the heaviest post going to whose body has gone through least so far"
     return f"by the rule {rotation.rule}"

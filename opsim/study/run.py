@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
+from opsim.kpi.better import read_asked
 from opsim.plan import compile_plan
 from opsim.results import Result
 from opsim.study.assumptions import Asked
@@ -41,7 +42,8 @@ def run_scenario(
     own = MOST if precision else loaded.scenario.run.replications
     n = own if replications is None else replications
     manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
-    outputs = (*loaded.scenario.outputs, *(one.kpi for one in precision))
+    beside = (*(one.kpi for one in precision), *(read_asked(text).kpi for text in loaded.scenario.frontier or ()))
+    outputs = (*loaded.scenario.outputs, *beside)
 
     def run(first: int, upto: int) -> list[Replicated]:
         made_from = digest(manifest)

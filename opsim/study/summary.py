@@ -54,6 +54,7 @@ def summary_of(
         "assumptions": [{"topic": topic, "says": says} for topic, says in _assumptions(loaded, plan, done, asked)],
         "checks": list(CHECKS),
         "warnings": warnings_of(done, plan),
+        **({"frontier": list(loaded.scenario.frontier)} if loaded.scenario.frontier else {}),
     }
 
 

@@ -56,7 +56,9 @@ def _presence(plan: Plan) -> Iterator[Line]:
         )
     else:
         yield "absence", "nobody is ever absent"
-    yield "workers", "everybody who is there is equally fresh all the time: no learning and no fatigue"
+    if plan.human.fatigue is None:
+        learning = "no learning and " if plan.human.learning is None else ""
+        yield "workers", f"everybody who is there is equally fresh all the time: {learning}no fatigue"
 
 
 def _interruptions(plan: Plan) -> Iterator[Line]:

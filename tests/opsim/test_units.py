@@ -1,8 +1,10 @@
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.units import UNITS, UnitError, parse
+from opsim.units import UNITS, UnitError, parse, written
 
 
 @pytest.mark.parametrize(
@@ -25,6 +27,8 @@ from opsim.units import UNITS, UnitError, parse
         ("4.5 km/h", "speed", 1.25),
         ("60 m/min", "speed", 1.0),
         ("600 g", "mass", 0.6),
+        ("180 deg", "angle", math.pi),
+        ("0.2 rad", "angle", 0.2),
         ("1.1 h", "time", 3960.0),  # 1.1 * 3600 in floats is 3960.0000000000005
     ],
 )
@@ -45,6 +49,11 @@ def test_a_quantity_is_read_to_the_nearest_float(text, kind, si):
         ("2 mn", "time", "unknown unit 'mn'; did you mean 'min'? units of time: ms, s, min, h, d"),
         ("80 cmm", "length", "unknown unit 'cmm'; did you mean 'mm'? units of length: mm, cm, m, km, in, ft"),
         ("5 kg", "time", "'5 kg' is a mass; expected a time; such as '45 s'"),
+        ("5 kg", "angle", "'5 kg' is a mass; expected an angle; such as '10 deg'"),
+        ("10 deg", "mass", "'10 deg' is an angle; expected a mass; such as '6 kg'"),
+        (10, "angle", "10 has no unit; expected an angle; write '10 deg' or '10 rad'"),
+        ("10 degrees", "angle", "unknown unit 'degrees'; write '10 deg'"),
+        ("10\u00b0", "angle", "unknown unit '\u00b0'; write '10 deg'"),
         ("1,5 s", "time", "cannot read '1,5 s' as a time; write a decimal point: '1.5 s'"),
         (
             "45:00",
@@ -95,3 +104,10 @@ def test_any_text_is_a_finite_number_or_a_unit_error(text, kind):
         assert abs(parse(text, kind)) < 1e40
     except UnitError as error:
         assert error.message
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"), [("45 deg", "angle"), ("2.5 s", "time"), ("0.25 m", "length"), ("6 kg", "mass")]
+)
+def test_what_is_written_is_what_was_read(text, kind):
+    assert written(parse(text, kind), kind) == text

@@ -16,8 +16,10 @@ from opsim.scenario.checks.cards import card_problems
 from opsim.scenario.checks.carrying import carrying_problems
 from opsim.scenario.checks.conveyors import conveyor_problems
 from opsim.scenario.checks.crews import crew_problems
+from opsim.scenario.checks.ergonomics import ergonomic_problems
 from opsim.scenario.checks.failures import failure_problems
 from opsim.scenario.checks.files import file_problems
+from opsim.scenario.checks.human import human_problems
 from opsim.scenario.checks.line_ways import line_way_problems
 from opsim.scenario.checks.lines import line_problems
 from opsim.scenario.checks.material import material_problems
@@ -79,6 +81,8 @@ def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
         tool_problems(tree, folder),
         team_problems(tree),
         rotation_problems(tree),
+        ergonomic_problems(tree, base, folder),
+        human_problems(tree),
         addition_problems(tree, base),
         file_problems(tree, folder),
         motion_problems(tree, folder),

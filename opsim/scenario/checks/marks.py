@@ -3,13 +3,33 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 from opsim.libraries import LibraryMissing, library_marks, resolve_library
+from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.references import motion_emulators
-from opsim.scenario.positions import Node, child, text
+from opsim.scenario.positions import Node, Part, child, problem, text
 
 WALK = "walk"
+MOMENTS = ("from", "to")
+
+
+def moment_problems(tree: Node, task: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Problem]:
+    """Moments of ``hold`` or ``loaded`` that are names: of a movement without such a mark, or in the wrong order."""
+    said = {key: node for key in MOMENTS if (node := child(task, path[-1], key)) is not None}
+    names = {key: node for key, node in said.items() if isinstance(node.value, str)}
+    marks = marks_of(tree, task, folder) if names else None
+    if marks is None:
+        return
+    for key, node in names.items():
+        if node.value not in marks:
+            hint = did_you_mean(node.value, marks, otherwise="its marks") or "say it as a share, such as 0.25"
+            found = f"no mark {shown(node.value)} in this movement" if marks else "this task has no marks"
+            yield problem(node.place, (*path, key), found, hint)
+    both = [marks.index(node.value) for node in names.values() if node.value in marks]
+    if len(both) == 2 and both[0] > both[1]:
+        yield problem(names["to"].place, (*path, "to"), f"{names['to'].value} comes before {names['from'].value}")
 
 
 def marks_of(tree: Node, task: Node, folder: Path) -> list[str] | None:

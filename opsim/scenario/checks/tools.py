@@ -6,12 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.marks import marks_of
+from opsim.problems import Problem, shown
+from opsim.scenario.checks.marks import moment_problems
 from opsim.scenario.checks.references import named
-from opsim.scenario.positions import Node, Part, child, entries, items, problem, text
-
-MOMENTS = ("from", "to")
+from opsim.scenario.positions import Node, child, entries, items, problem, text
 
 
 def tool_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -23,7 +21,7 @@ def tool_problems(tree: Node, folder: Path) -> Iterator[Problem]:
                 yield from named(Node(tool, number.name_place), tools, "tool", (section, name, "needs", tool))
     for name, task in entries(tree, "tasks").items():
         yield from named(child(task, "hold", "tool"), tools, "tool", ("tasks", name, "hold", "tool"))
-        yield from _marks(tree, task, ("tasks", name, "hold"), folder)
+        yield from moment_problems(tree, task, ("tasks", name, "hold"), folder)
     if tools:
         yield from _too_few(tree)
     yield from _set_ups(tree)
@@ -65,23 +63,6 @@ def _whole(node: Node | None, otherwise: int) -> int:
 
 def _are(n: int) -> str:
     return "is 1" if n == 1 else f"are {n}"
-
-
-def _marks(tree: Node, task: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Problem]:
-    """Moments that are names, of a movement that has no such mark, or in the wrong order."""
-    said = {key: node for key in MOMENTS if (node := child(task, "hold", key)) is not None}
-    names = {key: node for key, node in said.items() if isinstance(node.value, str)}
-    marks = marks_of(tree, task, folder) if names else None
-    if marks is None:
-        return
-    for key, node in names.items():
-        if node.value not in marks:
-            hint = did_you_mean(node.value, marks, otherwise="its marks") or "say it as a share, such as 0.25"
-            found = f"no mark {shown(node.value)} in this movement" if marks else "this task has no marks"
-            yield problem(node.place, (*path, key), found, hint)
-    both = [marks.index(node.value) for node in names.values() if node.value in marks]
-    if len(both) == 2 and both[0] > both[1]:
-        yield problem(names["to"].place, (*path, "to"), f"{names['to'].value} comes before {names['from'].value}")
 
 
 def _set_ups(tree: Node) -> Iterator[Problem]:

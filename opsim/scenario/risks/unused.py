@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.kpi.names import POSTURE, WALKING
+from opsim.kpi.names import EXPOSURE, POSTURE, WALKING
 from opsim.names import natural_key
 from opsim.scenario.risks.ways import points_of, ways
 from opsim.scenario.risks.words import listed
@@ -66,7 +66,7 @@ def _paths(scenario: Scenario) -> Iterator[str]:
 
 def _no_bodies(scenario: Scenario) -> Iterator[str]:
     """Postures are asked for, and every task is a time without a body; what a plug-in gives is not known here."""
-    asked = [name for name in scenario.outputs if name in POSTURE and name not in WALKING]
+    asked = [name for name in scenario.outputs if name in (*POSTURE, *EXPOSURE) and name not in WALKING]
     kinds = ("emulator", "motions", "plugin")
     may_have = [task for task in scenario.tasks.values() if any(hasattr(task, kind) for kind in kinds)]
     if asked and not may_have and scenario.walking is None:

@@ -33,6 +33,12 @@ def clock_s(value: object) -> float:
     return hours * 3600.0 + minutes * 60.0 + seconds
 
 
+def clock_text(seconds: float) -> str:
+    """A time of the day, from midnight, as people write it: "16:48"."""
+    minutes = round(seconds / 60)
+    return f"{minutes // 60:02d}:{minutes % 60:02d}"
+
+
 def _as_clock(value: object) -> str:
     """How a time of the day is written; of a number that may have been one, counted in minutes."""
     spoken = _SPOKEN.fullmatch(value) if isinstance(value, str) else None

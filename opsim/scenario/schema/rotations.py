@@ -60,9 +60,10 @@ class Rotation(Block):
     rule: NameText = Field(
         IN_TURN,
         description="who takes which post at a change: in_turn (everybody moves up by one), least_time (each post, the "
-        "first of the list first, goes to who was there for the shortest time so far), or a plug-in's; alone, without "
-        "`every` and `after`, it is asked whenever an operation is done at one of the posts",
-        examples=["least_time"],
+        "first of the list first, goes to who was there for the shortest time so far), least_exposed (each post, the "
+        "heaviest first, goes to whose body has gone through least so far, RULA x time at work), or a plug-in's; "
+        "alone, without `every` and `after`, it is asked whenever an operation is done at one of the posts",
+        examples=["least_time", "least_exposed"],
     )
 
     @model_validator(mode="after")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from opsim.clock import DAYS
-from opsim.problems import shown
+from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Seconds, SecondsOrZero, Whole, plain_error
 from opsim.scenario.schema.base import Block
 
@@ -20,6 +20,20 @@ def _day_and_time(value: object) -> object:
     if match is None or match[1].title() not in _DAY_WORDS or int(match[2]) > 23 or int(match[3]) > 59:
         raise plain_error(f"expected a weekday and a time, found {shown(value)}", "such as 'Mon 06:00'")
     return f"{match[1][:3].title()} {int(match[2]):02d}:{match[3]}"
+
+
+def _on_or_off(value: object) -> bool:
+    """YAML 1.1 writers make true and false of on and off."""
+    if isinstance(value, bool):
+        return value
+    if not isinstance(value, str) or value not in _SWITCH:
+        hint = did_you_mean(value, _SWITCH) if isinstance(value, str) else ""
+        raise plain_error(f"expected on or off, found {shown(value)}", hint)
+    return _SWITCH[value]
+
+
+_SWITCH = {"on": True, "off": False}
+_ON_OFF = {"anyOf": [{"enum": ["on", "off"]}, {"type": "boolean"}]}
 
 
 class Run(Block):
@@ -47,6 +61,12 @@ class Run(Block):
         description="which differences of task times are left: within_only: everybody has the same mean; between_only: "
         "each worker always takes his own mean; none: everybody always takes the mean; shuffled: times as in full, "
         "each with the body of another performance of the same worker",
+    )
+
+    posture: Annotated[bool, BeforeValidator(_on_or_off), WithJsonSchema(_ON_OFF)] = Field(
+        True,
+        description="off: nobody looks at postures, and there is no figure of them; what happens stays as it is",
+        examples=["off"],
     )
 
     @property

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
+from opsim.kpi.better import read_asked
 from opsim.kpi.names import KPIS, USUAL
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Name, plain_error
@@ -14,7 +15,9 @@ from opsim.scenario.schema.base import Block
 from opsim.scenario.schema.cards import Card
 from opsim.scenario.schema.conveyors import Conveyor
 from opsim.scenario.schema.crews import Crew
+from opsim.scenario.schema.ergonomics import Ergonomics
 from opsim.scenario.schema.failures import RepairTeam
+from opsim.scenario.schema.human import Human
 from opsim.scenario.schema.layout import Layout
 from opsim.scenario.schema.lines import Line
 from opsim.scenario.schema.material import Product, Station
@@ -35,6 +38,31 @@ def _known_output(value: object) -> object:
     if value not in KPIS:
         raise plain_error(f"unknown output {shown(value)}", did_you_mean(value, KPIS))
     return value
+
+
+def _known_figure(value: object) -> object:
+    """A KPI, with the subject and the part that are meant, and which way is better where that is not known."""
+    if not isinstance(value, str):
+        raise plain_error(f"expected a figure, found {shown(value)}", "such as throughput_per_h")
+    asked = read_asked(value)
+    if asked.kpi not in KPIS:
+        raise plain_error(f"unknown figure {shown(asked.kpi)}", did_you_mean(asked.kpi, KPIS))
+    if not asked.better:
+        hint = f"write 'more {asked.name}' or 'less {asked.name}'"
+        raise plain_error(f"nothing says whether more or less of {asked.name} is better", hint)
+    return value
+
+
+def _two(figures: list[str]) -> list[str]:
+    if len(figures) != 2:
+        found = f"expected two figures, found {len(figures) or 'none'}"
+        raise plain_error(found, "such as [throughput_per_h, walked_m]")
+    if read_asked(figures[0]).name == read_asked(figures[1]).name:
+        raise plain_error("the same figure twice", "name two that pull against each other", on=1)
+    return figures
+
+
+Frontier = Annotated[list[Annotated[str, BeforeValidator(_known_figure)]], AfterValidator(_two)]
 
 
 def _version_1(value: object) -> object:
@@ -132,8 +160,23 @@ class Scenario(Block):
     )
     flow: Flow = Field(Flow.model_validate({}), description="the rules by which jobs go on, of all stations")
     allocation: Allocation = Field(Allocation.model_validate({}), description="the rules by which workers choose")
+    ergonomics: Ergonomics = Field(
+        default_factory=Ergonomics.model_construct,
+        description="how postures are scored",
+        examples=["{arm_reference: gravity}"],
+    )
+    human: Human = Field(
+        default_factory=Human.model_construct,
+        description="what becomes of people as they work: learning, fatigue, pace; every effect is off unless named",
+        examples=["{learning: {model: wright, rate: 0.85}}"],
+    )
     outputs: list[Annotated[str, BeforeValidator(_known_output)]] = Field(
         list(USUAL), description="the figures wanted, first those that matter most"
+    )
+    frontier: Frontier | None = Field(
+        None,
+        description="two figures over all variants, one against the other: a KPI, KPI/subject or KPI/subject/part",
+        examples=["[throughput_per_h, trunk_beyond_60_min_per_h]"],
     )
 
 
@@ -157,4 +200,6 @@ BLOCKS: dict[str, type[Block]] = {
     "walking": Walking,
     "flow": Flow,
     "allocation": Allocation,
+    "ergonomics": Ergonomics,
+    "human": Human,
 }

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from opsim.scenario.fields import Load, Seconds, Whole, plain_error
 from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.handling import Handling, Loaded
 from opsim.scenario.schema.shifts import RULES
 from opsim.scenario.schema.tools import ATTENDED, Automatic, Hold, Needs
 
@@ -15,7 +16,22 @@ from opsim.scenario.schema.tools import ATTENDED, Automatic, Hold, Needs
 class TaskBlock(Block):
     """What every task may say."""
 
-    load_kg: Load | None = Field(None, alias="load", description="mass in the hands", examples=["6 kg"])
+    load_kg: Load | None = Field(
+        None,
+        alias="load",
+        description="mass in both hands together; 0 kg: nothing heavy; absent: scores are intervals",
+        examples=["6 kg"],
+    )
+    loaded: Loaded | None = Field(
+        None,
+        description="when the load is in the hands; absent: all the time",
+        examples=["{from: grasp, to: release}"],
+    )
+    handling: Handling | None = Field(
+        None,
+        description="what no posture tells: grip, force, forearm, support",
+        examples=["{grip: fair, force: repeated}"],
+    )
     repeat: Whole = Field(1, ge=1, le=10_000, description="how often it is done, each with a draw of its own")
     automatic: Automatic = Field(
         False,

@@ -43,15 +43,14 @@ Needs = Annotated[
 ]
 
 
-class Hold(Block):
-    """A tool in the hands from one moment of a performance to another; who finds none free waits at that moment."""
+class Moments(Block):
+    """From one moment of a performance to another."""
 
-    tool: NameText = Field(description="one of the tools", examples=["torque_gun"])
     start: Mark = Field(0.0, alias="from", description="a mark of the movement, or a share of the performance")
     end: Mark = Field(1.0, alias="to", description="a mark of the movement, or a share of the performance")
 
     @model_validator(mode="after")
-    def _some_time(self) -> Hold:
+    def _some_time(self) -> Moments:
         if self.start == self.end or (
             isinstance(self.start, float) and isinstance(self.end, float) and self.start > self.end
         ):
@@ -60,6 +59,12 @@ class Hold(Block):
             )
             raise plain_error(f"from ({self.start}) must come before to ({self.end})", hint, on="to")
         return self
+
+
+class Hold(Moments):
+    """A tool in the hands from one moment of a performance to another; who finds none free waits at that moment."""
+
+    tool: NameText = Field(description="one of the tools", examples=["torque_gun"])
 
 
 def _automatic(value: object) -> object:

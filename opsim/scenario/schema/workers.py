@@ -18,6 +18,9 @@ PREFIX = "w"
 USUAL_WALK_M_PER_S = 1.2
 
 
+Repetitions = Annotated[float, Field(ge=0, le=1e9)]
+
+
 def _once(names: list[str]) -> list[str]:
     twice = [number for number, name in enumerate(names) if name in names[:number]]
     if twice:
@@ -67,11 +70,17 @@ class Person(Block):
         "the week of the start; absent: always",
         examples=["early", "[early, late]"],
     )
-    absence: Probability = Field(
-        0.0,
+    absence: Probability | None = Field(
+        None,
         description="share of his shifts that he does not come to, each drawn by itself; what waits for him to go on "
-        "with is then for anybody; where a missed shift follows at once on another, he first finishes what at_end says",
+        "with is then for anybody; where a missed shift follows at once on another, he first finishes what at_end "
+        "says; absent: what `human.absence` says, else none",
         examples=[0.05],
+    )
+    experience: dict[NameText, Repetitions] = Field(
+        {},
+        description="repetitions behind him at the start, by task; for learning",
+        examples=["{pick_up: 200}"],
     )
     home: NameText | None = Field(None, description="the place where the worker stands at the start")
     patrol: list[NameText] | None = Field(
@@ -80,7 +89,7 @@ class Person(Block):
 
     @model_validator(mode="after")
     def _absent_from_shifts(self) -> Person:
-        if self.absence > 0 and self.shift is None:
+        if self.absence is not None and self.absence > 0 and self.shift is None:
             raise plain_error("who has no shift is always there", "name the shift that is missed", on="absence")
         return self
 
@@ -111,8 +120,10 @@ class Allocation(Block):
 
     rule: NameText = Field(
         "longest_queue",
-        description="which of the stations that call a free worker goes to; a plug-in may bring more rules",
-        examples=["longest_queue", "nearest", "oldest_job", "most_downstream", "best_skill"],
+        description="which of the stations that call a free worker goes to; least_exposed: of those who could be sent "
+        "goes whose body has gone through least so far (RULA x time at work, by a few draws of his own for each task), "
+        "to the oldest call; a plug-in may bring more rules",
+        examples=["longest_queue", "nearest", "oldest_job", "most_downstream", "best_skill", "least_exposed"],
     )
     priorities: Annotated[list[Literal["stations", "products"]], AfterValidator(_once)] = Field(
         ["stations"],
