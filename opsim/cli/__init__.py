@@ -17,6 +17,7 @@ from opsim.cli.verbs import Verbs
         "fit": "opsim.cli.fit",
         "motion": "opsim.cli.motion",
         "schema": "opsim.cli.schema",
+        "effects": "opsim.cli.effects",
         "doctor": "opsim.cli.doctor",
     },
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},

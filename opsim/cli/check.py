@@ -40,7 +40,9 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[st
     from opsim.plan.loads import loads_of, overloads
     from opsim.plan.orders import late_orders
     from opsim.plan.risks import hour_risks
+    from opsim.plan.unmoved import unmoved_bodies
     from opsim.plan.unread import unread
+    from opsim.plan.unseen import unseen
     from opsim.scenario import read_scenarios
     from opsim.scenario.risks import risks_of
 
@@ -50,7 +52,8 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[st
         plan = compile_plan(variant)
         loads[name] = loads_of(plan)
         warnings[name] = [*overloads(plan, loads[name]), *risks_of(variant.scenario), *late_orders(plan)]
-        warnings[name] += [*hour_risks(plan, loads[name]), *unread(plan), *wide_joins(plan)]
+        warnings[name] += [*hour_risks(plan, loads[name]), *unread(plan), *unmoved_bodies(plan), *wide_joins(plan)]
+        warnings[name] += unseen(plan, variant.scenario.outputs)
     return loads, warnings
 
 

@@ -14,41 +14,47 @@ from opsim.cli.verbs import mistakes
 @click.argument("of", metavar="FOLDER|FILE")
 @click.option("--base", default="base", show_default=True, metavar="NAME", help="The variant to compare with.")
 @click.option("--kpi", "kpis", multiple=True, metavar="NAME", help="This figure; may be given again.")
+@click.option("--frontier", metavar="FIGURE,FIGURE", help="Two figures, one against the other, over all variants.")
 @click.option("-o", "--out", type=click.Path(path_type=Path), help="Results folder, where a FILE is run first.")
 @click.option("--replications", type=click.IntRange(min=1), help="Of a FILE, instead of its own.")
 @click.option("--seed", type=click.IntRange(min=0), help="Of a FILE, instead of its own.")
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use for a FILE.  [default: as many as pay]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
-def command(of: str, base: str, kpis: tuple[str, ...], out: Path | None, as_json: bool, **how: Any) -> None:
+def command(
+    of: str, base: str, kpis: tuple[str, ...], frontier: str | None, out: Path | None, as_json: bool, **how: Any
+) -> None:
     """Compare the variants in a results FOLDER, or those of a scenario FILE, which are run first.
 
     Replications with the same number have the same random numbers in every variant, so their differences say more.
     """
+    from opsim.cli.compare_frontier import frontier_asked, frontier_json, print_frontier
     from opsim.cli.console import print_json
     from opsim.cli.running import Failed
     from opsim.study.compare import compare
 
     with mistakes():
         folder, results = _results(of, out, how)
-        comparison = compare(results, base, kpis)
+        comparison, found = compare(results, base, kpis), frontier_asked(results, base, frontier)
         title = str(results[base].summary.get("scenario", folder.name))
-    page, failed = _page(comparison, folder / "compare.html", title)
+    page, failed = _page(comparison, folder / "compare.html", title, found)
     if as_json:
-        print_json(_as_json(comparison, page))
+        print_json(_as_json(comparison, page) | ({} if found is None else {"frontier": frontier_json(found)}))
     else:
         _print(comparison, title)
+        if found is not None:
+            print_frontier(found, bool(comparison.hours))
         if page is not None:
             click.echo(f"comparison: {page}")
     if failed:
         raise Failed(failed)
 
 
-def _page(comparison: Any, path: Path, title: str) -> tuple[Path | None, str]:
+def _page(comparison: Any, path: Path, title: str, frontier: Any) -> tuple[Path | None, str]:
     """Where the page was written or, where it cannot be, why; what was found is told all the same."""
     from opsim.report.comparison import write_comparison
 
     try:
-        return write_comparison(comparison, path, title), ""
+        return write_comparison(comparison, path, title, frontier), ""
     except OSError as error:
         return None, f"{path}: cannot be written: {error.strerror or error}"
 

@@ -15,6 +15,7 @@ from opsim.cli.verbs import Verbs
         "fit": "opsim.cli.motion_fit",
         "sample": "opsim.cli.motion_sample",
         "show": "opsim.cli.motion_show",
+        "score": "opsim.cli.motion_score",
         "judge": "opsim.cli.motion_judge",
         "people": "opsim.cli.motion_people",
     },

@@ -76,7 +76,7 @@ def _reached(variant: str, one: dict[str, Any], n: int) -> str:
 
 def _reports(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Path]:
     """Write the report of each variant; strips of one model are drawn once."""
-    from opsim.report import days_section, scenario_strips, walks_section, write_report
+    from opsim.report import bodies_section, curves_section, days_section, scenario_strips, walks_section, write_report
 
     reports: dict[str, Path] = {}
     drawn: dict[tuple[str, str], bytes] = {}
@@ -84,7 +84,10 @@ def _reports(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Pat
         strips = scenario_strips(variants[name], result.summary["tasks"], drawn)
         walks = walks_section(variants[name], result)
         days = days_section(variants[name], result)
-        reports[name] = write_report(result, result.folder / "report.html", strips, walks, days)
+        bodies = bodies_section(variants[name], result)
+        curves = curves_section(variants[name], result)
+        path = result.folder / "report.html"
+        reports[name] = write_report(result, path, strips, walks, days, bodies, curves)
     return reports
 
 

@@ -17,7 +17,7 @@ _WHERE_LARGE = {
 _LARGE = 0.05
 _BY_STOP = (
     *("stops_per_h", "down_s", "wait_for_repair_s", "stop_share"),
-    *("incomplete_share", "line_stopped_share", "handoff_position"),
+    *("incomplete_share", "line_stopped_share", "handoff_position", "experience"),
 )
 Cells = dict[str, dict[str, Any]]
 
@@ -52,6 +52,8 @@ def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool
 
     if not part or part in _ALWAYS or kpi in _BY_STOP:
         return True
+    if kpi.startswith("exposure_by_") and part.endswith("_at_most"):
+        return False
     if kpi in SHOWN_WHERE_ANY:
         return is_shown(kpi, part, cells.values())
     return part in _WHERE_LARGE.get(kpi, ()) and any((row["mean"] or 0) > _LARGE for row in cells.values())

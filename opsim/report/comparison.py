@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from opsim.report.frontier import frontier_section
 from opsim.report.interval_picture import intervals_svg
 from opsim.report.parts import part_name
 from opsim.report.words import digits, is_number, kpi_name, quantity, scale_of
@@ -14,15 +15,15 @@ from opsim.whole import write_text
 HERE = Path(__file__).parent
 
 
-def write_comparison(comparison: Any, path: str | Path, title: str) -> Path:
-    """Write the page of a Comparison and return where it is."""
+def write_comparison(comparison: Any, path: str | Path, title: str, frontier: Any = None) -> Path:
+    """Write the page of a Comparison and return where it is. frontier : of two figures, or None where nobody asked"""
     path = Path(path)
-    write_text(path, comparison_html(comparison, title))
+    write_text(path, comparison_html(comparison, title, frontier))
     return path
 
 
-def comparison_html(comparison: Any, title: str) -> str:
-    """The page as text; names are escaped by jinja2, and in pictures by ``intervals_svg``."""
+def comparison_html(comparison: Any, title: str, frontier: Any = None) -> str:
+    """The page as text; names are escaped by jinja2, and in pictures by ``intervals_svg`` and ``frontier_svg``."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     keys = list(dict.fromkeys(difference.key for difference in comparison.differences))
@@ -34,6 +35,7 @@ def comparison_html(comparison: Any, title: str) -> str:
         words=comparison.words,
         base=comparison.base,
         groups=groups,
+        frontier=None if frontier is None else frontier_section(frontier, hours),
         style=(HERE / "report.css").read_text(encoding="utf-8"),
     )
 

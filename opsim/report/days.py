@@ -19,7 +19,9 @@ MOST = 40
 """Workers shown, in natural order."""
 CELL_S = (10.0, 30.0, 60.0, 120.0, 300.0)
 MOST_CELLS = 320
-BOTTOM_FIRST = ("work", "setup", "walk", "held", "team", "tool", "behind", "wait", "meeting", "break", "off", "absent")
+BOTTOM_FIRST = (
+    *("work", "setup", "walk", "held", "team", "tool", "behind", "wait", "rest", "meeting", "break", "off", "absent"),
+)
 MOSTLY = 0.6
 """Share of the work of some time that makes a station the place where somebody mostly was."""
 

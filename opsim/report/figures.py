@@ -26,7 +26,7 @@ def states(rows: Sequence[Row]) -> dict[str, Any]:
     subjects = list(dict.fromkeys(row["subject"] for row in rows))
     share = {(row["subject"], row["part"]): row["mean"] or 0.0 for row in rows if is_number(row["mean"])}
     data = [_state_bar(part, [share.get((s, part), 0.0) for s in subjects], subjects) for part in state_parts(rows)]
-    layout = _layout(58 + 38 * len(subjects)) | {"barmode": "stack", "bargap": 0.3}
+    layout = layout_of(58 + 38 * len(subjects)) | {"barmode": "stack", "bargap": 0.3}
     layout["xaxis"] |= {"range": [0, 1.0005], "tickformat": ".0%", "dtick": 0.25}
     places = list(range(len(subjects)))
     layout["yaxis"] |= {"tickvals": places, "ticktext": [label(s) for s in subjects], "showgrid": False}
@@ -68,7 +68,7 @@ def histogram(distribution: Row, unit: str = "s") -> dict[str, Any]:
         "customdata": [[digits(low), digits(high)] for low, high in pairwise(edges)],
         "hovertemplate": f"%{{customdata[0]}} to %{{customdata[1]}} {word}<br>%{{y:.1f}} %<extra></extra>",
     }
-    layout = _layout(230)
+    layout = layout_of(230)
     layout["xaxis"] |= {"title": {"text": word, "standoff": 6, "font": {"size": 12}}, "showgrid": False, "nticks": 7}
     layout["yaxis"] |= {
         "title": {"text": "% of all", "standoff": 8, "font": {"size": 12}},
@@ -115,7 +115,7 @@ def _flag(at: float, quantile: float) -> dict[str, Any]:
     }
 
 
-def _layout(height: int) -> dict[str, Any]:
+def layout_of(height: int) -> dict[str, Any]:
     axis = {"gridcolor": GRID, "zeroline": False, "automargin": True, "fixedrange": True, "linecolor": GRID}
     return {
         "height": height,

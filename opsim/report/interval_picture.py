@@ -18,7 +18,7 @@ Bar = tuple[str, float, float, float, str]
 def intervals_svg(bars: Sequence[Bar], unit: str) -> str:
     """One row a bar, a dot at the mean, a line over the interval; what is not told apart from zero is grey."""
     low, high = _span(bars)
-    steps = _ticks(low, high)
+    steps = ticks(low, high)
 
     def x(value: float) -> float:
         return LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT)
@@ -66,7 +66,7 @@ def _span(bars: Sequence[Bar]) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _ticks(low: float, high: float) -> list[float]:
+def ticks(low: float, high: float) -> list[float]:
     """Round numbers, zero among them, about five over the span."""
     size = 10 ** math.floor(math.log10((high - low) / 4))
     step = next(size * nice for nice in (1, 2, 5, 10) if (high - low) / (size * nice) <= 6)

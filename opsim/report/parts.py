@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from opsim.report import exposure_words, strain_words
+
 WORDS = {
     "interruptions_per_h": {
         "resumed": "gone on with by the same one",
@@ -19,6 +21,12 @@ WORDS = {
         "down": "a station was down",
         "closed": "closed: a pause, not counted",
         "away": "nobody there: a pause, not counted",
+    },
+    **exposure_words.PARTS,
+    **strain_words.PARTS,
+    "fatigue_most": {
+        **{f"{side}_{joint}": f"{side} {joint}" for joint in ("shoulder", "elbow") for side in ("left", "right")},
+        **{"back": "low back", "hips": "hips", "knees": "knees"},
     },
 }
 SHOWN_WHERE_ANY = tuple(WORDS)

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from opsim.report.body import STEADY_M, body
+from opsim.report.body import body
+from opsim.report.body_parts import Shape, body_parts, outer_tangents
 from opsim.report.camera import FLOOR_M, SQUARE_M, Camera
 
 FINER = 3
 """Drawn this many times as large, then made smaller: Pillow draws hard edges."""
 GRID, SHADOW = "#dde2e8", (40, 46, 54)
-_Part = tuple[float, str, list[tuple[str, Any]]]
 
 
 class BodyPainter:
@@ -34,9 +34,10 @@ class BodyPainter:
         self._ground(draw, middle)
         self._shadows(draw, joints_m, middle)
         rim = max(1.5 * FINER, 0.012 * self.scale)
-        for _, colour, shapes in sorted(self._parts(joints_m, usual_m, middle), key=lambda part: part[0]):
-            _fill(draw, shapes, "white", rim)
-            _fill(draw, shapes, colour, 0.0)
+        seen, often = self._seen(joints_m, middle), self._seen(usual_m, middle)
+        for part in body_parts(self.table, seen, often, self.scale / 1000):
+            _fill(draw, part.shapes, "white", rim)
+            _fill(draw, part.shapes, self.table["colours"][part.colour], 0.0)
         return large.reduce(FINER)
 
     def _seen(self, points_m: np.ndarray, middle: np.ndarray) -> np.ndarray:
@@ -63,37 +64,8 @@ class BodyPainter:
             wide, high = 0.075 * self.scale, 0.02 * self.scale
             draw.ellipse([x - wide, y - high, x + wide, y + high], fill=(*SHADOW, round(255 * dark)))
 
-    def _parts(self, joints_m: np.ndarray, usual_m: np.ndarray, middle: np.ndarray) -> list[_Part]:
-        """Each part with its nearness to the viewer, its colour and the shapes that it is made of."""
-        table, mm = self.table, self.scale / 1000
-        seen, often = self._seen(joints_m, middle), self._seen(usual_m, middle)
-        trunk, torso = table["colours"][0], table["torso"] or [table["root"]]
-        here, there = seen[torso, 2].mean(), often[torso, 2].mean()
-        parts: list[_Part] = []
-        for parent, joint, from_mm, to_mm, side in table["bones"]:
-            now, then = seen[[parent, joint], 2].mean() - here, often[[parent, joint], 2].mean() - there
-            near = (then if abs(now - then) < STEADY_M else now) if side else now - 0.3
-            shapes = _limb(seen[parent, :2], seen[joint, :2], from_mm * mm, to_mm * mm)
-            parts.append((near, table["colours"][side], shapes))
-        if table["torso"]:
-            parts.append((-0.02, trunk, _shape(seen[torso, :2], table["torso_mm"] * mm)))
-        if table["head"] >= 0:
-            head = seen[table["head"]]
-            parts.append((head[2] - here, trunk, [("disc", (head[:2], table["head_mm"] * mm))]))
-        return parts
 
-
-def _limb(a: np.ndarray, b: np.ndarray, a_px: float, b_px: float) -> list[tuple[str, Any]]:
-    return [("taper", (a, b, a_px, b_px))]
-
-
-def _shape(corners: np.ndarray, round_px: float) -> list[tuple[str, Any]]:
-    """A filled outline with round corners: its inside, and a limb along each side."""
-    sides = zip(corners, np.roll(corners, -1, axis=0))
-    return [("inside", corners), *(("taper", (a, b, round_px, round_px)) for a, b in sides)]
-
-
-def _fill(draw: Any, shapes: list[tuple[str, Any]], colour: str, rim: float) -> None:
+def _fill(draw: Any, shapes: list[Shape], colour: str, rim: float) -> None:
     """Fill the shapes, each larger by ``rim`` pixels all round."""
     for kind, what in shapes:
         if kind == "inside":
@@ -113,17 +85,6 @@ def _taper(draw: Any, a: np.ndarray, b: np.ndarray, a_px: float, b_px: float, co
     """Two discs and what lies between their outer tangents."""
     _disc(draw, a, a_px, colour)
     _disc(draw, b, b_px, colour)
-    far = float(np.hypot(*(b - a)))
-    if far <= abs(a_px - b_px) + 1e-6:
-        return
-    along, open_rad = np.arctan2(b[1] - a[1], b[0] - a[0]), np.arccos((a_px - b_px) / far)
-    corners = [
-        tuple(centre + radius * np.array([np.cos(along + turn), np.sin(along + turn)]))
-        for centre, radius, turn in (
-            (a, a_px, open_rad),
-            (b, b_px, open_rad),
-            (b, b_px, -open_rad),
-            (a, a_px, -open_rad),
-        )
-    ]
-    draw.polygon(corners, fill=colour)
+    corners = outer_tangents(a, b, a_px, b_px)
+    if len(corners):
+        draw.polygon([tuple(corner) for corner in corners], fill=colour)

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from opsim.report import exposure_words, strain_words
+
 NAMES = {
     "throughput_per_h": "Throughput (good units)",
     "throughput_per_calendar_h": "Throughput (good units) per calendar hour",
@@ -67,6 +69,11 @@ NAMES = {
     "overtime_h": "Overtime, finishing included",
     "absent_share": "Share of shifts missed",
     "interruptions_per_h": "Work broken off",
+    "learned_share": "Time as a share of that of the first repetition",
+    "fatigue_mean": "Fatigue at work, from 0 (fresh) to 1",
+    "fatigue_most": "Most fatigue after a piece of work, from 0 (fresh) to 1",
+    "rest_taken_min_per_h": "Rest by need",
+    "experience": "Repetitions of the task behind somebody",
     "trunk_beyond_60_min_per_h": "Trunk flexed 60° or more",
     "trunk_beyond_20_min_per_h": "Trunk flexed 20° or more",
     "trunk_flexion_mean_deg": "Trunk flexion at work, mean",
@@ -78,6 +85,8 @@ NAMES = {
     "steps_per_h": "Steps",
     "step_length_m": "Step length",
     "cadence_per_min": "Steps a minute of walking",
+    **exposure_words.NAMES,
+    **strain_words.NAMES,
 }
 WITH_HOURS = {
     "throughput_per_h": "Throughput (good units), per scheduled hour",

@@ -10,6 +10,8 @@ from typing import Any
 
 from opsim.provenance import behind
 from opsim.report import figures
+from opsim.report.exposure import exposure_section
+from opsim.report.limit_sentences import limit_sentences
 from opsim.report.offline import asset, policy, template
 from opsim.report.parts import is_shown, part_name
 from opsim.report.posture import SHARES, posture_section
@@ -34,15 +36,18 @@ def write_report(
     strips: Mapping[str, bytes] | None = None,
     walks: Mapping[str, Any] | None = None,
     days: Mapping[str, Any] | None = None,
+    bodies: Mapping[str, Any] | None = None,
+    curves: Sequence[Mapping[str, Any]] = (),
 ) -> Path:
     """Write the report of one scenario variant and return where it is.
 
     result : has ``summary`` (the content of summary.json) and ``folder`` (where manifest.json may lie)
     strips : SVG bytes by task name, e.g. of ``scenario_strips``; emulated tasks without one are named without a picture
-    walks  : what ``walks_section`` says of walking, days: ``days_section`` of people; None where nothing
+    walks  : what ``walks_section`` says of walking, days: ``days_section`` of people, bodies: ``bodies_section`` of
+        postures; None where nothing; curves : of ``curves_section``
     """
     path = Path(path)
-    write_text(path, report_html(result.summary, _manifest(result), strips or {}, walks, days))
+    write_text(path, report_html(result.summary, _manifest(result), strips or {}, walks, days, bodies, curves))
     return path
 
 
@@ -52,11 +57,14 @@ def report_html(
     strips: Mapping[str, bytes],
     walks: Mapping[str, Any] | None = None,
     days: Mapping[str, Any] | None = None,
+    bodies: Mapping[str, Any] | None = None,
+    curves: Sequence[Mapping[str, Any]] = (),
 ) -> str:
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
     bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
     drawn: dict[str, Any] = {}
     shown = [row for row in summary["kpis"] if is_shown(row["kpi"], row.get("part", ""), [row])]
+    drawn |= {curve["id"]: curve["figure"] for curve in curves}
     hours = "scheduled_h" in summary
     context = {
         "summary": summary,
@@ -66,6 +74,10 @@ def report_html(
         "states": _states(summary, drawn),
         "days": None if days is None else {**days, "picture": _as_source(days["picture"])},
         "posture": posture_section(summary["kpis"], drawn),
+        "exposure": exposure_section(summary["kpis"], drawn),
+        "curves": curves,
+        "limits": limit_sentences(summary["kpis"]),
+        "went": None if bodies is None else {**bodies, "picture": _as_source(bodies["picture"])},
         "histograms": _histograms(summary, drawn),
         "emulated": _emulated(summary.get("tasks", []), strips),
         "walking": None if walks is None else _walking(walks),

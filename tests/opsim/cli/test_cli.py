@@ -28,8 +28,12 @@ VERBS = dict(verbs())
 
 def test_the_verbs_are_these():
     assert set(VERBS) == {
-        *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",), ("schema",), ("doctor",)),
-        *(("motion", verb) for verb in ("import", "clean", "segment", "fit", "sample", "show", "judge", "people")),
+        *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",)),
+        *(("schema",), ("effects",), ("doctor",)),
+        *(
+            ("motion", verb)
+            for verb in ("import", "clean", "segment", "fit", "sample", "show", "score", "judge", "people")
+        ),
     }
 
 
@@ -67,7 +71,7 @@ def test_the_version_is_that_of_the_package():
     [
         (["rum"], "did you mean 'run'?"),
         (["motion", "sampel"], "did you mean 'sample'?"),
-        (["xyzzy"], "known: init, check, run, compare, warm-up, fit, motion, schema, doctor"),
+        (["xyzzy"], "known: init, check, run, compare, warm-up, fit, motion, schema, effects, doctor"),
         (["run"], "Missing argument 'FILE'"),
         (["run", "x.yaml", "--replications", "0"], "--replications"),
         (["run", "x.yaml", "--seed", "-1"], "--seed"),

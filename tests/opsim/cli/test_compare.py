@@ -55,11 +55,30 @@ def test_another_base_and_a_named_figure(results):
         (["--kpi", "throughput_per_hour"], "did you mean 'throughput_per_h'"),
         (["--base", "wide"], "did you mean 'wider'"),
         (["--seed", "3"], "--seed: only where a scenario FILE is run"),
+        (["--frontier", "throughput_per_hour,time_in_system_s"], "did you mean 'throughput_per_h'"),
+        (["--frontier", "throughput_per_h"], "expected two figures and a comma between them"),
+        (["--frontier", "throughput_per_h,station_states/saw/work"], "which way is better depends on who asks"),
     ],
 )
 def test_a_wrong_call_is_answered_with_what_is_right(results, words, said):
     code, _, complaint = opsim("compare", results, *words)
     assert code == 2 and said in complaint
+
+
+def test_two_figures_are_set_against_each_other_in_table_page_and_json(results):
+    words = ("compare", results, "--frontier", "throughput_per_h,time_in_system_s")
+    code, shown, _ = opsim(*words)
+    assert code == 0 and "Two figures against each other" in shown and "more is better" in shown
+    assert 'id="frontier"' in (results / "compare.html").read_text(encoding="utf-8")
+    found = json.loads(opsim(*words, "--json")[1])["frontier"]
+    assert found["x"]["better"] == "more" and [one["variant"] for one in found["variants"]] == ["base", "same", "wider"]
+    assert "frontier" not in json.loads(opsim("compare", results, "--json")[1])
+
+
+def test_a_scenario_that_asks_for_a_frontier_has_one(tmp_path):
+    text = TWO.replace("replications: 3", "replications: 2") + "frontier: [throughput_per_h, time_in_system_s]\n"
+    code, shown, _ = opsim("compare", line(tmp_path, text), "-o", tmp_path / "out")
+    assert code == 0 and "Two figures against each other" in shown
 
 
 @pytest.mark.parametrize("words", [[], ["--json"]])

@@ -60,3 +60,15 @@ def test_of_work_broken_off_the_parts_there_are_in_any_variant_are_shown_in_plai
     assert "press gone on with by another" in shown and "press not gone on with" not in shown
     print_results("made", {"base": some["base"]})
     assert "Work broken off" in (shown := capsys.readouterr().out) and "press" not in shown
+
+
+def test_of_exposure_by_anything_what_there_is_at_least_is_shown_in_plain_words(capsys):
+    def rows(kpi_, subject, **per_h):
+        return [kpi(kpi_, subject, part, "min/h", mean, 0.1, headline=True) for part, mean in per_h.items()]
+
+    by_task = rows("exposure_by_task", "lift", rula_from_5=3.0, rula_from_5_at_most=9.0, rula_from_7=0.0)
+    everybody = rows("rula_from_5_min_per_h", "", at_most=9.0, worst=4.0)
+    print_results("made", {"base": result(*by_task, *everybody)})
+    shown = capsys.readouterr().out
+    assert "lift RULA 5 or more" in shown and "RULA 5 or more, at most" not in shown and "RULA 7" not in shown
+    assert "at most" in shown and "whoever has most" in shown

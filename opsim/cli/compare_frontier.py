@@ -1,0 +1,74 @@
+"""Two figures of every variant against each other, as ``opsim compare`` asks for them and tells them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import click
+
+_VERDICTS = {"front": "on the frontier", "behind": "behind, not clearly", "beaten": "clearly beaten"}
+
+
+def frontier_asked(results: Mapping[str, Any], base: str, asked: str | None) -> Any:
+    """The Frontier that ``--frontier`` or else the scenario asks for; None where neither does.
+
+    Raises ValueError where these are not two figures, NotComparable where a figure is not there.
+    """
+    from opsim.kpi.better import read_asked
+    from opsim.study.frontier import frontier_of
+
+    texts = list(results[base].summary.get("frontier", [])) if asked is None else asked.split(",")
+    if not texts:
+        return None
+    if len(texts) != 2 or not all(text.strip() for text in texts):
+        raise ValueError(
+            f"--frontier: expected two figures and a comma between them, found {asked!r}; "
+            "such as throughput_per_h,walked_m"
+        )
+    return frontier_of(results, read_asked(texts[0]), read_asked(texts[1]))
+
+
+def print_frontier(frontier: Any, hours: bool) -> None:
+    """A row a variant, and what follows from it in sentences."""
+    from opsim.cli.console import print_table
+    from opsim.report.frontier import axis_name, kind_of
+    from opsim.report.frontier_words import frontier_sentences
+    from opsim.report.words import plus_minus
+
+    names = [axis_name(key, hours) for key in (frontier.x, frontier.y)]
+    largest = [max((abs(getattr(p, side).mean) for p in frontier.points), default=None) for side in "xy"]
+    rows = [
+        (
+            point.variant,
+            *(
+                plus_minus({"mean": one.mean, "half_width": one.half_width, "unit": key[3]}, most)
+                for one, key, most in zip((point.x, point.y), (frontier.x, frontier.y), largest)
+            ),
+            _VERDICTS[kind_of(point)],
+        )
+        for point in frontier.points
+    ]
+    print_table("Two figures against each other", ("variant", *names, "verdict"), rows, words=1)
+    ways = zip(names, (frontier.better_x, frontier.better_y))
+    better = "; ".join(f"{name}: {way} is better" for name, way in ways)
+    for sentence in (f"{better}.", *frontier_sentences(frontier)):
+        click.echo(sentence)
+
+
+def frontier_json(frontier: Any) -> dict[str, Any]:
+    """For machines."""
+    axes = {
+        side: {**dict(zip(("kpi", "subject", "part", "unit"), getattr(frontier, side))), "better": better}
+        for side, better in (("x", frontier.better_x), ("y", frontier.better_y))
+    }
+    return {**axes, "pairs": frontier.n, "variants": [_point(point) for point in frontier.points]}
+
+
+def _point(point: Any) -> dict[str, Any]:
+    numbers = {
+        side: {name: getattr(getattr(point, side), name) for name in ("mean", "low", "high", "half_width", "n")}
+        for side in ("x", "y")
+    }
+    behind = {"behind": list(point.behind), "clearly_behind": list(point.clearly_behind)}
+    return {"variant": point.variant, **numbers, "on_front": point.on_front, **behind}

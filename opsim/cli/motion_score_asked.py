@@ -1,0 +1,142 @@
+"""What is asked of ``opsim motion score``: what is in the hands, and how to score, with every mistake at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from opsim.plan.handling import FORCES, FOREARMS, GRIPS, LEGS
+
+YES_NO = ("yes", "no")
+HANDS = {"grip": GRIPS, "force": FORCES, "forearm": FOREARMS, "legs": LEGS}
+FLAGS = ("arms_supported", "sitting", "rapid")
+FORKS = {"arm_reference": "--arm-reference", "rula_table_a": "--rula-table", "rula_force": "--rula-force"}
+ANGLES = (
+    *("twist", "side", "abducted", "arm_sideways", "trunk_upright", "wrist_straight", "neck_extended"),
+    *("owas_back", "owas_twist", "owas_knee"),
+)
+LENGTHS = ("across_m", "outside_m")
+MOST_DRAWN = 500
+
+
+@dataclass(frozen=True)
+class Asked:
+    """handling, options : as a scenario would say them
+
+    repeated         : done again and again, as no single movement tells
+    neck_neutral_rad : None: found from how the movements begin
+    """
+
+    handling: Any
+    options: Any
+    repeated: bool
+    neck_neutral_rad: float | None
+
+
+def asked_of(given: Mapping[str, Any]) -> tuple[Asked, list[str]]:
+    """What the command line's words mean, and what is wrong with them, each with its option and the nearest word."""
+    from opsim.ergonomics.options import USUAL
+    from opsim.plan.handling import NOT_SAID
+
+    wrong: list[str] = []
+    handling = _handling(given, wrong)
+    options = _options(given, wrong)
+    neutral_rad = _quantity("--neck-neutral", given["neck_neutral"], "angle", wrong)
+    if neutral_rad is not None and abs(neutral_rad) > math.pi / 2:
+        wrong.append(f"--neck-neutral: found {given['neck_neutral']!r}, expected -90 deg to 90 deg")
+    return Asked(handling or NOT_SAID, options or USUAL, given["repeated"], neutral_rad), wrong
+
+
+def wrong_out(out: Path | None, source: str) -> list[str]:
+    """What speaks against the page to write."""
+    from opsim.cli.motion_files import overwritten
+
+    if out is None:
+        return []
+    wrong = [] if out.suffix.lower() == ".html" else [f"{out}: found the ending {out.suffix!r}, expected .html"]
+    return wrong + overwritten(out, movement=[source])
+
+
+def _handling(given: Mapping[str, Any], wrong: list[str]) -> Any:
+    from opsim.plan.handling import Handling
+
+    said: dict[str, Any] = {name: _word(name, given[name], known, wrong) for name, known in HANDS.items()}
+    for name in FLAGS:
+        word = _word(name, given[name], YES_NO, wrong)
+        said[name] = None if word is None else word == "yes"
+    load_kg = _quantity("--load", given["load"], "mass", wrong)
+    if load_kg is not None and load_kg < 0:
+        wrong.append(f"--load: found {given['load']!r}, expected a mass of 0 kg or more")
+    return Handling(load_kg=load_kg, **said)
+
+
+def _options(given: Mapping[str, Any], wrong: list[str]) -> Any:
+    from opsim.ergonomics.options import CHOICES, DISPUTED, USUAL, Options, Thresholds, checked
+
+    forks = {name: _word(flag.removeprefix("--"), given[name], CHOICES[name], wrong) for name, flag in FORKS.items()}
+    said = {name: word for name, word in forks.items() if word is not None}
+    codes = [_word("owas-disputed", code, DISPUTED, wrong) for code in given["owas_disputed"]]
+    thresholds = Thresholds(**_thresholds(given["threshold"], wrong), spread=given["spread"])
+    rate_hz = USUAL.rate_hz if given["rate"] is None else given["rate"]
+    options = Options(rate_hz, owas_disputed=tuple(filter(None, codes)), thresholds=thresholds, **said)
+    try:
+        return checked(options)
+    except ValueError as error:
+        wrong += [_as_option(line) for line in str(error).splitlines()]
+    return None
+
+
+def _as_option(line: str) -> str:
+    return f"--{line.replace('rate_hz', 'rate', 1).replace('thresholds.', 'threshold ', 1)}"
+
+
+def _thresholds(given: Sequence[str], wrong: list[str]) -> dict[str, float]:
+    """From words such as ``twist=15 deg``, in degrees and metres."""
+    from opsim.problems import did_you_mean, shown
+
+    found: dict[str, float] = {}
+    for text in given:
+        name, equals, quantity = text.partition("=")
+        if not equals or name.strip() not in (*ANGLES, *LENGTHS):
+            words = f"--threshold: found {shown(text)}, expected e.g. 'twist=15 deg'"
+            wrong.append(f"{words}; {did_you_mean(name.strip(), (*ANGLES, *LENGTHS))}")
+            continue
+        kind = "length" if name.strip() in LENGTHS else "angle"
+        value = _quantity(f"--threshold {name.strip()}", quantity.strip(), kind, wrong)
+        if value is not None:
+            found[name.strip()] = value if kind == "length" else round(math.degrees(value), 9)
+    return found
+
+
+def _word(name: str, word: str | None, known: Sequence[str], wrong: list[str]) -> str | None:
+    from opsim.problems import did_you_mean, shown
+
+    if word is None or word in known:
+        return word
+    wrong.append(f"--{name.replace('_', '-')}: no {shown(word)}; {did_you_mean(word, known)}")
+    return None
+
+
+def _quantity(flag: str, text: str | None, kind: str, wrong: list[str]) -> float | None:
+    """In SI; a bare number is refused."""
+    from opsim.units import UnitError, parse
+
+    if text is None:
+        return None
+    try:
+        return parse(_plain_number(text), kind)
+    except UnitError as error:
+        wrong.append(f"{flag}: {error}")
+    return None
+
+
+def _plain_number(text: str) -> str | float:
+    """A bare number as a number, so that it is told that a unit is missing."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if math.isfinite(number) else text

@@ -1,0 +1,45 @@
+"""What ``opsim motion score`` says beside its figures: what is missing, what is open, what was assumed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+OPEN = {
+    "load_kg": "the load (--load)",
+    "grip": "the grip (--grip)",
+    "force": "how force comes (--force)",
+    "forearm": "twist of the forearm (--forearm)",
+    "arms_supported": "support of the arms (--arms-supported)",
+    "sitting": "whether he sits (--sitting)",
+    "legs": "whether both feet carry (--legs)",
+    "rapid": "whether posture changes quickly (--rapid)",
+}
+SETTLED_BY_WALKING = ("arms_supported", "sitting", "legs")
+ABSENT = "taken as absent: "
+
+
+def assumptions(found: Any, scored: list[Any], asked: Any) -> list[str]:
+    """Sentences: what the skeleton lacks, what nobody said, whence the neck's neutral, what no skeleton shows."""
+    from opsim.ergonomics.missing import missing_scores
+    from opsim.ergonomics.movement_figures import in_words, unknown_share
+    from opsim.ergonomics.not_seen import NOT_SEEN
+
+    said = [f"missing: {sentence}" for sentence in missing_scores(found.skeleton.names)]
+    unknown = unknown_share(scored)
+    if unknown > 0:
+        share = in_words(unknown, "share")
+        said.append(f"missing: nothing is known of the posture for {share} of the time, which no share counts")
+    open_words = _open(asked.handling, found.walking)
+    if open_words:
+        said.append(f"not said, so scores are intervals: {', '.join(open_words)}")
+    if not asked.repeated:
+        said.append("taken as done less than four times a minute (--repeated)")
+    if "head" in found.skeleton.names:
+        said.append(f"neutral of the neck: {found.neutral_said}")
+    return said + [f"{ABSENT}{sentence}" for sentence in NOT_SEEN]
+
+
+def _open(handling: Any, walking: bool) -> list[str]:
+    """What is not said and matters: of a load of nothing, neither grip nor force; of walking, nothing that carries."""
+    nothing = (*(("grip", "force") if handling.load_kg == 0 else ()), *(SETTLED_BY_WALKING if walking else ()))
+    return [words for name, words in OPEN.items() if getattr(handling, name) is None and name not in nothing]

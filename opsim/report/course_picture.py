@@ -1,0 +1,118 @@
+"""When movements score how high: the course of the scores of one, and RULA of all as rows along their time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from opsim.ergonomics.levels import OWAS, REBA, RULA
+from opsim.ergonomics.movement import ScoredMovement
+from opsim.report.palette import GRID, INK, MUTED
+from opsim.report.strips import render
+
+WIDE_IN, PANEL_IN, ROW_IN = 10.6, 0.95, 0.17
+LEFT_SHARE, RIGHT_SHARE = 0.13, 0.985
+MOST_ROWS = 40
+LEVELS = ("#dfeaf2", "#f7e7b4", "#f0b04a", "#d9692b", "#a8320a")
+"""From nothing to be done to at once; RULA and OWAS have four levels, REBA five."""
+METHODS = {"rula": ("RULA", RULA, LEVELS[:3] + LEVELS[4:]), "reba": ("REBA", REBA, LEVELS)}
+METHODS["owas"] = ("OWAS", OWAS, LEVELS[:3] + LEVELS[4:])
+TICKS = {"rula": (1, 3, 5, 7), "reba": (1, 4, 8, 11, 15), "owas": (1, 2, 3, 4)}
+LINE = "#1f2328"
+Letters = Mapping[tuple[int, int], str]
+"""(movement, posture) -> the letter of a posture that is drawn elsewhere."""
+
+
+def course_svg(scored: Sequence[ScoredMovement], letters: Letters) -> bytes:
+    """The scores of the movement of the first letter along time, above RULA of the first 40 movements, as SVG.
+
+    Shaded between at least and at most; the colours are action levels, in rows of the middle between both.
+    """
+    from matplotlib.figure import Figure
+
+    first = next(iter(letters), (0, 0))[0]
+    rows = list(range(min(len(scored), MOST_ROWS))) if len(scored) > 1 else []
+    heights = [0.35, *[PANEL_IN] * 3, 0.42, *([0.5, ROW_IN * len(rows) + 0.02, 0.45] if rows else [])]
+    figure = Figure(figsize=(WIDE_IN, sum(heights)), facecolor="white")
+    tops = 1.0 - np.cumsum([0.0, *heights]) / sum(heights)
+    for place, name in enumerate(METHODS):
+        box = (LEFT_SHARE, tops[place + 2] + 0.012, RIGHT_SHARE - LEFT_SHARE, tops[place + 1] - tops[place + 2] - 0.024)
+        _draw_course(figure.add_axes(box), scored[first], name, first, letters, last=place == 2)
+    title = f"{scored[first].movement.name}: scores along time"
+    figure.text(
+        LEFT_SHARE, 1 - 0.12 / sum(heights), title, size=10, weight="bold", color=INK, va="top", parse_math=False
+    )
+    if rows:
+        box = (LEFT_SHARE, tops[7], RIGHT_SHARE - LEFT_SHARE, tops[6] - tops[7])
+        _draw_rows(figure.add_axes(box), scored, rows, letters)
+        said = (
+            "RULA of all, along their time"
+            if len(rows) == len(scored)
+            else f"RULA of the first {len(rows)} of {len(scored)}"
+        )
+        figure.text(LEFT_SHARE, tops[6] + 0.12 / sum(heights), said, size=10, weight="bold", color=INK, va="bottom")
+    return render(figure, "svg")
+
+
+def level_colour(name: str, value: float) -> str:
+    """The colour of the action level of a score, or of a middle between two scores."""
+    _, levels, colours = METHODS[name]
+    return colours[max(place for place, level in enumerate(levels) if value >= level.least or place == 0)]
+
+
+def _draw_course(axes: Any, one: ScoredMovement, name: str, which: int, letters: Letters, *, last: bool) -> None:
+    words, levels, colours = METHODS[name]
+    movement = one.movement
+    edges_s = np.r_[movement.start_s, movement.duration_s]
+    low, high = (np.where(movement.known, getattr(one.scores, name)[:, end], np.nan) for end in range(2))
+    for level, colour in zip(levels, colours):
+        axes.axhspan(level.least - 0.5, level.most + 0.5, color=colour, alpha=0.55, lw=0, zorder=0)
+    for bound in (low, high):
+        axes.stairs(bound, edges_s, baseline=None, color=LINE, lw=1.1, zorder=4)
+    axes.stairs(high, edges_s, baseline=low, fill=True, color=LINE, alpha=0.16, lw=0, zorder=3)
+    for (movement_number, posture), letter in letters.items():
+        if movement_number == which:
+            at_s = movement.start_s[posture] + 0.5 * movement.seconds[posture]
+            axes.axvline(at_s, color=LINE, lw=0.8, ls=(0, (2, 2)), zorder=5)
+            if name == "rula":
+                above = {"ha": "center", "va": "bottom", "size": 9, "weight": "bold", "color": INK}
+                axes.text(at_s, levels[-1].most + 0.6, letter, clip_on=False, **above)
+    axes.set(xlim=(0, movement.duration_s), ylim=(levels[0].least - 0.5, levels[-1].most + 0.5))
+    axes.set_ylabel(words, rotation=0, ha="right", va="center", size=10, weight="bold", color=INK)
+    axes.set_yticks(TICKS[name])
+    axes.tick_params(labelsize=8, colors=MUTED, labelbottom=last)
+    axes.spines[:].set_visible(False)
+    if last:
+        axes.set_xlabel("time, s", size=9, color=MUTED)
+
+
+def _draw_rows(axes: Any, scored: Sequence[ScoredMovement], rows: Sequence[int], letters: Letters) -> None:
+    for place, which in enumerate(rows):
+        movement, middle = scored[which].movement, scored[which].scores.rula.mean(axis=1)
+        colours = [level_colour("rula", value) if known else "#ffffff" for value, known in zip(middle, movement.known)]
+        edges_s = np.r_[movement.start_s, movement.duration_s]
+        for first, last in pairwise(
+            [k for k in range(len(colours) + 1) if k in (0, len(colours)) or colours[k] != colours[k - 1]]
+        ):
+            bar = [(edges_s[first], edges_s[last] - edges_s[first])]
+            axes.broken_barh(bar, (place - 0.42, 0.84), facecolors=colours[first], lw=0, zorder=2)
+    for (which, posture), letter in letters.items():
+        if which in rows:
+            at_s = scored[which].movement.start_s[posture] + 0.5 * scored[which].movement.seconds[posture]
+            dark = level_colour("rula", float(scored[which].scores.rula[posture].mean())) in LEVELS[3:]
+            look = {"size": 8, "weight": "bold", "color": "#ffffff" if dark else INK}
+            axes.text(at_s, which, letter, ha="center", va="center", zorder=4, **look)
+    longest_s = max(scored[which].movement.duration_s for which in rows)
+    axes.set(xlim=(0, longest_s), ylim=(len(rows) - 0.5, -0.5))
+    axes.set_yticks(range(len(rows)), [_short(scored[which].movement.name) for which in rows], parse_math=False)
+    axes.tick_params(labelsize=8, colors=MUTED, length=0)
+    axes.set_xlabel("time, s", size=9, color=MUTED)
+    axes.grid(axis="x", color=GRID, lw=0.6, zorder=1)
+    axes.spines[:].set_visible(False)
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= 18 else f"{name[:17]}…"

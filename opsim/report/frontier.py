@@ -1,0 +1,201 @@
+"""Two figures of every variant against each other, as SVG that stands in a page: intervals on both axes, the front."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+from opsim.kpi.better import MORE
+from opsim.report.frontier_words import frontier_sentences
+from opsim.report.interval_picture import ticks
+from opsim.report.labels import Box, Place, places, shortened
+from opsim.report.palette import ACCENT, GRID, INK, MUTED
+from opsim.report.parts import part_name
+from opsim.report.words import is_number, kpi_name, scale_of
+
+WIDE, TALL, LEFT, RIGHT, TOP, FOOT = 560, 430, 62, 22, 18, 60
+FRONT, BEHIND, BEATEN = "front", "behind", "beaten"
+KINDS = {
+    FRONT: "no other variant beats it",
+    BEHIND: "behind another by its means, not clearly",
+    BEATEN: "clearly beaten",
+}
+COLOURS = {FRONT: (ACCENT, ACCENT), BEHIND: (ACCENT, "#ffffff"), BEATEN: (MUTED, "#ffffff")}
+"""Edge and fill of a dot; bars have the colour of the edge."""
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """From ``low`` to ``high`` in units for people, which are ``factor`` times SI and called ``word``; so in the
+    picture: from ``begin`` to ``end``."""
+
+    low: float
+    high: float
+    factor: float
+    word: str
+    begin: float
+    end: float
+
+    def at(self, value: float) -> float:
+        """Where a value in SI stands."""
+        return self.of_people(value * self.factor)
+
+    def of_people(self, value: float) -> float:
+        """Where a value in units for people stands."""
+        return self.begin + (value - self.low) / (self.high - self.low) * (self.end - self.begin)
+
+    @property
+    def ticks(self) -> list[tuple[float, str]]:
+        """Places and words of round numbers."""
+        steps = ticks(self.low, self.high)
+        apart = steps[1] - steps[0] if len(steps) > 1 else 1.0
+        places = max(0, -math.floor(math.log10(apart) + 1e-9))
+        return [(self.of_people(step), f"{step:,.{places}f}".replace("-", "\N{MINUS SIGN}")) for step in steps]
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A variant in the picture: its name and kind, its centre and the ends of its bars (nan where it has none)."""
+
+    name: str
+    kind: str
+    x: float
+    y: float
+    across: tuple[float, float]
+    down: tuple[float, float]
+
+
+def frontier_section(frontier: Any, hours: bool = False) -> dict[str, Any]:
+    """What a page shows: ``title``, ``sentences``, ``picture`` (SVG text) and ``legend`` of (edge, fill, words).
+
+    frontier : of ``opsim.study.frontier``; hours : whether the floor keeps hours
+    """
+    seen = {kind_of(point) for point in _known(frontier)}
+    return {
+        "title": f"{axis_name(frontier.y, hours)} against {axis_name(frontier.x, hours)}",
+        "sentences": frontier_sentences(frontier),
+        "picture": frontier_svg(frontier, hours),
+        "legend": [(*COLOURS[kind], KINDS[kind]) for kind in COLOURS if kind in seen],
+    }
+
+
+def frontier_svg(frontier: Any, hours: bool = False) -> str:
+    """The picture of a Frontier; variants of which a mean is not known are left out."""
+    points = _known(frontier)
+    x = _axis([point.x for point in points], frontier.x[3], LEFT, WIDE - RIGHT)
+    y = _axis([point.y for point in points], frontier.y[3], TALL - FOOT, TOP)
+    marks = [_mark(point, x, y) for point in points]
+    drawn = [
+        *_grid(x, y),
+        _front(marks, frontier.better_x),
+        *(part for mark in marks for part in _bars(mark)),
+        *(_dot(mark) for mark in marks),
+        *(_name(mark, *place) for mark, place in zip(marks, _places(marks))),
+        *_titles(frontier, x.word, y.word, hours),
+    ]
+    said = escape("; ".join(f"{mark.name}: {KINDS[mark.kind]}" for mark in marks))
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {TALL}" role="img" font-size="14" '
+        f'style="width:100%;max-width:{WIDE + 100}px" aria-label="{said}">{"".join(drawn)}</svg>'
+    )
+
+
+def kind_of(point: Any) -> str:
+    """FRONT, BEHIND or BEATEN."""
+    return FRONT if point.on_front else BEATEN if point.clearly_behind else BEHIND
+
+
+def axis_name(key: Sequence[str], hours: bool = False) -> str:
+    """A figure in words, with its subject and part."""
+    kpi, subject, part, _ = key
+    return " · ".join(filter(None, (kpi_name(kpi, hours), subject, part_name(kpi, part))))
+
+
+def _known(frontier: Any) -> list[Any]:
+    return [point for point in frontier.points if is_number(point.x.mean) and is_number(point.y.mean)]
+
+
+def _axis(intervals: Sequence[Any], unit: str, begin: float, end: float) -> Axis:
+    """Holds all intervals, with a margin."""
+    factor, word = scale_of(unit, max((abs(one.mean) for one in intervals), default=None))
+    ends = [at * factor for one in intervals for at in (one.mean, one.low, one.high) if is_number(at)]
+    low, high = min(ends, default=0.0), max(ends, default=1.0)
+    margin = 0.09 * (high - low) or 0.05 * abs(high) or 1.0
+    return Axis(low - margin, high + margin, factor, word, begin, end)
+
+
+def _mark(point: Any, x: Axis, y: Axis) -> Mark:
+    across, down = (x.at(point.x.low), x.at(point.x.high)), (y.at(point.y.high), y.at(point.y.low))
+    return Mark(point.variant, kind_of(point), x.at(point.x.mean), y.at(point.y.mean), across, down)
+
+
+def _grid(x: Axis, y: Axis) -> Iterator[str]:
+    foot = TALL - FOOT
+    for at, words in x.ticks:
+        yield f'<path d="M{at:.1f} {TOP}V{foot}" stroke="{GRID}"/>' + _text(words, at, foot + 18, MUTED, "middle")
+    for at, words in y.ticks:
+        yield f'<path d="M{LEFT} {at:.1f}H{WIDE - RIGHT}" stroke="{GRID}"/>'
+        yield _text(words, LEFT - 8, at + 4.5, MUTED, "end")
+
+
+def _front(marks: Sequence[Mark], better_x: str) -> str:
+    """Steps from one variant of the front to the next: what lies on their worse side is beaten by one of them."""
+    front = sorted((mark.x, mark.y) for mark in marks if mark.kind == FRONT)
+    worst_first = front if better_x == MORE else front[::-1]
+    if len(front) < 2:
+        return ""
+    path = "M{:.1f} {:.1f}".format(*worst_first[0])
+    path += "".join(f"V{y:.1f}H{x:.1f}" for x, y in worst_first[1:])
+    return f'<path d="{path}" fill="none" stroke="{ACCENT}" stroke-width="1.6" stroke-dasharray="5 4"/>'
+
+
+def _bars(mark: Mark) -> Iterator[str]:
+    style = f'stroke="{COLOURS[mark.kind][0]}" stroke-width="2"'
+    if all(map(math.isfinite, mark.across)):
+        yield f'<path d="M{mark.across[0]:.1f} {mark.y:.1f}H{mark.across[1]:.1f}" {style}/>'
+    if all(map(math.isfinite, mark.down)):
+        yield f'<path d="M{mark.x:.1f} {mark.down[0]:.1f}V{mark.down[1]:.1f}" {style}/>'
+
+
+def _dot(mark: Mark) -> str:
+    edge, fill = COLOURS[mark.kind]
+    return f'<circle cx="{mark.x:.1f}" cy="{mark.y:.1f}" r="5.5" stroke-width="2" fill="{fill}" stroke="{edge}"/>'
+
+
+def _places(marks: Sequence[Mark]) -> list[Place]:
+    taken = [box for mark in marks for box in _boxes(mark)]
+    return places([(mark.x, mark.y) for mark in marks], [shortened(mark.name) for mark in marks], taken, WIDE)
+
+
+def _boxes(mark: Mark) -> Iterator[Box]:
+    """What a name must not hide: the dot and its bars."""
+    yield mark.x - 7, mark.y - 7, mark.x + 7, mark.y + 7
+    if all(map(math.isfinite, mark.across)):
+        yield mark.across[0], mark.y - 2, mark.across[1], mark.y + 2
+    if all(map(math.isfinite, mark.down)):
+        yield mark.x - 2, mark.down[0], mark.x + 2, mark.down[1]
+
+
+def _name(mark: Mark, x: float, y: float, anchor: str) -> str:
+    return _text(shortened(mark.name), x, y, INK, anchor, ' font-weight="600"' if mark.kind == FRONT else "")
+
+
+def _titles(frontier: Any, word_x: str, word_y: str, hours: bool) -> Iterator[str]:
+    x, y = (
+        f"{_with_unit(axis_name(key, hours), word)} ({better} is better)"
+        for key, word, better in ((frontier.x, word_x, frontier.better_x), (frontier.y, word_y, frontier.better_y))
+    )
+    yield _text(x, (LEFT + WIDE - RIGHT) / 2, TALL - 14, INK, "middle")
+    yield f'<g transform="translate(15 {TALL / 2:.0f}) rotate(-90)">{_text(y, 0, 0, INK, "middle")}</g>'
+
+
+def _with_unit(name: str, word: str) -> str:
+    """The unit behind the name, where the name does not say it."""
+    return name if not word or name.endswith(word.removeprefix("per ")) else f"{name}, {word}"
+
+
+def _text(words: str, x: float, y: float, colour: str, anchor: str, more: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" text-anchor="{anchor}"{more}>{escape(words)}</text>'

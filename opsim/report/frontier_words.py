@@ -1,0 +1,71 @@
+"""What two figures of several variants say together: which to look at, and which are beaten."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from opsim.report.words import listing
+
+MOST_SAID = 6
+
+
+def frontier_sentences(frontier: Any) -> list[str]:
+    """Sentences, the most important first. frontier : of ``opsim.study.frontier``"""
+    return [
+        _front([point.variant for point in frontier.points if point.on_front]),
+        *_beaten(frontier),
+        *_behind(frontier),
+        *_unknown(frontier),
+        *_hours(frontier),
+    ]
+
+
+def _front(names: Sequence[str]) -> str:
+    if not names:
+        return "No variant has both figures: there is no frontier."
+    if len(names) == 1:
+        return f"By the means {names[0]} is the best in both figures: there is nothing to weigh up."
+    return (
+        f"By the means no variant beats {listing(list(names))}: who chooses among them gains in one figure and pays in "
+        "the other."
+    )
+
+
+def _beaten(frontier: Any) -> Iterator[str]:
+    beaten = [point for point in frontier.points if point.clearly_behind]
+    if beaten:
+        yield (
+            f"Clearly beaten: {_said(beaten, 'clearly_behind')}. That is, worse in both figures, or in one with the "
+            f"other the same, in {frontier.n} pairs of replications (95 %, all comparisons together, Holm 1979)."
+        )
+
+
+def _behind(frontier: Any) -> Iterator[str]:
+    unclear = [point for point in frontier.points if point.behind and not point.clearly_behind]
+    if unclear:
+        pairs = "one pair" if frontier.n == 1 else f"{frontier.n} pairs"
+        yield (
+            f"Behind by the means only: {_said(unclear, 'behind')}. In {pairs} of replications this is not told from "
+            "chance in both figures."
+        )
+
+
+def _said(points: Sequence[Any], by: str) -> str:
+    """``a by b and c; d by b``; by : which field of a point names those before it"""
+    said = "; ".join(f"{point.variant} by {listing(list(getattr(point, by)))}" for point in points[:MOST_SAID])
+    return f"{said}; and {len(points) - MOST_SAID} more" if len(points) > MOST_SAID else said
+
+
+def _unknown(frontier: Any) -> Iterator[str]:
+    unknown = [point.variant for point in frontier.points if point.x.n == 0 or point.y.n == 0]
+    if unknown:
+        yield f"Not shown, as a figure was observed in no replication: {listing(unknown)}."
+
+
+def _hours(frontier: Any) -> Iterator[str]:
+    if frontier.other_hours:
+        yield (
+            "The variants are open for different hours, and a figure is per scheduled hour: nothing is called clear "
+            "here; look at throughput_per_calendar_h."
+        )

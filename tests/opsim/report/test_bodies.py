@@ -1,0 +1,65 @@
+import json
+from types import SimpleNamespace
+
+import pytest
+from plans import ran
+
+from opsim.ergonomics.regions import Regions
+from opsim.ergonomics.timeline import timeline
+from opsim.ergonomics.worst import worst_frames
+from opsim.report.bodies import bodies_section, day_of, regions_said, write_postures
+from opsim.report.worst_picture import pair, posture_cards
+from tests.opsim.ergonomics.test_regions import CELL
+
+
+@pytest.fixture(scope="module")
+def cell():
+    log, plan = ran(CELL)
+    return log, plan, worst_frames(log, plan, 2)
+
+
+def test_a_strip_is_filled_by_the_share_of_each_minute_at_a_high_score(cell):
+    log, plan, _ = cell
+    day = timeline(log, plan)
+    section = day_of(day, plan, "Mon 06:30")
+    assert section["minutes"] == 1 and b"ana" in section["picture"] and b"06:40" in section["picture"]
+    share = day.from_5_s[0].sum() / (60 * day.from_5_s.shape[1])
+    assert f"{100 * share:.1f}"[:2] in section["alt"] and "RULA 5 or more" in section["alt"]
+    words = [words for _, words in section["legend"]]
+    assert "RULA 5 or more" in words and "at work, posture not known" in words
+
+
+def test_a_card_says_who_when_and_what_drives_the_score_and_draws_two_views(cell):
+    *_, worst = cell
+    first, _ = posture_cards(worst)
+    assert worst[0].worker in first["title"] and worst[0].task in first["title"] and worst[0].clock in first["when"]
+    assert "RULA" in first["scores"] and first["drives"].startswith("Points of the score come from")
+    assert len(first["pictures"]) == 2 and all(svg.startswith("<svg") for svg in first["pictures"])
+    assert [name for name, *_ in first["parts"]][:2] == ["trunk", "neck"]
+
+
+def test_the_regions_of_one_replication_are_said_in_shares(cell):
+    _, plan, _ = cell
+    regions = Regions(plan)
+    regions.seconds[0] = [[60.0, 60.0], *[[0.0, 0.0]] * 4, [180.0, 0.0], [0.0, 0.0]]
+    assert regions_said(regions) == [
+        "What brings people to RULA 5 or more: the load (75 %) and the trunk (25 %).",
+        "What brings them to RULA 7: the trunk (100 %).",
+    ]
+
+
+def test_a_score_is_one_number_or_an_interval():
+    assert pair((7, 7)) == "7" and pair((5, 7)) == "5 to 7"
+
+
+def test_the_postures_are_kept_for_whoever_opens_the_folder(cell, tmp_path):
+    *_, worst = cell
+    write_postures(worst, tmp_path / "postures.json")
+    found = json.loads((tmp_path / "postures.json").read_text())["worst"]
+    assert [one["worker"] for one in found] == [one.worker for one in worst]
+    assert len(found[0]["joints_m"]) == len(found[0]["joints"]) and found[0]["why"]["rula"]["drives"]
+
+
+def test_where_nobody_asked_for_postures_there_is_nothing():
+    result = SimpleNamespace(summary={"kpis": [{"kpi": "throughput_per_h"}]}, events_files=["there"])
+    assert bodies_section(None, result) is None

@@ -1,0 +1,32 @@
+from xml.etree import ElementTree
+
+import pytest
+
+from opsim.ergonomics.bounds import NOTHING_OPEN
+from opsim.ergonomics.movement import scored_movements
+from opsim.report.course_picture import LEVELS, MOST_ROWS, course_svg, level_colour
+from tests.opsim.ergonomics.test_movement import movement
+
+
+def test_scores_have_the_colour_of_their_action_level():
+    """RULA 1-2, 3-4, 5-6, 7; REBA 1, 2-3, 4-7, 8-10, 11-15; OWAS 1, 2, 3, 4."""
+    none, later, soon, _, now = LEVELS
+    assert [level_colour("rula", score) for score in (1, 2, 3, 4, 5, 6, 7)] == [none] * 2 + [later] * 2 + [soon] * 2 + [
+        now
+    ]
+    assert [level_colour("reba", score) for score in (1, 3, 4, 8, 11)] == list(LEVELS)
+    assert [level_colour("owas", score) for score in (1, 2, 3, 4)] == [none, later, soon, now]
+    assert level_colour("rula", 4.5) == later
+
+
+@pytest.mark.parametrize("n", [1, 2, MOST_ROWS + 1])
+def test_a_picture_of_one_movement_and_of_many(n):
+    made = [movement(0.0, 70.0, float("nan"), name=f"take {k}") for k in range(n)]
+    picture = course_svg(scored_movements(made, NOTHING_OPEN), {(0, 1): "A"})
+    root = ElementTree.fromstring(picture)
+    assert root.tag.endswith("svg")
+    assert n > 2 or picture == course_svg(scored_movements(made, NOTHING_OPEN), {(0, 1): "A"})
+
+
+def test_a_picture_without_a_letter_is_of_the_first_movement():
+    assert course_svg(scored_movements([movement(float("nan"))], NOTHING_OPEN), {}).startswith(b"<?xml")

@@ -1,0 +1,38 @@
+import pytest
+
+from opsim.engine.simpy_engine import run_plan
+from opsim.practice import practice
+from opsim.report.human_curves import curves_of
+from opsim.tiredness import tiredness
+from tests.human_plans import LINE, planned
+
+BOTH = "human: {fatigue: {model: lffrm}, learning: {model: wright, rate: 0.85}}"
+
+
+@pytest.fixture(scope="module")
+def shown():
+    plan = planned(LINE, BOTH)
+    log = run_plan(plan)
+    return log, plan, curves_of(log, plan, "Mon 06:00")
+
+
+def test_a_curve_of_fatigue_ends_where_the_replay_does(shown):
+    log, plan, (fatigue, _) = shown
+    found = tiredness(log, plan)
+    for rank, line in enumerate(fatigue["figure"]["data"]):
+        assert line["y"][-1] == pytest.approx(100 * found.end[log["worker"][found.row] == rank][-1], abs=1e-3)
+        assert line["y"][0] == 0 and line["name"] == plan.workers[rank].name
+    assert fatigue["words"].startswith("Most tired is")
+
+
+def test_a_curve_of_learning_falls_from_the_first_repetition(shown):
+    log, plan, (_, learning) = shown
+    share = practice(log, plan).multiplier / plan.human.learning.multiplier(1.0)
+    assert min(min(line["y"]) for line in learning["figure"]["data"]) == pytest.approx(100 * share.min(), abs=1e-3)
+    assert all(line["y"][0] == 100 and line["y"][-1] < 100 for line in learning["figure"]["data"])
+    assert "ana, cut" in learning["said"]
+
+
+def test_without_effects_there_is_no_curve():
+    plan = planned(LINE)
+    assert curves_of(run_plan(plan), plan, "Mon 06:00") == []

@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+
+from emulator.skeleton import standard_skeleton
+from opsim.ergonomics.bounds import bounds_of
+from opsim.ergonomics.movement import scored_movements
+from opsim.ergonomics.options import USUAL
+from opsim.plan.handling import Handling
+from opsim.report.scored import Said, page, write_scored
+from tests.opsim.ergonomics.test_movement import movement
+
+HANDLING = Handling(
+    load_kg=8.0,
+    grip="fair",
+    force="repeated",
+    forearm="mid",
+    arms_supported=False,
+    sitting=False,
+    legs="balanced",
+    rapid=False,
+)
+
+
+def told(*movements, handling=HANDLING, title="made", notes=("taken",)):
+    scored = scored_movements(movements, bounds_of(handling))
+    return page(Said(title, standard_skeleton(), handling, USUAL, False, notes), scored)
+
+
+@pytest.fixture(scope="module")
+def bends():
+    return told(movement(0.0, 70.0, name="one"), movement(0.0, 20.0, -15.0, name="<other>"))
+
+
+def test_the_worst_posture_is_drawn_from_two_sides_with_its_sub_scores(bends):
+    """RULA of a trunk at 70 degrees, arms along it, elbows straight: trunk 4, neck 1, upper arm 1, lower arm 2."""
+    first = bends.split('<article class="posture">')[1]
+    assert "A. one, at 0.75 s" in first and first.count("<svg") == 2
+    assert "Trunk flexed 70°" in first and '<td>trunk</td><td class="number">4</td>' in first
+    assert '<td>lower arm</td><td class="number">2</td>' in first
+
+
+def test_postures_behind_upright_are_said_to_be_bent_back():
+    assert "Trunk bent back 15°" in told(movement(-15.0))
+
+
+def test_names_are_escaped_and_nothing_is_fetched(bends):
+    assert "&lt;other&gt;" in bends and "<other>" not in bends
+    assert "default-src 'none'" in bends and 'src="http' not in bends and "<script" not in bends
+
+
+def test_intervals_are_said_as_such():
+    open_ = told(movement(0.0, 70.0), handling=Handling(load_kg=8.0))
+    assert " to " in open_.split('<article class="posture">')[1] and "at most" in open_.split("The worst postures")[1]
+
+
+def test_where_nothing_is_known_it_says_so():
+    text = told(movement(np.nan, np.nan))
+    assert "Nothing is known of any posture" in text and "not known" in text
+
+
+def test_the_page_says_how_it_was_scored(bends):
+    assert "<dt>arm reference</dt><dd>trunk</dd>" in bends and "<dt>threshold twist</dt><dd>10</dd>" in bends
+
+
+def test_the_page_is_written_whole(tmp_path):
+    scored = scored_movements([movement(0.0, 40.0)], bounds_of(HANDLING))
+    write_scored(tmp_path / "a.html", Said("made", standard_skeleton(), HANDLING, USUAL, False, ()), scored)
+    assert (tmp_path / "a.html").read_text().rstrip().endswith("</html>")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.html"]
