@@ -21,6 +21,7 @@ _HOMES = {
     "WorkerLog": "opsim.worker_log",
     "audit": "opsim.laws",
     "compile_plan": "opsim.plan",
+    "exposure_of": "opsim.kpi.work_exposure",
     "figures": "opsim.kpi",
     "read_events": "opsim.log_store",
     "read_scenarios": "opsim.scenario",

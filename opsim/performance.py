@@ -10,10 +10,10 @@ import numpy as np
 from opsim.clock import TICKS_PER_S
 
 
-@dataclass(frozen=True, slots=True)
-class Drawn:
+class OfBlock:
     """Row ``row`` of a block of performances (``opsim.task.Performances``), at skill rating 1."""
 
+    __slots__ = ()
     block: Any
     row: int
 
@@ -30,10 +30,23 @@ class Drawn:
         """``what`` (directions, positions_m, root_m) of this row alone: as in the whole block, to 1e-10."""
         from threadpoolctl import threadpool_limits
 
-        alone = hasattr(type(self.block), "__getitem__")
+        block, row = self.block, self.row
+        alone = hasattr(type(block), "__getitem__")
         with threadpool_limits(limits=1, user_api="blas"):
-            block = self.block[self.row] if alone else self.block
-            return getattr(block, what)(**times)[0 if alone else self.row]
+            some = block[row] if alone else block
+            return getattr(some, what)(**times)[0 if alone else row]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn(OfBlock):
+    """A row of a block that is there.
+
+    luck : the ``OwnLuck`` of who was drawn for, by which others of his can be drawn; None where nobody said
+    """
+
+    block: Any
+    row: int
+    luck: Any = field(default=None, repr=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +59,7 @@ class Performance:
     mark_s       : (E,) the emulator's marked moments, seconds of work from the start of the whole performance
     progress_from, progress_to : shares of ``duration_s`` done at the start and at the end of this piece
     number       : performances of a log are numbered as they begin
+    pace_shift   : by how much human effects shifted its log time; postures follow it
     """
 
     worker: str
@@ -58,7 +72,8 @@ class Performance:
     progress_from: float
     progress_to: float
     number: int
-    drawn: Drawn = field(repr=False, compare=False)
+    drawn: Any = field(repr=False, compare=False)
+    pace_shift: float = 0.0
 
     @property
     def finished(self) -> bool:

@@ -21,6 +21,9 @@ from typing import Any
 import simpy
 
 from opsim.clock import on_grid
+from opsim.ergonomics.said import handlings
+from opsim.human_said import human_of
+from opsim.own_human import OwnHuman
 from opsim.own_luck import OwnLuck
 from opsim.performance import Performance
 from opsim.problems import did_you_mean, shown
@@ -47,6 +50,11 @@ class Worker:
     body    : what is known of the body: something with any of ``height_m``, ``mass_kg``, ``age_years``, ``sex``,
               ``pace`` and ``person``, the name of a recorded one (attributes or keys), or None
     log     : the WorkerLog to write into; each worker has one of its own otherwise, found as ``worker.log``
+    handling : by task, what the hands hold and what carries the body: a ``Handling`` or its words; ``exposure_of`` asks
+    human   : what becomes of him as he works, in the words of a scenario: ``{"fatigue": {"model": "lffrm"}}``, or a
+              HumanPlan: learning, forgetting, fatigue and the time of day; between performances he rests
+    experience : by task, repetitions behind him, where he learns
+    start_s : when on the clock the environment's 0 is, in seconds after Monday 00:00
     turns   : a plain ``simpy.Resource`` of capacity 1 for models in which several processes want the same worker
 
     Raises TypeError or ValueError for arguments that make no sense.
@@ -65,22 +73,34 @@ class Worker:
         rating: float = 1.0,
         body: Any = None,
         log: WorkerLog | None = None,
+        handling: Mapping[str, Any] | None = None,
+        human: Any = None,
+        experience: Mapping[str, float] | None = None,
+        start_s: float = 0.0,
     ):
         check_arguments(env, name, rating, across_tasks, seed=seed, replication=replication, workforce=workforce)
         self.env, self.name, self.rating = env, name, rating
         self.log = log_or_new(name, log)
         self.turns = simpy.Resource(env, capacity=1)
         models = task_models(tasks)
-        self._luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models), across_tasks)
-        self._next_k = dict.fromkeys(self._luck.models, 0)
+        self.luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models), across_tasks)
+        self.luck.handling = handlings(handling, models, f"worker {name}: ")
+        effects = human_of(name, human, experience, models, start_s)
+        self._human = OwnHuman(env, self.luck, effects) if effects.any else None
+        self._next_k = dict.fromkeys(self.luck.models, 0)
         self._doing: Performance | None = None
         self._halted: dict[tuple[str, int], Performance] = {}
-        self.log.join(name, env, replication)
+        self.log.join(name, env, replication, self.luck)
 
     @property
     def tasks(self) -> tuple[str, ...]:
         """The tasks this worker can perform."""
-        return tuple(self._luck.models)
+        return tuple(self.luck.models)
+
+    @property
+    def fatigue(self) -> float:
+        """How tired he is now, 0 (fresh, or where nobody tires) to 1."""
+        return 0.0 if self._human is None else self._human.level
 
     @property
     def busy(self) -> bool:
@@ -102,12 +122,15 @@ class Worker:
             raise ValueError(f"worker {self.name}: no task {shown(task)}; {did_you_mean(task, self._next_k)}")
         self._must_be_free(f"perform {task}")
         k, now_s = self._next_k[task], self.env.now
-        drawn = self._luck.performance(task, k)
+        drawn = self.luck.performance(task, k)
         self._next_k[task] = k + 1
-        duration_s = on_grid(drawn.duration_s / self.rating)
+        time_s, shift = (drawn.duration_s, 0.0) if self._human is None else self._human.drawn(task, k, drawn.duration_s)
+        duration_s = on_grid(time_s / self.rating)
         mark_s = tuple((drawn.mark_s * (duration_s / drawn.duration_s)).tolist())
-        number = self.log.next_number()
-        return self._begin(Performance(self.name, task, k, now_s, now_s, duration_s, mark_s, 0.0, 0.0, number, drawn))
+        number, body = self.log.next_number(), self.luck.as_slow(drawn, task, k, shift)
+        return self._begin(
+            Performance(self.name, task, k, now_s, now_s, duration_s, mark_s, 0.0, 0.0, number, body, shift)
+        )
 
     def resume(self, performance: Performance) -> simpy.Process:
         """Go on with an interrupted performance where it stopped, with the same k and the same draw.
@@ -125,6 +148,8 @@ class Worker:
     def _begin(self, piece: Performance) -> simpy.Process:
         self._doing = piece
         self.log.begin(piece)
+        if self._human is not None:
+            self._human.works(piece.task, self.env.now + piece.left_s, piece.progress_from)
         return self.env.process(self._spend(piece))
 
     def _spend(self, piece: Performance) -> Generator[simpy.Event, None, Performance]:
@@ -133,6 +158,8 @@ class Worker:
             done = replace(piece, end_s=self.env.now, progress_to=1.0)
         except simpy.Interrupt:
             done = piece.until(self.env.now)
+            if self._human is not None:
+                self._human.stops()
         self._doing = None
         self._halted.pop((done.task, done.k), None)
         if not done.finished:

@@ -10,6 +10,7 @@ import numpy as np
 from opsim.laws import BrokenLog
 from opsim.log import CAUSES, IDLE, KINDS, NAMED, ORDER, WAIT, WORK, EventLog, LogWriter, event_log, row
 from opsim.names import natural_key
+from opsim.own_luck import OwnLuck
 from opsim.performance import Performance
 
 if TYPE_CHECKING:
@@ -33,11 +34,17 @@ class WorkerLog:
         self._tasks: dict[str, int] = {}
         self._doing: dict[str, Performance] = {}
         self._idle_since_s: dict[str, float] = {}
+        self._lucks: dict[str, OwnLuck] = {}
         self._env: simpy.Environment | None = None
         self._replication = 0
         self._n_begun = 0
 
-    def join(self, name: str, env: simpy.Environment, replication: int) -> None:
+    @property
+    def lucks(self) -> dict[str, OwnLuck]:
+        """What decides the draws of each worker in it."""
+        return dict(self._lucks)
+
+    def join(self, name: str, env: simpy.Environment, replication: int, luck: OwnLuck | None = None) -> None:
         """A worker's rows begin now. Raises ValueError for a name taken, another environment or replication."""
         if name in self._workers:
             raise ValueError(f"log: there is a worker {name!r} in it already")
@@ -48,6 +55,8 @@ class WorkerLog:
         self._env, self._replication = env, replication
         self._workers[name] = len(self._workers)
         self._idle_since_s[name] = env.now
+        if luck is not None:
+            self._lucks[name] = luck
 
     def next_number(self) -> int:
         """The number of the performance that begins now."""
@@ -103,7 +112,7 @@ class WorkerLog:
                 k=piece.k,
                 progress_from=piece.progress_from,
                 progress_to=piece.progress_to,
-                pace_shift=0.0,
+                pace_shift=piece.pace_shift,
             )
 
 

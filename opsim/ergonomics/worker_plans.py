@@ -93,7 +93,7 @@ def _worker(luck: OwnLuck) -> WorkerPlan:
 def _agree(one: OwnLuck, other: OwnLuck) -> bool:
     shared = one.models.keys() & other.models.keys()
     said = all(one.handling.get(task) == other.handling.get(task) for task in shared)
-    return all(_alike(one.models[task], other.models[task]) for task in shared)
+    return said and all(_alike(one.models[task], other.models[task]) for task in shared)
 
 
 def _alike(one: Any, other: Any) -> bool:
