@@ -50,9 +50,9 @@ class OwnHuman:
         time_s = self._human.drawn(self, None, self._rank[task], k, drawn_s)
         return time_s, self.workers[0].pace_shift
 
-    def works(self, task: str, until_s: float, done: float) -> None:
-        """He works on a task from now, ``done`` of which is done, until then if nothing comes between."""
-        self._human.works(self.now, self._rank[task], until_s, done)
+    def works(self, task: str, k: int, until_s: float, done: float) -> None:
+        """He works on his k-th of a task from now, ``done`` of which is done, until then if nothing comes between."""
+        self._human.works(self.now, self._rank[task], until_s, done, k)
 
     def stops(self) -> None:
         """He is broken off."""

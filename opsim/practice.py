@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from opsim.human.memory import Memory, experience_of, first_times
-from opsim.log import NO_TOOL, SETUP, WAIT, WORK, EventLog
+from opsim.log import SETUP, WORK, EventLog
 from opsim.plan import Plan
 
 
@@ -33,7 +33,7 @@ def own_rows(log: EventLog, plan: Plan) -> np.ndarray:
 def practice(log: EventLog, plan: Plan) -> Practice:
     """The repetition and the multiplier behind each row; without learning, both by count alone and 1.
 
-    Where people forget, a performance that was broken off as it began left no row: the pause is then counted as one.
+    Without forgetting, draws are counted: also of what was broken off in the instant in which it began.
     """
     rows, learning = own_rows(log, plan), plan.human.learning
     counted = _counted(log, plan, rows)
@@ -54,32 +54,15 @@ def _counted(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
 def _remembered(log: EventLog, plan: Plan, rows: np.ndarray) -> np.ndarray:
     """(R,) as the engine counted it, by the same memory, told the same in the same order."""
     first_s = first_times(plan, plan.human.learning)
-    waited_from = _waits_for_tools(log)
     columns = [log[name][rows].tolist() for name in ("worker", "task", "k", "start_s", "end_s")]
     begun: dict[tuple[int, int], float] = {}
-    last_k: dict[int, int] = {}
     found, memory, at = np.empty(rows.size), None, -1
     for place, (worker, task, k, start_s, end_s) in enumerate(zip(*columns)):
         if memory is None or worker != at:
-            at, begun, last_k = worker, {}, {}
+            at, begun = worker, {}
             memory = Memory(plan.human.learning, plan.human.forgetting, experience_of(plan, worker), first_s)
         if (task, k) not in begun:  # else it is gone on with, maybe after others of the task
-            so_many = k - last_k.get(task, -1)
-            begun[task, k] = memory.begins(task, _drawn_at(waited_from, worker, start_s), so_many)
-            last_k[task] = k
-        memory.works(start_s, task, end_s)
+            begun[task, k] = memory.begins(task, k, start_s)
+        memory.works(start_s, task, k, end_s)
         found[place] = begun[task, k]
     return found
-
-
-def _waits_for_tools(log: EventLog) -> dict[tuple[int, float], float]:
-    """(worker, end) -> start of each wait for a tool: what is performed then was drawn when the wait began."""
-    rows = np.flatnonzero((log["kind"] == WAIT) & (log["cause"] == NO_TOOL))
-    worker, start_s, end_s = (log[name][rows].tolist() for name in ("worker", "start_s", "end_s"))
-    return {(who, end): start for who, start, end in zip(worker, start_s, end_s)}
-
-
-def _drawn_at(waited_from: dict[tuple[int, float], float], worker: int, start_s: float) -> float:
-    while (worker, start_s) in waited_from:
-        start_s = waited_from[worker, start_s]
-    return start_s

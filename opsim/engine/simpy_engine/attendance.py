@@ -11,7 +11,7 @@ from opsim.engine.simpy_engine.pauses import begin_pause, end_pause, rest
 from opsim.engine.simpy_engine.presence import DUTY, GONE, HERE, LEAVING, PAUSED, Presence, moments
 from opsim.engine.simpy_engine.state import Job, Station, Worker
 from opsim.engine.simpy_engine.worker import set_free, take_off
-from opsim.log import ABSENT, OFF, WALK
+from opsim.log import ABSENT, BREAK, OFF, REST, WALK
 from opsim.plan import Duty, Pause
 
 ORDER = 10
@@ -107,7 +107,7 @@ class Attendance:
         if one.state == LEAVING:
             self.leaving.stand_by(floor, worker)
         if worker.rank not in floor.free:
-            return False
+            return one.overtime and self._rests_for_nobody(floor, one)
         if one.state == LEAVING:
             self._go(floor, one)
         elif one.state == PAUSED:
@@ -126,6 +126,14 @@ class Attendance:
         if self.leaving.ties.go_back(floor, worker) or not one.overtime:
             return True
         if floor.stirred or self._is_needed(floor, one):
+            return False
+        self.leave(floor, one, goes=True)
+        return True
+
+    def _rests_for_nobody(self, floor: Floor, one: Presence) -> bool:
+        """Who rests by need in overtime goes home instead, where nobody needs him; True where he does."""
+        worker = one.worker
+        if worker.kind != BREAK or worker.cause != REST or floor.stirred or self._is_needed(floor, one):
             return False
         self.leave(floor, one, goes=True)
         return True

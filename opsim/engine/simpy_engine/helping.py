@@ -39,7 +39,7 @@ class Helping:
             station.rank, job.product, job.operation_rank, job.task, number, k, rest_s, done, worker.pace_shift
         )
         if floor.humans:
-            floor.humans[worker.rank].works(now, job.task, now + rest_s, done)
+            floor.humans[worker.rank].works(now, job.task, now + rest_s, done, k)
         worker.job, worker.station = job, station
         worker.kind, worker.since_s = WORK, now
         job.team = [worker]
@@ -84,7 +84,7 @@ def _go_on_at_another_pace(floor: Floor, job: Job, done: float, rest_s: float) -
     stop(floor, worker)
     worker.since_s = floor.now
     if floor.humans:
-        floor.humans[worker.rank].works(floor.now, job.task, floor.now + rest_s, done)
+        floor.humans[worker.rank].works(floor.now, job.task, floor.now + rest_s, done, job.k)
     floor.at_end_of(rest_s, worker.stretch_over)
 
 

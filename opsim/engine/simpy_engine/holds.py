@@ -21,7 +21,8 @@ class Doing:
 
     left_s, start_s, end_s : seconds of work to its end, and to the moments of taking the tool and of giving it back
     stretch_s : seconds of work to where the stretch under way ends
-    at_work : whether it is under way now; begun : whether any of it is done
+    at_work : whether it is under way now; begun : whether it was ever
+    before  : how much of the task was done when it was drawn; drawn : before human effects, with the moments as shares
     """
 
     worker: Worker
@@ -30,6 +31,8 @@ class Doing:
     left_s: float
     start_s: float
     end_s: float
+    before: float
+    drawn: Held
     stretch_s: float = 0.0
     at_work: bool = False
     begun: bool = False
@@ -57,11 +60,13 @@ class Holds:
             return False
         doing = self.doing.get(job.number)
         attended = floor.plan.tasks[station.tasks[job.task_position]].attended
-        if doing is not None and (doing.worker is worker or attended) and (job.rest_s or not doing.begun):
+        if doing is not None and (doing.worker is worker or attended) and _is_as_it_was(job, doing):
             doing.worker = worker
             if attended:
                 worker.pace_shift = 0.0
-            if doing.begun:
+            if self._is_to_begin(floor, job, doing):
+                doing = self._asked_again(floor, job, doing)
+            elif doing.begun:
                 doing.pass_by(doing.left_s - job.rest_s)
         else:
             if not job.rest_s:
@@ -133,26 +138,33 @@ class Holds:
             stand_still(floor, station, job)
             return
         wait_by(floor, doing.worker, NO_TOOL)  # writes the wait until now
+        if self._is_to_begin(floor, job, doing):
+            doing = self._asked_again(floor, job, doing)
         self._stretch(floor, job, doing)
 
     def _drawn(self, floor: Floor, job: Job, worker: Worker) -> Doing:
         """The worker's next performance, or what is left of the job's task at his own pace; all on the grid."""
         station = job.station
         task = station.tasks[job.task_position]
-        plan = floor.plan.tasks[task]
-        if plan.attended:
-            luck, k, rating = self._of("station", floor, task, station.rank), station.next_k.get(task, 0), 1.0
+        if floor.plan.tasks[task].attended:
+            luck, k = self._of("station", floor, task, station.rank), station.next_k.get(task, 0)
             station.next_k[task], worker.pace_shift = k + 1, 0.0
         else:
             luck, k = self._of("worker", floor, task, worker.rank), worker.next_k[task]
-            worker.next_k[task], rating = k + 1, worker.rating[station.rank]
-        drawn_s, start, end = next(luck)
-        if worker.human is not None and not plan.attended:
-            drawn_s = worker.human.drawn(floor, station, task, k, drawn_s)
-        whole_s = on_grid(drawn_s / rating)
-        left_s = on_grid(whole_s * (1.0 - job.progress_from)) if job.rest_s else whole_s
-        start_s, end_s = (round(share * whole_s * TICKS_PER_S) / TICKS_PER_S for share in (start, end))
-        return Doing(worker, task, k, left_s, start_s - (whole_s - left_s), end_s - (whole_s - left_s))
+            worker.next_k[task] = k + 1
+        return _timed(floor, job, worker, task, k, next(luck))
+
+    def _is_to_begin(self, floor: Floor, job: Job, doing: Doing) -> bool:
+        """Whether somebody with human effects has done nothing yet of a time of his own."""
+        own = doing.worker.human is not None and not floor.plan.tasks[doing.task].attended
+        return own and doing.before == job.progress_from
+
+    def _asked_again(self, floor: Floor, job: Job, doing: Doing) -> Doing:
+        """Human effects are those of when it truly begins."""
+        again = _timed(floor, job, doing.worker, doing.task, doing.k, doing.drawn)
+        again.begun, job.pace_shift = doing.begun, doing.worker.pace_shift
+        self.doing[job.number] = again
+        return again
 
     def _of(self, whose: str, floor: Floor, task: int, rank: int) -> Iterator[Held]:
         luck = self.luck.get((whose, task, rank))
@@ -161,3 +173,21 @@ class Holds:
             draw = floor.draws.runs_with if whose == "station" else floor.draws.durations_with
             luck = self.luck[whose, task, rank] = draw(hold, task, rank)
         return luck
+
+
+def _is_as_it_was(job: Job, doing: Doing) -> bool:
+    """Whether nothing of what was done of a performance, or before it was drawn, was lost since."""
+    return job.rest_s > 0 if doing.begun else doing.before == job.progress_from
+
+
+def _timed(floor: Floor, job: Job, worker: Worker, task: int, k: int, drawn: Held) -> Doing:
+    """What is left of the job's task at the pace of a draw; all on the grid."""
+    (time_s, start, end), station, rating = drawn, job.station, 1.0
+    if not floor.plan.tasks[task].attended:
+        rating = worker.rating[station.rank]
+        if worker.human is not None:
+            time_s = worker.human.drawn(floor, station, task, k, time_s)
+    whole_s = on_grid(time_s / rating)
+    left_s = on_grid(whole_s * (1.0 - job.progress_from)) if job.rest_s else whole_s
+    start_s, end_s = (round(share * whole_s * TICKS_PER_S) / TICKS_PER_S - (whole_s - left_s) for share in (start, end))
+    return Doing(worker, task, k, left_s, start_s, end_s, job.progress_from, drawn)

@@ -14,19 +14,33 @@ def install(floor: Floor) -> None:
         return
     first_s = first_times(floor.plan, plan.learning)
     for human in floor.humans:
-        memory = Memory(plan.learning, plan.forgetting, experience_of(floor.plan, human.worker.rank), first_s)
-        human.factors.append(_Learner(plan.learning.multiplier, memory))
-        if plan.forgetting is not None:
-            human.told.append(memory)
+        experience = experience_of(floor.plan, human.worker.rank)
+        if plan.forgetting is None:
+            human.factors.append(_Learner(plan.learning.multiplier, experience))
+            continue
+        human.memory = Memory(plan.learning, plan.forgetting, experience, first_s)
+        human.factors.append(_Forgetful(plan.learning.multiplier, human.memory))
 
 
 class _Learner:
-    """Counts a worker's repetitions; each is told how long it takes by how many were before."""
+    """Each repetition is told how long it takes by how many were before."""
+
+    __slots__ = ("experience", "multiplier")
+
+    def __init__(self, multiplier, experience: tuple[float, ...]):
+        self.multiplier, self.experience = multiplier, experience
+
+    def __call__(self, _floor: Floor, _worker: Worker, _station: Station, task: int, k: int) -> float:
+        return self.multiplier((self.experience[task] if self.experience else 0.0) + k + 1.0)
+
+
+class _Forgetful:
+    """Each repetition is told how long it takes by what is remembered of those before."""
 
     __slots__ = ("memory", "multiplier")
 
     def __init__(self, multiplier, memory: Memory):
         self.multiplier, self.memory = multiplier, memory
 
-    def __call__(self, floor: Floor, _worker: Worker, _station: Station, task: int, _k: int) -> float:
-        return self.multiplier(self.memory.begins(task, floor.now))
+    def __call__(self, floor: Floor, _worker: Worker, _station: Station, task: int, k: int) -> float:
+        return self.multiplier(self.memory.begins(task, k, floor.now))

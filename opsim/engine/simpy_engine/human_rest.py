@@ -19,12 +19,16 @@ def install(floor: Floor) -> None:
         return
     rests = Rests(floor, plan.rest, plan.fatigue)
     floor.dispatchers.insert(0, rests.look)
+    floor.dispatchers.append(rests.look)  # again: who is seen to stay on after his shift may be too tired
     for human in floor.humans:
         human.told.append(_Watched(rests, human.worker.rank))
 
 
 class Rests:
-    """worked : who has worked since he was looked at; resting : until when they rest, by rank"""
+    """worked : who has worked since he was looked at, or was called away from a rest
+
+    resting : until when they rest, by rank
+    """
 
     def __init__(self, floor: Floor, rest, model):
         self.rest, self.model, self.floor = rest, model, floor
@@ -37,6 +41,7 @@ class Rests:
         for rank in sorted(self.resting) if self.resting else ():
             if DUTY in floor.workers[rank].limits:
                 self._over(floor, floor.workers[rank])
+                self.worked.add(rank)  # and may be too tired still when he is back
                 changed = True
         for rank in sorted(self.worked) if self.worked else ():
             worker = floor.workers[rank]

@@ -9,6 +9,7 @@ from typing import Protocol
 from opsim.engine.simpy_engine import human_clock, human_fatigue, human_learning, human_pace, human_rest
 from opsim.engine.simpy_engine.floor import Floor, Handler
 from opsim.engine.simpy_engine.state import Station, Worker
+from opsim.human.memory import Memory
 from opsim.human.tired import Tired
 
 Effect = Callable[[Floor, Worker, Station, int, int], float]
@@ -29,9 +30,10 @@ class Human:
     factors : of time alone
     told    : who is told when he works, and when he is broken off
     tired   : his fatigue, where people tire: told first, and with where in his task he begins
+    memory  : what he has not forgotten, where people forget: told which performance it is
     """
 
-    __slots__ = ("factors", "on_posture", "shifts", "tired", "told", "worker")
+    __slots__ = ("factors", "memory", "on_posture", "shifts", "tired", "told", "worker")
 
     def __init__(self, worker: Worker, on_posture: bool):
         self.worker, self.on_posture = worker, on_posture
@@ -39,6 +41,7 @@ class Human:
         self.factors: list[Effect] = []
         self.told: list[Told] = []
         self.tired: Tired | None = None
+        self.memory: Memory | None = None
 
     def drawn(self, floor: Floor, station: Station, task: int, k: int, drawn_s: float) -> float:
         """His own next time as it is now; neutral effects leave its bits alone."""
@@ -54,10 +57,12 @@ class Human:
         """How tired he is, 0 (fresh, or where nobody tires) to 1."""
         return 0.0 if self.tired is None else self.tired.level_at(now)
 
-    def works(self, now: float, task: int, until_s: float, done: float = 0.0) -> None:
-        """He works on a task from now, ``done`` of which is done, until then if nothing comes between."""
+    def works(self, now: float, task: int, until_s: float, done: float = 0.0, k: int = -1) -> None:
+        """He works on his k-th of a task from now, ``done`` of which is done, until then if nothing comes between."""
         if self.tired is not None:
             self.tired.works(now, task, until_s, done)
+        if self.memory is not None:
+            self.memory.works(now, task, k, until_s)
         for told in self.told:
             told.works(now, task, until_s)
 
@@ -65,6 +70,8 @@ class Human:
         """What he worked on is broken off, or waits for something."""
         if self.tired is not None:
             self.tired.stops(now)
+        if self.memory is not None:
+            self.memory.stops(now)
         for told in self.told:
             told.stops(now)
 

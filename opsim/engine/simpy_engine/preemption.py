@@ -71,7 +71,9 @@ def _give_up_server(floor: Floor, station: Station, job: Job, restart: bool) -> 
 def _call_off(floor: Floor, station: Station, job: Job) -> None:
     """The job calls for nobody any more; who is on his way to it comes all the same, and is free there."""
     call_off(floor, station, job)
-    job.setup_task = -1
+    if job.setup_task >= 0:
+        forget_progress(job)  # of the set-up: its server is another's now
+        job.setup_task = -1
     for worker in floor.workers:
         if worker.job is job and worker.kind == WALK:
             worker.job = None

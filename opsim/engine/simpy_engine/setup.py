@@ -1,5 +1,7 @@
 """Set-ups: each server remembers what it did last, and is set up for a job of another class."""
 
+from typing import NamedTuple
+
 from opsim.engine.simpy_engine.floor import Floor
 from opsim.engine.simpy_engine.state import Job, Seat, Station
 from opsim.engine.simpy_engine.station import begin_setup
@@ -7,7 +9,18 @@ from opsim.plan.setup import NO_SETUP, SetupPlan
 
 SETTING_UP_COMES = 40
 """The place of set-ups among the preparations of a job."""
-Stopped = tuple[int, int, int, float, float]
+
+
+class Stopped(NamedTuple):
+    """The work a job was in: whose and which, and what is left of it, as the job says it."""
+
+    worker: int
+    k: int
+    performance_id: int
+    pace_shift: float
+    asked: tuple[float, float] | None
+    rest_s: float
+    progress_from: float
 
 
 class Servers(list[Job]):
@@ -74,7 +87,7 @@ def _set_up(floor: Floor, job: Job) -> bool:
     if left is None:
         left = 0 if task == NO_SETUP else floor.plan.tasks[task].repeat
         if left and job.rest_s:
-            servers.stopped[job] = (job.worker, job.k, job.performance_id, job.rest_s, job.progress_from)
+            servers.stopped[job] = Stopped(*(getattr(job, name) for name in Stopped._fields))
             job.rest_s = job.progress_from = 0.0
     if left:
         servers.left[job] = left - 1
@@ -91,4 +104,5 @@ def take_up(floor: Floor, job: Job) -> None:
     if stopped is not None:
         floor.log_job(job)  # the set-up, while it is known who did it
         job.since_s = floor.now
-        job.worker, job.k, job.performance_id, job.rest_s, job.progress_from = stopped
+        for name, value in zip(Stopped._fields, stopped):
+            setattr(job, name, value)

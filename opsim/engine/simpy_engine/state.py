@@ -206,6 +206,7 @@ class Job:
                       ``gate`` is in front of the operation
     task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
     worker .. pace_shift : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
+    asked           : what was drawn for it, before human effects, and how much of it was done then; None: nobody was
     progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
     over            : the end of an automatic run under way
     stage           : how many of the station's preparations are done
@@ -236,6 +237,7 @@ class Job:
     k: int = -1
     duration_s: float = 0.0
     pace_shift: float = 0.0
+    asked: tuple[float, float] | None = None
     held_by: Worker | None = None
     visits: dict[int, int] | None = None
     progress_from: float = 0.0

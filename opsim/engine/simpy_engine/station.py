@@ -188,6 +188,7 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
         worker.next_k[task] = k + 1
         time_s = next(luck)
         if worker.human is not None:
+            job.asked = time_s, 0.0
             time_s = worker.human.drawn(floor, station, task, k, time_s)
         duration_s = on_grid(time_s / worker.rating[station.rank])
     begin(floor, job, worker.rank, task, k, duration_s)
@@ -196,21 +197,37 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
 
 
 def _rest(floor: Floor, job: Job, worker: Worker, task: int) -> tuple[float, int]:
-    """What is left of a performance that was broken off: for him who began it, or by somebody else's own next time."""
-    if job.worker == worker.rank:
+    """What is left of a performance that was broken off: for him who began it, or by somebody else's own next time.
+
+    Where he has done nothing of it yet, human effects are those of now: it truly begins only now.
+    """
+    rating, before = worker.rating[job.station.rank], job.progress_from
+    if job.worker != worker.rank:
+        time_s, k = _next(floor, worker, task)
+        if worker.human is not None:
+            job.asked = time_s, before
+            time_s = worker.human.drawn(floor, job.station, task, k, time_s)
+        return on_grid(on_grid(time_s / rating) * (1.0 - before)), k
+    if job.asked is None or job.asked[1] != before or worker.human is None:
         return job.rest_s, job.k
-    duration_s, k = drawn_s(floor, job.station, worker, task)
-    return on_grid(duration_s * (1.0 - job.progress_from)), k
+    time_s = worker.human.drawn(floor, job.station, task, job.k, job.asked[0])
+    job.pace_shift = worker.pace_shift
+    return on_grid(on_grid(time_s / rating) * (1.0 - before)), job.k
 
 
-def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> tuple[float, int]:
-    """The worker's own next duration of a task at a station, and its number k."""
+def _next(floor: Floor, worker: Worker, task: int) -> tuple[float, int]:
+    """The worker's own next time of a task, at rating 1 and without human effects, and its number k."""
     luck = worker.luck.get(task)
     if luck is None:
         luck = worker.luck[task] = floor.draws.durations(task, worker.rank)
     k = worker.next_k[task]
     worker.next_k[task] = k + 1
-    time_s = next(luck)
+    return next(luck), k
+
+
+def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> tuple[float, int]:
+    """The worker's own next duration of a task at a station, and its number k."""
+    time_s, k = _next(floor, worker, task)
     if worker.human is not None:
         time_s = worker.human.drawn(floor, station, task, k, time_s)
     return on_grid(time_s / worker.rating[station.rank]), k
@@ -255,7 +272,7 @@ def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: fl
         floor.n_performances += 1
         job.pace_shift = floor.workers[worker].pace_shift if worker >= 0 else 0.0
     if floor.humans and worker >= 0:
-        floor.humans[worker].works(now, task, now + duration_s, job.progress_from)
+        floor.humans[worker].works(now, task, now + duration_s, job.progress_from, k)
     job.worker, job.task, job.k, job.duration_s = worker, task, k, duration_s
     station = job.station
     if station.meter is not None:

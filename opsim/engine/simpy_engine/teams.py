@@ -152,7 +152,7 @@ class Teams:
                 station.rank, job.product, job.operation_rank, task, floor.n_performances, k, part_s, start, shift
             )
             if floor.humans:
-                floor.humans[worker.rank].works(floor.now, task, floor.now + part_s, start)
+                floor.humans[worker.rank].works(floor.now, task, floor.now + part_s, start, k)
             floor.n_performances += 1
             worker.kind, worker.since_s = WORK, floor.now
             floor.at_end_of(part_s, worker.stretch_over)

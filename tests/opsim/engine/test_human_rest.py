@@ -16,7 +16,7 @@ from made_people_blocks import people_floor_with
 from opsim.engine.simpy_engine import run_plan
 from opsim.kpi import figures
 from opsim.laws import audit
-from opsim.log import BREAK, REST, WORK
+from opsim.log import BREAK, OFF, REST, WORK
 from opsim.tiredness import tiredness
 
 TIRED = "fatigue: {model: lffrm, tires_half_in: 10 min, recovers_half_in: 5 min}"
@@ -64,6 +64,67 @@ def test_a_shift_and_its_breaks_end_a_rest():
     assert found["start_s"][0] == 450.0 and found["end_s"][0] == 600.0
     tea = log.where((log["kind"] == BREAK) & (log["cause"] != REST))
     assert (tea["start_s"][0], tea["end_s"][0]) == (600.0, 720.0)
+
+
+MEETING = """
+opsim: 1
+name: one
+run: {start: Mon 06:00, horizon: 4 h}
+layout: {places: {a: [0 m, 0 m]}}
+tasks: {make: {fixed: 20 min}}
+stations: {s: {at: a, tasks: [make], buffer: 2}}
+products: {part: {route: [s]}}
+release: {kind: saturated}
+shifts: {day: {from: '06:00', to: '10:00', meetings: {short: {at: '07:02', lasts: 1 min}}}}
+workers: {w: {shift: day, skills: {s: 1.0}}}
+human:
+  fatigue: {model: lffrm, tires_half_in: 1 h, recovers_half_in: 20 min, slows: 0}
+  rest: {above: 0.45, until: 0.1}
+"""
+
+
+def test_a_rest_that_a_meeting_cuts_short_is_gone_on_with():
+    # 1 - 2^-1 = 0.5 > 0.45 after an hour; from 0.5 to 0.1 takes log2(5) x 1200 s = 2786.3 s, the meeting in it
+    log, _ = plans.ran(MEETING)
+    found = rests(log)
+    assert (found["start_s"][:2].tolist(), found["end_s"][0]) == ([3600.0, 3780.0], 3720.0)
+    assert found["end_s"][1] == pytest.approx(3600 + 1200 * np.log2(5), abs=1e-3)
+
+
+def test_a_rest_goes_on_in_overtime_where_he_is_needed():
+    # 0.4054 after 450 s, 0.4054 x 2^-(30 / 300) = 0.378 > 0.35 at 480 s, the end of the shift; 0.2 at 755.8 s
+    log, _ = plans.ran(
+        ONE.replace("workers:", "shifts: {day: {from: '06:00', to: '06:08', overtime: {most: 40 min}}}\nworkers:"),
+        ("{w: {", "{w: {shift: day, "),
+        ("run: {", "run: {start: Mon 06:00, "),
+        ("above: 0.4", "above: 0.35"),
+    )
+    found = rests(log)
+    assert found["start_s"][:2].tolist() == [450.0, 480.0] and found["end_s"][1] == pytest.approx(755.8, abs=1e-3)
+
+
+OVERTIME = """
+opsim: 1
+name: late
+run: {start: Mon 06:00, horizon: 12 h, seed: SEED}
+layout: {places: {x: [0 m, 0 m], y: [2 m, 0 m]}}
+tasks: {t: {fixed: 14 min}, u: {fixed: 5 min}}
+stations: {a: {at: x, tasks: [t]}, b: {at: y, tasks: [u]}}
+products: {p: {share: 0.5, route: [a]}, q: {share: 0.5, route: [b]}}
+release: {kind: poisson, every: 7 min, shift: d}
+shifts: {d: {from: '06:00', to: '10:00', overtime: {most: 6 h}}}
+workers: {ana: {shift: d, skills: {a: 1}}, ben: {shift: d, skills: {a: 1, b: 1}}}
+human:
+  fatigue: {model: lffrm, tires_half_in: 60 min, recovers_half_in: 20 min, slows: 0.0}
+  rest: {above: 0.5, until: 0.1}
+"""
+
+
+@pytest.mark.parametrize("seed", [1, 3, 6])
+def test_who_is_tired_in_overtime_and_needed_no_more_rests_at_home(seed):
+    log, _ = plans.ran(OVERTIME, ("SEED", str(seed)))
+    last_s = log.of(WORK)["end_s"].max()
+    assert log["start_s"][log["kind"] == OFF].max() == pytest.approx(last_s) and last_s > 4 * 3600
 
 
 def test_a_lower_level_is_more_rest_and_less_fatigue():

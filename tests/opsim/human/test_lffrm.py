@@ -80,3 +80,8 @@ def test_all_that_is_wrong_is_said():
         Lffrm(by="load")
     with pytest.raises(ValueError, match=r"until: found 0\.5, expected less than above, 0\.3"):
         RestByNeed(above=0.3, until=0.5)
+
+
+def test_who_is_fresher_than_a_level_needs_no_rest_also_who_is_not_tired_at_all():
+    assert Lffrm().rest_to_s(0.0, 0.2) == Lffrm().rest_to_s(0.2, 0.2) == 0.0
+    assert Lffrm(recovers_half_in_s=60.0).rest_to_s(0.4, 0.2) == pytest.approx(60.0)
