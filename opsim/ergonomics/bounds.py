@@ -89,4 +89,4 @@ def _span(codes: Iterable[int]) -> Pair:
 
 
 WALKING = bounds_of(walking=True)
-"""Somebody who walks with whatever in his hands."""
+"""Somebody who walks with something in his hands of which nobody said how heavy; with empty hands, ``empty_handed``."""

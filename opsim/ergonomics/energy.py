@@ -1,17 +1,21 @@
 """What shifts cost in energy: postures, lifts and lowers, holding, walking, by Garg, Chaffin & Herrin 1978.
 
-Not seen are work of the arms without a load, which widens the figure (none to light work of both arms), tools, pushing
-and pulling, and loads that nobody told. Who walks within a task walks at his own speed. Whose sex is not said has the
-range of both.
+Not seen is work of the arms without a load, which widens the figure (none to light work of both arms), and so does
+going down and coming up without a load (not at all to the body's part of the paper's lowering and lifting). Not in it
+are tools, pushing and pulling, and loads that nobody told. Who walks has empty hands, but for a job of a product that
+is carried, if its mass is told; who walks within a task walks at his own speed. Whose sex is not said has the range of
+both.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from opsim.ergonomics.bends import BENT_DEG, SQUAT_DEG, Bends, bending_kcal, bends_of, joined
 from opsim.ergonomics.columns import AT
 from opsim.ergonomics.garg import (
     ARM_WORK_KCAL_PER_MIN,
@@ -26,10 +30,6 @@ from opsim.ergonomics.strength import MASS_KG
 from opsim.ergonomics.stretch import Frames
 from opsim.plan import Plan
 
-BENT_DEG = 20.0
-"""Trunk flexion from which one stands bent. Source: design; the paper says "standing bent position"."""
-SQUAT_DEG = 60.0
-"""Bend of the knees at the lower end from which a lift is a squat and not a stoop. Source: design."""
 SEXES = {"m": (1.0, 1.0), "f": (0.0, 0.0)}
 """The paper's number of a sex, at least and at most."""
 
@@ -56,10 +56,11 @@ class Energy:
 
 
 class Spent:
-    """A fold over workers' days: seconds bent and seated, kilograms held, ways within tasks, free arms, lifts.
+    """A fold over workers' days: seconds bent and seated, kilograms held, ways within tasks, free arms, lifts, bends.
 
     bent_s, sitting_s, free_s : (W,) seconds; free_s of standing work without a load
-    kg_s     : (W,) seconds of standing with a load in the hands, times its kilograms
+    kg_s     : (W, 2) seconds of standing with a load in the hands, times its kilograms, at least and at most: no body
+        and no share of its time says when hands are full at a mark
     walked_s : (W, tasks, 2) seconds of walking within a task, without and with its load
     """
 
@@ -67,8 +68,10 @@ class Spent:
         n, n_tasks = len(plan.workers), len(plan.tasks)
         self._loads_kg = np.r_[loads_kg(plan), 0.0, 0.0]
         self._sits = np.array([*(task.handling.sitting is True for task in plan.tasks), False, False])
-        self._lifted = Lifted(plan)
-        self.bent_s, self.sitting_s, self.kg_s, self.free_s = (np.zeros(n) for _ in range(4))
+        self._by_share = np.array([*(task.handling.by_share for task in plan.tasks), True, True])
+        self._lifted, self._bends = Lifted(plan), list[Bends]()
+        self.bent_s, self.sitting_s, self.free_s = (np.zeros(n) for _ in range(3))
+        self.kg_s = np.zeros((n, 2))
         self.walked_s = np.zeros((n, n_tasks, 2))
 
     def add(self, frames: Frames, scores: Any = None) -> None:
@@ -76,23 +79,39 @@ class Spent:
         rank, seconds, sits = frames.worker, frames.seconds, self._sits[frames.task]
         bent = frames.measures[:, AT["trunk_flexion"]] >= BENT_DEG
         held_kg = np.where(frames.carrying, self._loads_kg[frames.task], 0.0)
+        surely = self._by_share[frames.task] | frames.known
         self.bent_s[rank] += seconds[bent & ~sits].sum()
         self.sitting_s[rank] += seconds[sits].sum()
         works = frames.task >= 0
         walks = works & ~sits & stepping(frames.measures, frames.start_s, seconds)
         np.add.at(self.walked_s[rank], (frames.task[walks], (held_kg[walks] > 0).astype(int)), seconds[walks])
-        self.kg_s[rank] += seconds[~walks] @ held_kg[~walks]
-        self.free_s[rank] += seconds[(held_kg <= 0) & works & ~walks].sum()
+        self.kg_s[rank] += [seconds[some] @ held_kg[some] for some in (~walks & surely, ~walks)]
+        self.free_s[rank] += seconds[((held_kg <= 0) | ~surely) & works & ~walks].sum()
+        self._bends.append(bends_of(frames, held_kg > 0, works & ~sits & ~walks))
         self._lifted.add(frames)
 
     def lifts(self) -> Lifts:
         """All lifts and lowers."""
         return self._lifted.lifts()
 
+    def bends(self) -> Bends:
+        """All ways down and up."""
+        return joined(self._bends)
 
-def energy(spent: Spent, there_s: np.ndarray, break_s: np.ndarray, walk_s: np.ndarray, plan: Plan) -> Energy:
+
+def energy(
+    spent: Spent,
+    there_s: np.ndarray,
+    break_s: np.ndarray,
+    walk_s: np.ndarray,
+    plan: Plan,
+    carried_s: Sequence[tuple[int, float, float]] = (),
+) -> Energy:
     """The energy of each of W workers, from what his body did and how long, (W,) each, he was there, in a break, and
-    walking."""
+    walking.
+
+    carried_s : (worker, kilograms, seconds) of the walks among these on which he carries something
+    """
     mass = np.array([MASS_KG if one.body.mass_kg is None else one.body.mass_kg for one in plan.workers], float)
     speed = np.array([one.walk_m_per_s for one in plan.workers], float)
     work_s = np.maximum(there_s - break_s, 0.0)
@@ -101,9 +120,13 @@ def energy(spent: Spent, there_s: np.ndarray, break_s: np.ndarray, walk_s: np.nd
     posture = mass * sum(POSTURES[name] * seconds / 60.0 for name, seconds in times_s.items())
     moving = walking_kcal_per_min(mass, speed) * (walk_s + spent.walked_s[:, :, 0].sum(axis=1)) / 60.0
     loaded = walking_kcal_per_min(mass[:, None], speed[:, None], loads_kg(plan)) * spent.walked_s[:, :, 1] / 60.0
-    moving = moving + loaded.sum(axis=1) + holding_kcal_per_min(spent.kg_s) / 60.0
+    moving = moving + loaded.sum(axis=1)
+    for rank, kg, seconds in carried_s:
+        with_it, empty = (walking_kcal_per_min(mass[rank], speed[rank], load) for load in (kg, 0.0))
+        moving[rank] += (with_it - empty) * seconds / 60.0
     arms = ARM_WORK_KCAL_PER_MIN["light"] * spent.free_s / 60.0
-    kcal = (posture + moving)[:, None] + lifting_kcal(spent.lifts(), plan) + np.stack([0.0 * arms, arms], axis=1)
+    kcal = (posture + moving)[:, None] + lifting_kcal(spent.lifts(), plan) + holding_kcal_per_min(spent.kg_s) / 60.0
+    kcal[:, 1] += arms + _bending_kcal(spent.bends(), plan)
     return Energy(kcal, work_s / 60.0, mass * POSTURES["sitting"] * break_s / 60.0, break_s / 60.0)
 
 
@@ -119,6 +142,18 @@ def lifting_kcal(lifts: Lifts, plan: Plan) -> np.ndarray:
         by_sex = [moved_kcal(mass, load_kg[own], taken_m, let_go_m, sex, squat) for sex in sexes]
         found[rank] = np.minimum(*by_sex).sum(), np.maximum(*by_sex).sum()
     return found
+
+
+def _bending_kcal(bends: Bends, plan: Plan) -> np.ndarray:
+    """(W,) at most, over what each one's sex may be."""
+    masses = [MASS_KG if one.body.mass_kg is None else one.body.mass_kg for one in plan.workers]
+    sexes = [SEXES.get(one.body.sex or "", (0.0, 1.0)) for one in plan.workers]
+    return np.array(
+        [
+            max(bending_kcal(bends, rank, mass, sex) for sex in either)
+            for rank, (mass, either) in enumerate(zip(masses, sexes))
+        ]
+    )
 
 
 def _or_nan(minutes: np.ndarray) -> np.ndarray:

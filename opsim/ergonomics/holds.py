@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from opsim.ergonomics.arm_angle import arm_angle_deg
 from opsim.ergonomics.columns import AT
 
 CHANNELS = {
@@ -21,6 +22,8 @@ CHANNELS = {
 REGIONS = {**CHANNELS, "head": ("trunk_flexion", "neck_flexion")}
 """The same, and how far the head leans against upright, as ISO 11226 and EN 1005-4 ask."""
 
+ARMS = {"left_arm": "left", "right_arm": "right"}
+
 
 @dataclass(frozen=True, slots=True)
 class Holding:
@@ -30,7 +33,9 @@ class Holding:
               60 s: McAtamney & Corlett 1993, RULA (muscle use); Hignett & McAtamney 2000, REBA (activity)
     band_deg : the largest angle is within so many degrees of the least. Source: design; no standard says a number
     gap_s   : longer than this without a known posture, and the hold is over. Source: design
-    trunk_deg, arm_deg, neck_deg, head_deg : either way, up to here the region is neutral and nothing is held
+    trunk_deg, arm_deg, neck_deg, head_deg : up to here the region is neutral and nothing is held
+    backward_deg : the same backward, of every region, and arms behind the trunk are told from those before it;
+              None: as far as forward, and arms by how far they are from hanging, whichever way
     """
 
     least_s: float
@@ -40,22 +45,30 @@ class Holding:
     arm_deg: float = 20.0
     neck_deg: float = 25.0
     head_deg: float = 25.0
+    backward_deg: float | None = None
 
-    def neutral_deg(self, region: str) -> float:
-        """Of one of ``REGIONS``."""
-        return {"trunk": self.trunk_deg, "neck": self.neck_deg, "head": self.head_deg}.get(region, self.arm_deg)
+    def neutral_deg(self, region: str) -> tuple[float, float]:
+        """Of one of ``REGIONS``: how far backward, and forward, both as positive numbers."""
+        forward = {"trunk": self.trunk_deg, "neck": self.neck_deg, "head": self.head_deg}.get(region, self.arm_deg)
+        return forward if self.backward_deg is None else self.backward_deg, forward
 
 
 STATIC = Holding(60.0, neck_deg=10.0)
 """Muscle use of RULA and activity of REBA. Neutral is where RULA's scores of an arm and a neck are 1; its trunk is 1
 only at 0 degrees, at which nobody stands, so 20 as in ISO 11226."""
-STATIC_WORK = Holding(4.0)
-"""Static working postures. Neutral is what ISO 11226:2000 (tables 1, 3, 4) accepts without a holding time."""
+STATIC_WORK = Holding(4.0, backward_deg=5.0)
+"""Static working postures. Neutral is what ISO 11226:2000 (tables 1, 3, 4) accepts without a holding time: forward 20
+degrees of trunk and arms and 25 of head and neck; backward 0 without support, and 5 here, as ``Iso11226`` says."""
 
 
-def region_angles_deg(measures: np.ndarray, regions: Iterable[str]) -> np.ndarray:
-    """(N, regions) degrees by which the angles of ``REGIONS`` are told, from measures (N, COLUMNS)."""
+def region_angles_deg(measures: np.ndarray, regions: Iterable[str], behind: bool = False) -> np.ndarray:
+    """(N, regions) degrees by which the angles of ``REGIONS`` are told, from measures (N, COLUMNS).
+
+    behind : whether those of arms behind the trunk are less than 0, as ``arm_angle_deg`` says
+    """
     found = [sum(np.asarray(measures, float)[:, AT[name]] for name in REGIONS[region]) for region in regions]
+    if behind:
+        found = [arm_angle_deg(measures, ARMS[one]) if one in ARMS else angle for one, angle in zip(regions, found)]
     return np.stack(found, axis=1)
 
 
@@ -82,7 +95,8 @@ class StaticMarker:
         self._worker = worker
         start_s, end_s = np.asarray(start_s, float), np.asarray(start_s, float) + np.asarray(seconds, float)
         self._start_s, self._end_s = np.r_[self._start_s, start_s], np.r_[self._end_s, end_s]
-        self._values = np.concatenate([self._values, region_angles_deg(measures, self.regions)])
+        values = region_angles_deg(measures, self.regions, self.holding.backward_deg is not None)
+        self._values = np.concatenate([self._values, values])
         self._waiting.append(np.zeros((start_s.size, len(self.regions)), bool))
         self._mark()
         return certain + self._certain()
@@ -100,7 +114,7 @@ class StaticMarker:
         said = self.holding
         for place, region in enumerate(self.regions):
             mark, value = np.zeros(self._start_s.size, bool), np.ascontiguousarray(self._values[:, place])
-            bounds = (said.neutral_deg(region), said.band_deg, said.least_s, said.gap_s)
+            bounds = (*said.neutral_deg(region), said.band_deg, said.least_s, said.gap_s)
             held(value, self._start_s, self._end_s, *bounds, mark)
             self._write(place, mark)
 

@@ -1,8 +1,9 @@
 """Lifting indices of a run: of each lift, of each task, and composite of each worker, as intervals.
 
 What nobody said widens them: whether the load is put down with care (then the end of the lift counts as well as its
-origin) and how well it can be gripped. Beyond the equation's range (hands farther than 63 cm, more lifts a minute than
-its table has) an index has no bound; there the edge of the range stands for it, and the share of such lifts is told.
+origin), how well it can be gripped, and, of who has no shifts, how long he goes on. Beyond the equation's range (hands
+farther than 63 cm, more lifts a minute than its table has) an index has no bound; there the edge of the range stands
+for it, "at most" bounds nothing, and the share of such lifts is told.
 """
 
 from __future__ import annotations
@@ -11,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.ergonomics.lifting_pattern import Pattern, pattern
+from opsim.ergonomics.lifting_orders import Kind, composite_range, least_multiplier
+from opsim.ergonomics.lifting_pattern import Pattern, pattern_of
 from opsim.ergonomics.lifts import Lifts, loads_kg
 from opsim.ergonomics.niosh import (
     asymmetry_multiplier,
@@ -21,8 +23,7 @@ from opsim.ergonomics.niosh import (
     horizontal_multiplier,
     vertical_multiplier,
 )
-from opsim.ergonomics.niosh_composite import composite_index
-from opsim.ergonomics.tables_niosh import FM, METRIC, MOST_ASYMMETRY_DEG
+from opsim.ergonomics.tables_niosh import METRIC, MOST_ASYMMETRY_DEG
 from opsim.plan import Plan
 
 CM = 100.0
@@ -42,7 +43,10 @@ class Indices:
 
 
 def indices(lifts: Lifts, plan: Plan) -> Indices:
-    """Each lift with the frequency of its task in its worker's lifting, and the duration of all his lifting."""
+    """Each lift with the frequency of its task in its worker's lifting, and the duration of all his lifting.
+
+    nan, and out of range, for what somebody lifts sitting: the equation is for those who stand.
+    """
     load, grips = loads_kg(plan)[lifts.task], [task.handling.grip for task in plan.tasks]
     v, d = lifts.height_m * CM, lifts.travel_m[:, None] * CM
     h, a = lifts.horizontal_m * CM, lifts.asymmetry_deg
@@ -51,10 +55,17 @@ def indices(lifts: Lifts, plan: Plan) -> Indices:
     kept = kept * distance_multiplier(np.minimum(d, METRIC.longest))
     kept = METRIC.load * kept * asymmetry_multiplier(np.minimum(a, MOST_ASYMMETRY_DEG))
     good, poor = (_grips(lifts.task, grips, unsaid, v) for unsaid in ("good", "poor"))
-    often, never = _frequencies(lifts, v)
-    fili = load[:, None] * _origin_and_worst(1.0 / (kept * good), 1.0 / (kept * poor))
-    index = load[:, None] * _origin_and_worst(1.0 / (kept * good * often), 1.0 / (kept * poor * often))
-    return Indices(fili, index, beyond.any(axis=1) | never)
+    short, long, never = _frequencies(lifts, plan, v)
+    sits = seated(plan)[lifts.task]
+    load = np.where(sits, np.nan, load)[:, None]
+    fili = load * _origin_and_worst(1.0 / (kept * good), 1.0 / (kept * poor))
+    index = load * _origin_and_worst(1.0 / (kept * good * short), 1.0 / (kept * poor * long))
+    return Indices(fili, index, beyond.any(axis=1) | never | sits)
+
+
+def seated(plan: Plan) -> np.ndarray:
+    """(tasks,) those that the scenario says are done sitting."""
+    return np.array([task.handling.sitting is True for task in plan.tasks], bool)
 
 
 def _origin_and_worst(low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -70,48 +81,48 @@ def _grips(task: np.ndarray, grips: list[str | None], unsaid: str, height: np.nd
     return found
 
 
-def _frequencies(lifts: Lifts, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(L, 2) FM of each lift at its two ends, and (L,) whether its frequency is beyond the table."""
-    found, beyond = np.ones(height.shape), np.zeros(len(height), bool)
+def _frequencies(lifts: Lifts, plan: Plan, height: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(L, 2) FM of each lift at its two ends, of the shortest and the longest duration that it may be of, and (L,)
+    whether its frequency may be beyond the table."""
+    short, long, beyond = np.ones(height.shape), np.ones(height.shape), np.zeros(len(height), bool)
     for rank in np.unique(lifts.worker).tolist():
         own = lifts.worker == rank
-        when = pattern(lifts.start_s[own], lifts.end_s[own])
+        when = pattern_of(plan, rank, lifts.start_s[own], lifts.end_s[own])
         for task in np.unique(lifts.task[own]).tolist():
             rows = np.flatnonzero(own & (lifts.task == task))
-            multiplier = frequency_multiplier(rows.size / when.minutes, when.hours, height[rows])
-            beyond[rows] = (multiplier <= 0).any(axis=1)
-            found[rows] = np.maximum(multiplier, least_multiplier(when.hours))
-    return found, beyond
+            for found, hours in ((short, when.hours), (long, when.most_hours)):
+                multiplier = frequency_multiplier(rows.size / when.minutes, hours, height[rows])
+                beyond[rows] |= (multiplier <= 0).any(axis=1)
+                found[rows] = np.maximum(multiplier, least_multiplier(hours))
+    return short, long, beyond
 
 
-def least_multiplier(hours: int) -> float:
-    """The least FM of a duration that is not 0: it stands for what is beyond the table."""
-    return min(value for below in (True, False) for value in FM[hours, below] if value > 0)
+def composite_of(lifts: Lifts, found: Indices, plan: Plan) -> tuple[float, float]:
+    """CLI of one worker's lifts at least and at most, of which those of a task are one kind, with its mean index.
 
-
-def composite_of(lifts: Lifts, found: Indices, side: int) -> float:
-    """CLI of one worker's lifts, of which those of a task are one kind: its mean index, height and frequency.
-
-    side : 0 at least, 1 at most. 0 for no lifts.
+    What he lifts sitting is left out; 0 for no lifts, nan where he lifts sitting only.
     """
-    when = pattern(lifts.start_s, lifts.end_s)
-    kinds = [_kind(lifts, found, side, task, when) for task in np.unique(lifts.task).tolist()]
-    kinds.sort(key=lambda kind: (-kind[0], -kind[1]))
-    _, fili, heights, per_min = zip(*kinds) if kinds else ((), (), (), ())
-    return composite_index(fili, per_min, heights, when.hours, least=least_multiplier(when.hours))
+    rows = np.flatnonzero(~seated(plan)[lifts.task])
+    if not rows.size:
+        return (np.nan, np.nan) if lifts.task.size else (0.0, 0.0)
+    lifts, found = lifts.some(rows), found.some(rows)
+    when = pattern_of(plan, int(lifts.worker[0]), lifts.start_s, lifts.end_s)
+    kinds = [_kind(lifts, found, task, when) for task in np.unique(lifts.task).tolist()]
+    return composite_range(kinds, when.columns)
 
 
-def _kind(lifts: Lifts, found: Indices, side: int, task: int, when: Pattern) -> tuple[float, float, float, float]:
-    """STLI, FILI, height in cm and lifts a minute of one task."""
+def _kind(lifts: Lifts, found: Indices, task: int, when: Pattern) -> Kind:
     own = lifts.task == task
-    fili, height = float(found.fili[own, side].mean()), float(lifts.height_m[own, 0].mean() * CM)
-    per_min = float(own.sum() / when.minutes)
-    often = max(float(frequency_multiplier(per_min, when.hours, height)), least_multiplier(when.hours))
-    return fili / often, fili, height, per_min
+    low, high = found.fili[own].mean(axis=0).tolist()
+    taken_m, all_m = lifts.height_m[own, 0], lifts.height_m[own]
+    heights = (tuple((CM * np.array([part.min(), part.max()])).tolist()) for part in (taken_m, all_m))
+    return Kind((low, high), float(own.sum() / when.minutes), *heights)
 
 
-def too_often(lifts: Lifts) -> bool:
-    """Whether one worker's lifts together are more a minute than the table of FM has, at the height of any of them."""
-    when = pattern(lifts.start_s, lifts.end_s)
+def too_often(lifts: Lifts, plan: Plan) -> bool:
+    """Whether one worker's lifts together may be more a minute than the table of FM has, at the height of any."""
+    if not lifts.worker.size:
+        return False
+    when = pattern_of(plan, int(lifts.worker[0]), lifts.start_s, lifts.end_s)
     per_min = lifts.worker.size / when.minutes
-    return bool((frequency_multiplier(per_min, when.hours, lifts.height_m * CM) <= 0).any())
+    return bool((frequency_multiplier(per_min, when.most_hours, lifts.height_m * CM) <= 0).any())

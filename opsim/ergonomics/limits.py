@@ -77,6 +77,8 @@ class Zones:
     zone 2, beyond it zone 3.
 
     Each of the four has its verdicts for (static, moved rarely, moved often); rarely is below ``often_per_min``.
+    leeway_deg : so far below ``low`` is zone 1 still, for how a neutral is measured: who stands upright leans back by a
+        degree as often as forward. The standard has none. Source: design, as ``least`` of ISO 11226 here
     """
 
     low: float
@@ -85,6 +87,12 @@ class Zones:
     backward: tuple[int, int, int]
     zone_2: tuple[int, int, int]
     zone_3: tuple[int, int, int]
+    leeway_deg: float = 5.0
+
+    @property
+    def backward_from(self) -> float:
+        """The backward zone lies below it."""
+        return self.low - self.leeway_deg
 
     @property
     def verdicts(self) -> tuple[tuple[int, int, int], ...]:
@@ -101,7 +109,7 @@ STATIC, RARELY, OFTEN = range(3)
 class En1005:
     """EN 1005-4:2005+A1:2008, Safety of machinery, Human physical performance, Part 4.
 
-    trunk     : bending forward, table 1: 20 and 60 degrees; backward only with support
+    trunk     : bending forward, table 1: 20 and 60 degrees; below 0 it is backward, only with support
     arm       : of the upper arm, forward or sideways, table 3: 20 and 60 degrees; behind the trunk as beyond 60
     sideways  : side bend and twist of the trunk, table 2: 10 degrees
     neck      : table 4 is of the line of sight, 0 to 40 degrees below level; flexion of the head against upright stands
@@ -124,9 +132,9 @@ EN_1005_4 = En1005()
 
 
 def zone(angle_deg: np.ndarray | float, zones: Zones) -> np.ndarray:
-    """0 the backward zone, 1, 2 or 3; nan is in zone 1 of nothing: -1. Edges belong to the better zone."""
+    """0 the backward zone, 1, 2 or 3; nan is in no zone: -1. Edges belong to the better zone."""
     angle = np.asarray(angle_deg, float)
-    found = np.where(angle < zones.low, 0, 1 + (angle > zones.free) + (angle > zones.far))
+    found = np.where(angle < zones.backward_from, 0, 1 + (angle > zones.free) + (angle > zones.far))
     return np.where(np.isnan(angle), -1, found).astype(np.int8)
 
 

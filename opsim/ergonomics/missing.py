@@ -23,16 +23,33 @@ def _sentences(gone: set[str]) -> Iterator[str]:
     all_scores = "RULA, REBA and OWAS"
     trunk = _listed(gone, TRUNK)
     if trunk:
-        yield f"no {trunk}: how far the trunk is bent is not known, and {all_scores} are wider by all that it may be"
+        bent = "trunk and knees are" if gone & {"left_hip", "right_hip"} else "the trunk is"
+        yield f"no {trunk}: how far {bent} bent is not known, and {all_scores} are wider by all that it may be"
     shoulders = _listed(gone, SHOULDERS)
     if shoulders:
-        yield f"no {shoulders}: twist of the trunk and the upper arm are not known, so {all_scores} are wider by both"
+        yield f"no {shoulders}: twist of the trunk, neck and upper arms are not known: {all_scores} are wider by all"
     if "head" in gone:
         yield "no head: the neck is not known, so RULA and REBA are wider by all that it may be; OWAS does not ask"
     yield from _arm(gone)
     legs = _listed(gone, tuple(f"{side}_{joint}" for joint in ("knee", "ankle") for side in SIDES))
     if legs:
         yield f"no {legs}: how far knees are bent is not known, so REBA and OWAS are wider; RULA does not ask"
+    yield from _feet(gone)
+
+
+def _feet(gone: set[str]) -> Iterator[str]:
+    """What heights and reaches of the hands are made of; no score asks for them, NIOSH and Garg do."""
+    ankles, toes = (_listed(gone, _both(joint)) for joint in ("ankle", "toe"))
+    if ankles:
+        yield (
+            f"no {ankles}: how far the hands are from them is not known, so no lift is seen: there is no lifting "
+            "index, and energy has none of it"
+        )
+    elif toes == "toes":
+        yield (
+            "no toes: the floor is taken where the lower ankle is, so in lifts and bends hands are lower than they "
+            "are, by the height of an ankle; RULA, REBA and OWAS do not ask"
+        )
 
 
 def _arm(gone: set[str]) -> Iterator[str]:
@@ -40,8 +57,9 @@ def _arm(gone: set[str]) -> Iterator[str]:
     if elbows:
         yield f"no {elbows}: upper arm and elbow are not known, so RULA, REBA and OWAS are wider by both"
     if wrists:
+        both = _listed(gone, (*_both("wrist"), *_both("hand")))
         yield (
-            f"no {wrists}: how far elbow and wrist are bent is not known, so RULA and REBA are wider by both; OWAS "
+            f"no {both}: how far elbow and wrist are bent is not known, so RULA and REBA are wider by both; OWAS "
             "does not ask"
         )
     elif hands:

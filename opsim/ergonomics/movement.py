@@ -9,9 +9,17 @@ from functools import cached_property
 import numpy as np
 
 from opsim.ergonomics.bounds import Bounds
+from opsim.ergonomics.columns import AT
 from opsim.ergonomics.holds import STATIC, StaticMarker
 from opsim.ergonomics.options import USUAL, Options
 from opsim.ergonomics.scoring import Scores, score
+
+ALIKE_DEG = 20.0
+"""Postures no angle of which is further apart are told as one. Source: design."""
+_LOOKED_AT = ("trunk_flexion", "trunk_side", "trunk_twist", "neck_flexion")
+_OF_SIDES = ("arm_elevation", "elbow", "knee")
+_BOTH = tuple(f"{side}_{name}" for name in _OF_SIDES for side in ("left", "right"))
+LOOKED_AT = [AT[name] for name in (*_LOOKED_AT, *_BOTH)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,12 +30,18 @@ class Movement:
     seconds  : (N,) for how long each stands
     measures : (N, COLUMNS) by ``columns.py``; all nan where nothing is known of a posture
     body     : posture number -> joints (J, 3) in metres, z up
+    carrying : (N,) whether the hands may hold something; None: all the time
     """
 
     name: str
     seconds: np.ndarray
     measures: np.ndarray
     body: Callable[[int], np.ndarray]
+    carrying: np.ndarray | None = None
+
+    def full(self, posture: int) -> bool:
+        """Whether the hands may hold something in a posture."""
+        return self.carrying is None or bool(self.carrying[posture])
 
     @cached_property
     def known(self) -> np.ndarray:
@@ -38,6 +52,11 @@ class Movement:
     def start_s(self) -> np.ndarray:
         """(N,) seconds from the start of the movement."""
         return np.cumsum(self.seconds) - self.seconds
+
+    @property
+    def loaded_s(self) -> float:
+        """For how long the hands may hold something."""
+        return self.duration_s if self.carrying is None else float(self.seconds[self.carrying].sum())
 
     @property
     def duration_s(self) -> float:
@@ -61,8 +80,9 @@ def scored_movements(
 
 
 def _scored(movement: Movement, bounds: Bounds, options: Options, repeated: bool) -> ScoredMovement:
-    static = _held(movement)
-    return ScoredMovement(movement, score(movement.measures, bounds, options, repeated, static), static)
+    static, carrying = _held(movement), True if movement.carrying is None else movement.carrying
+    scores = score(movement.measures, bounds, options, repeated, static, carrying)
+    return ScoredMovement(movement, scores, static)
 
 
 def _held(movement: Movement) -> np.ndarray:
@@ -73,20 +93,41 @@ def _held(movement: Movement) -> np.ndarray:
 
 
 def worst_postures(scored: Sequence[ScoredMovement], n: int = 6, apart_s: float = 1.0) -> Iterator[tuple[int, int]]:
-    """(movement, posture) numbers of the n that score highest, the worst first, none within ``apart_s`` of another.
+    """(movement, posture) numbers of the n that score highest, the worst first, none within ``apart_s`` of another or
+    ``alike`` another.
 
     By the middles of RULA, then REBA, then OWAS between their bounds: RULA ends at 7, where REBA still tells apart.
     """
-    order = [(-rank, which, posture) for which, one in enumerate(scored) for posture, rank in _ranks(one)]
-    taken: list[tuple[int, float]] = []
-    for _, which, posture in sorted(order):
-        movement = scored[which].movement
-        at_s = float(movement.start_s[posture])
-        if all(which != other or abs(at_s - when_s) >= apart_s for other, when_s in taken):
-            taken.append((which, at_s))
-            yield which, posture
-            if len(taken) == n:
-                return
+    order = sorted((-rank, which, posture) for which, one in enumerate(scored) for posture, rank in _ranks(one))
+    left = [np.ones(len(one.movement.seconds), bool) for one in scored]
+    found = 0
+    for _, which, posture in order:
+        if not left[which][posture]:
+            continue
+        yield which, posture
+        found += 1
+        if found == n:
+            return
+        start_s = scored[which].movement.start_s
+        left[which] &= np.abs(start_s - start_s[posture]) >= apart_s
+        for own, same in zip(left, alike(scored, which, posture)):
+            own &= ~same
+
+
+def alike(scored: Sequence[ScoredMovement], which: int, posture: int) -> list[np.ndarray]:
+    """Of each movement, (N,) which postures are like one: no angle of trunk, neck, upper arms, elbows and knees is
+    further off than 20 degrees, and what they hold is the same; what is not known of one is not known of the other.
+    """
+    own = scored[which].movement
+    angles_deg, full = own.measures[posture, LOOKED_AT], own.full(posture)
+    return [_alike(one.movement, angles_deg, full) for one in scored]
+
+
+def _alike(movement: Movement, angles_deg: np.ndarray, full: bool) -> np.ndarray:
+    others = movement.measures[:, LOOKED_AT]
+    off = np.where(np.isnan(others) & np.isnan(angles_deg), 0.0, np.abs(others - angles_deg))
+    same = movement.carrying == full if movement.carrying is not None else full
+    return np.asarray((off <= ALIKE_DEG).all(axis=1) & movement.known & same, bool)
 
 
 def _ranks(one: ScoredMovement) -> list[tuple[int, float]]:

@@ -74,6 +74,13 @@ def unknown_share(scored: Sequence[ScoredMovement]) -> float:
     return unknown_s / total_s if total_s > 0 else 0.0
 
 
+def loaded_share(scored: Sequence[ScoredMovement]) -> float:
+    """Of the time, in how much the hands may hold something."""
+    total_s = sum(one.movement.duration_s for one in scored)
+    loaded_s = sum(one.movement.loaded_s for one in scored)
+    return loaded_s / total_s if total_s > 0 else 0.0
+
+
 def _share(there: np.ndarray, known: np.ndarray, seconds: np.ndarray) -> float:
     all_s = float(seconds[known].sum())
     return float(seconds[known & there].sum()) / all_s if all_s > 0 else float("nan")

@@ -67,17 +67,31 @@ def looked_at(
     return joined([parts, not_looked_at(spans, nowhere)]) if nowhere.size else parts
 
 
-def not_looked_at(spans: Spans, which: np.ndarray) -> Parts:
-    """Some spans whose postures nobody knows, a frame each; hands may be full."""
+def not_looked_at(spans: Spans, which: np.ndarray, carrying: np.ndarray | bool = True) -> Parts:
+    """Some spans whose postures nobody knows, a frame each; carrying : (Q,) or one, whether hands may be full."""
     unknown = np.full((which.size, len(COLUMNS)), np.nan, np.float32)
-    return whole(spans, which, unknown, carrying=True)
+    return whole(spans, which, unknown, carrying)
 
 
-def whole(spans: Spans, which: np.ndarray, measures: np.ndarray, carrying: bool) -> Parts:
+def not_seen(spans: Spans, which: np.ndarray, full: tuple[float, float]) -> Parts:
+    """Some spans whose postures nobody knows, cut where hands are full, from and to one share of each performance."""
+    first, last = spans.pieces.progress_from[which], spans.pieces.progress_to[which]
+    edges = np.clip(np.array([-np.inf, *full, np.inf])[:, None], first, last)
+    length = last - first
+    share = np.diff(edges, axis=0) / np.where(length > 0, length, 1.0)
+    share[:, ~(length > 0)] = [[0.0], [1.0], [0.0]]
+    seconds = share * spans.pieces.seconds[which]
+    begins_s = spans.start_s[which] + np.cumsum(seconds, axis=0) - seconds
+    middle, phase, at = (edges[:-1] + edges[1:]) / 2, *np.nonzero(seconds > 0)
+    unknown = np.full((at.size, len(COLUMNS)), np.nan, np.float32)
+    return Parts(which[at], begins_s[phase, at], seconds[phase, at], middle[phase, at], phase == 1, unknown)
+
+
+def whole(spans: Spans, which: np.ndarray, measures: np.ndarray, carrying: np.ndarray | bool) -> Parts:
     """Some spans as a frame each, with measures (Q, COLUMNS)."""
     pieces = spans.pieces.some(which)
     middle = (pieces.progress_from + pieces.progress_to) / 2
-    return Parts(which, spans.start_s[which], pieces.seconds, middle, np.full(which.size, carrying), measures)
+    return Parts(which, spans.start_s[which], pieces.seconds, middle, np.broadcast_to(carrying, which.shape), measures)
 
 
 def joined(parts: Sequence[Parts]) -> Parts:

@@ -23,7 +23,8 @@ def measures_of_positions(
     """Joints (..., J, 3) in metres, z up, named by ``names`` (J,) -> measures (..., COLUMNS) as ``columns.py`` says.
 
     A measure is nan where the skeleton lacks a joint it needs, or a posture does not have it. In lengths the wrist
-    stands for a hand that is missing; the floor is the lowest of the ankles and toes that there are.
+    stands for a hand that is missing; the floor is the lowest of the ankles and toes that there are: without toes it
+    is as high as an ankle (``missing_scores`` says so).
     Raises ValueError where positions are not (..., J, 3), or for an unknown reference of arms.
     """
     body = _canonical(np.asarray(positions_m, dtype=float), names)

@@ -1,8 +1,9 @@
 """How much rest work asks for: after holding still (Rohmert), and after work that takes energy (Murrell, Price).
 
-Numbers of Rohmert and Murrell as reviews give them (El ahrache & Imbeau 2009, Comparison of rest allowance models for
-static muscular work, International Journal of Industrial Ergonomics 39, 73-80); those of Price from memory, to be
-checked. All take averages of people; none is meant for one person.
+All numbers are from memory of what is commonly cited: neither the originals nor a review of them (El ahrache & Imbeau
+2009, Comparison of rest allowance models for static muscular work, International Journal of Industrial Ergonomics 39,
+73-80) were at hand. To be checked against them before anybody judges by them. All take averages of people; none is
+meant for one person.
 """
 
 from __future__ import annotations

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from opsim.ergonomics.bounds import NOTHING_OPEN, WALKING, Bounds, bounds_of
+from opsim.ergonomics.bounds import NOTHING_OPEN, Bounds, bounds_of
+from opsim.ergonomics.carried import carried_by
 from opsim.ergonomics.scoring import Scores, score
-from opsim.ergonomics.stretch import WAITING, Frames
+from opsim.ergonomics.stretch import WAITING, WALKING, Frames
 from opsim.plan import Plan
 
 
@@ -15,18 +16,20 @@ def scored(frames: Frames, plan: Plan) -> Scores:
     n, known = len(frames), frames.known
     rula, reba, owas = np.zeros((3, n, 2), np.int8)
     found = Scores(rula, reba, owas, np.zeros(n, np.int8))
-    for task in np.unique(frames.task[known]).tolist():
-        rows = np.flatnonzero(known & (frames.task == task))
+    brought = np.where((frames.task == WALKING) & frames.carrying, frames.product, -1)
+    for task, product in sorted(set(zip(frames.task[known].tolist(), brought[known].tolist()))):
+        rows = np.flatnonzero(known & (frames.task == task) & (brought == product))
         some = frames.some(rows)
         flags = (some.repeated, some.static, some.carrying)
-        own = score(some.measures, said_of(task, plan), plan.ergonomics, *flags)
+        own = score(some.measures, said_of(task, plan, product, frames.worker), plan.ergonomics, *flags)
         for name in ("rula", "reba", "owas", "worse"):
             getattr(found, name)[rows] = getattr(own, name)
     return found
 
 
-def said_of(task: int, plan: Plan) -> Bounds:
-    """What is said of a task; of walking and of waiting, which is standing with nothing in the hands."""
+def said_of(task: int, plan: Plan, product: int = -1, worker: int = 0) -> Bounds:
+    """What is said of a task; of walking, with a job of a product in the worker's hands where there is one; and of
+    waiting, which is standing with nothing in the hands."""
     if task >= 0:
         return bounds_of(plan.tasks[task].handling)
-    return NOTHING_OPEN if task == WAITING else WALKING
+    return NOTHING_OPEN if task == WAITING else carried_by(plan, worker, product)

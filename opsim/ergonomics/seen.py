@@ -9,7 +9,7 @@ import numpy as np
 
 from opsim.ergonomics.exposure import named_by
 from opsim.ergonomics.measures import has_body, measures_of
-from opsim.ergonomics.parts import Parts, Spans, looked_at, not_looked_at
+from opsim.ergonomics.parts import Parts, Spans, looked_at, not_looked_at, not_seen
 from opsim.ergonomics.pieces import Lucks, Pieces, drawn_again
 from opsim.plan import Plan
 from opsim.plan.handling import Handling
@@ -49,7 +49,11 @@ class Seen:
             if has_body(block):
                 yield self._seen_now(spans, which, block, again)
             else:
-                yield not_looked_at(spans, which)
+                handling = self._plan.tasks[int(some.task[0])].handling
+                if handling.by_share:
+                    yield not_seen(spans, which, (handling.start.share, handling.end.share))
+                else:
+                    yield not_looked_at(spans, which)
 
     def _seen_before(self, spans: Spans, which: np.ndarray, again: np.ndarray) -> Iterator[Parts]:
         for at, key in zip(which.tolist(), _keys(spans.pieces.some(which))):

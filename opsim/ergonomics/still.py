@@ -10,17 +10,20 @@ import numpy as np
 from opsim.ergonomics.held_runs import Runs, RunsOf
 from opsim.ergonomics.holds import REGIONS, STATIC_WORK, StaticMarker, region_angles_deg
 from opsim.ergonomics.limits import NOT_RECOMMENDED
+from opsim.ergonomics.movements import Movements
 from opsim.ergonomics.stretch import Frames
-from opsim.ergonomics.zones import ZONED, movements, verdicts, zoned_angles_deg
+from opsim.ergonomics.zones import ZONED, Zoned, zoned_angles_deg
 
 _HELD = {"trunk": "trunk", "left_arm": "left_arm", "right_arm": "right_arm", "neck": "head"}
 """The region whose holding makes a zone static; nobody looks at how long one is twisted."""
 MOVED_DEG = 20.0
-"""Arms and trunk have moved when they went beyond this, where EN 1005-4's and ISO 11226's zones of rest end."""
+"""Trunk, and arms whichever way, have moved when they went beyond this, where EN 1005-4's and ISO 11226's zones of rest
+end."""
 
 
 class Still:
-    """Counts for n workers, whose frames come one after the other.
+    """Counts for n workers, whose frames come one after the other, in stretches of one worker that do not share a
+    minute of the clock; what he holds and how he moves goes on from one to the next.
 
     not_acceptable_s : (n, ZONED) seconds that EN 1005-4 does not accept; known_s : (n, ZONED) seconds with an angle
     moves            : (n, ZONED) movements beyond ``MOVED_DEG``
@@ -30,7 +33,8 @@ class Still:
     def __init__(self, n_workers: int, start_s: float = 0.0):
         self._start_s = start_s
         self._marker, self._late = StaticMarker(STATIC_WORK, REGIONS), deque[Frames]()
-        self._runs = {region: RunsOf(STATIC_WORK.gap_s) for region in REGIONS}
+        self._runs = {region: RunsOf(STATIC_WORK.band_deg, STATIC_WORK.gap_s) for region in REGIONS}
+        self._worker: int | None = None
         self.not_acceptable_s, self.known_s, self.moves = (np.zeros((n_workers, len(ZONED))) for _ in range(3))
         self.held_s = np.zeros((n_workers, len(REGIONS)))
 
@@ -48,7 +52,11 @@ class Still:
 
     def _count(self, frames: Frames, marks: np.ndarray) -> None:
         rank, seconds = frames.worker, frames.seconds
-        angles_deg = region_angles_deg(frames.measures, REGIONS)
+        if rank != self._worker:
+            self._worker = rank
+            self._zoned = {region: Zoned(region) for region in ZONED}
+            self._moves = {region: Movements(MOVED_DEG) for region in ZONED}
+        angles_deg = region_angles_deg(frames.measures, REGIONS, behind=True)
         held = dict(zip(REGIONS, marks.T))
         self.held_s[rank] += seconds @ marks
         for place, (region, runs) in enumerate(self._runs.items()):
@@ -56,7 +64,8 @@ class Still:
         never = np.zeros(len(frames), bool)
         clock_s = frames.start_s + self._start_s
         for place, (region, angle_deg) in enumerate(zoned_angles_deg(frames.measures).items()):
-            found = verdicts(angle_deg, held.get(_HELD.get(region, ""), never), clock_s, region)
+            found = self._zoned[region].verdicts(angle_deg, held.get(_HELD.get(region, ""), never), clock_s)
             self.not_acceptable_s[rank, place] += seconds[found == NOT_RECOMMENDED].sum()
             self.known_s[rank, place] += seconds[found >= 0].sum()
-            self.moves[rank, place] += movements(angle_deg, MOVED_DEG).sum()
+            raised_deg = np.abs(angle_deg) if region.endswith("_arm") else angle_deg
+            self.moves[rank, place] += self._moves[region].next(raised_deg).sum()

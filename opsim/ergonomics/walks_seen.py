@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from opsim.ergonomics.carried import carries
 from opsim.ergonomics.measures import has_body, measures_of
 from opsim.ergonomics.neutral import neck_neutral_rad
 from opsim.ergonomics.parts import Parts, Spans, looked_at, not_looked_at
@@ -30,6 +31,7 @@ class WalksSeen:
         assert plan.walking is not None
         self._plan, self._replication = plan, log.replication
         self._walks, self._row = walks_of(log, plan), walk_rows(log)
+        self._carries = carries(log, plan, self._row)
         self._neutral_rad = _neutral_rad(plan.walking)
         self._rank, self._measures = -1, dict[int, np.ndarray]()
 
@@ -51,10 +53,11 @@ class WalksSeen:
             return []
         measures = self._of(int(self._walks.worker[which[0]]))
         stands_in = self._stand_in(which, np.array(list(measures), dtype=int))
-        found = [not_looked_at(spans, np.flatnonzero(stands_in < 0))]
-        for walk in np.unique(stands_in[stands_in >= 0]).tolist():
-            these = np.flatnonzero(stands_in == walk)
-            hands = np.zeros(1), np.ones(1)
+        full, unknown = self._carries[which], np.flatnonzero(stands_in < 0)
+        found = [not_looked_at(spans, unknown, full[unknown])]
+        for walk, filled in sorted(set(zip(stands_in[stands_in >= 0].tolist(), full[stands_in >= 0].tolist()))):
+            these = np.flatnonzero((stands_in == walk) & (full == filled))
+            hands = (np.zeros(1) if filled else np.ones(1)), np.ones(1)
             found.append(looked_at(spans, these, measures[walk], np.zeros(these.size, int), hands))
         return found
 

@@ -23,7 +23,7 @@ BENT = [AT[name] for name in ("trunk_flexion", "left_arm_elevation", "right_arm_
 Pair = tuple[int, int]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Worst:
     """A posture that was gone through.
 
@@ -57,6 +57,12 @@ class Worst:
     measures: np.ndarray
     joints_m: np.ndarray
     skeleton: Any
+
+    def __repr__(self) -> str:
+        """Who, at what, when and the scores; arrays are left out."""
+        scores = zip(("RULA", "REBA", "OWAS"), (self.rula, self.reba, self.owas))
+        said = ", ".join(f"{name} {low}" if low == high else f"{name} {low} to {high}" for name, (low, high) in scores)
+        return f"<Worst: {self.worker} at {self.task}, {self.clock}: {said}>"
 
 
 def worst_frames(log: EventLog, plan: Plan, n: int) -> list[Worst]:

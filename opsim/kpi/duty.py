@@ -9,7 +9,7 @@ import numpy as np
 from opsim.kpi.figure import Figure
 from opsim.kpi.open_hours import duty_hours, open_time_s
 from opsim.kpi.values import SECONDS_PER_HOUR, inside_s
-from opsim.log import ABSENT, BREAK, OFF, SETUP, WALK, WORK, WORKER_KINDS, EventLog
+from opsim.log import ABSENT, BREAK, OFF, REST, SETUP, WALK, WORK, WORKER_KINDS, EventLog
 from opsim.plan import Plan
 from opsim.plan.hours.spans import Spans, without
 
@@ -18,7 +18,8 @@ def duty(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Of each worker who has shifts, and of all of them together (no subject), in the window:
 
     on_duty_h : hours he was there, breaks, meetings and overtime included
-    duty_use  : of that time, breaks and meetings aside, how much he worked, set up or walked
+    duty_use  : of that time, but for planned breaks and meetings (not for rests by need), how much he worked, set up
+        or walked
     overtime_h : hours he was there outside of his shifts, in overtime or to finish what he had begun
     absent_share : of the hours of his shifts, how many he missed because he was absent
     """
@@ -29,15 +30,15 @@ def duty(log: EventLog, plan: Plan) -> Iterator[Figure]:
     found = {rank: _times_s(log, plan, rows[log["worker"][rows] == rank], rank) for rank in on_shifts}
     together = np.sum(list(found.values()), axis=0)
     for name, times_s in [("", together), *((plan.workers[rank].name, found[rank]) for rank in on_shifts)]:
-        there_s, rested_s, busy_s, over_s, missed_s, planned_s = times_s.tolist()
+        there_s, paused_s, busy_s, over_s, missed_s, planned_s = times_s.tolist()
         yield Figure("on_duty_h", name, "", "h", there_s / SECONDS_PER_HOUR)
-        yield Figure("duty_use", name, "", "share", busy_s / (there_s - rested_s) if there_s > rested_s else np.nan)
+        yield Figure("duty_use", name, "", "share", busy_s / (there_s - paused_s) if there_s > paused_s else np.nan)
         yield Figure("overtime_h", name, "", "h", over_s / SECONDS_PER_HOUR)
         yield Figure("absent_share", name, "", "share", missed_s / planned_s if planned_s else np.nan)
 
 
 def _times_s(log: EventLog, plan: Plan, rows: np.ndarray, rank: int) -> np.ndarray:
-    """Seconds in the window of one worker: there, resting, busy, there outside of his shifts, absent, planned."""
+    """Seconds in the window of one worker: there, in planned pauses, busy, there outside of shifts, absent, planned."""
     kind, spent_s = log["kind"][rows], inside_s(log, rows, plan)
     there = ~np.isin(kind, (OFF, ABSENT))
     planned = duty_hours(plan, rank)
@@ -46,7 +47,7 @@ def _times_s(log: EventLog, plan: Plan, rows: np.ndarray, rank: int) -> np.ndarr
     return np.array(
         [
             spent_s[there].sum(),
-            spent_s[kind == BREAK].sum(),
+            spent_s[(kind == BREAK) & (log["cause"][rows] != REST)].sum(),
             spent_s[busy].sum(),
             _meet_s(log, rows[there], plan, outside),
             spent_s[kind == ABSENT].sum(),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from opsim.ergonomics.carried import carried_kg, carries
 from opsim.ergonomics.energy import Energy, Spent, energy
 from opsim.ergonomics.hold_shares import hold_share
 from opsim.ergonomics.rest_allowance import (
@@ -22,6 +23,7 @@ from opsim.kpi.figure import Figure
 from opsim.kpi.values import inside_s
 from opsim.log import BREAK, WALK, EventLog
 from opsim.plan import Plan
+from opsim.walks import walk_rows
 
 ENERGY, REST = "energy_kcal_per_min", "rest_allowance_share"
 PARTS = ("", "at_most")
@@ -42,7 +44,8 @@ class Resting:
 
 def energy_spent(spent: Spent, log: EventLog, plan: Plan) -> Iterator[Figure]:
     """energy_kcal_per_min : of each worker, over the time in which he is there, breaks included, at least and
-    (``at_most``) with light work of both arms whenever he works without a load; without a subject, of all together, and
+    (``at_most``) with light work of both arms whenever he works without a load, with the body's part of every bend
+    without one, and with what may be in his hands; without a subject, of all together, and
     of the one who spends most (``worst``)."""
     found = _energy(spent, log, plan)
     minutes = found.work_min + found.break_min
@@ -56,13 +59,14 @@ def energy_spent(spent: Spent, log: EventLog, plan: Plan) -> Iterator[Figure]:
 
 
 def rest_allowances(resting: Resting, log: EventLog, plan: Plan) -> Iterator[Figure]:
-    """rest_allowance_share : of each worker, the share of his time, rest included, that should be rest
+    """rest_allowance_share : of each worker, the share of his time at work (there, and in no break) together with the
+    rest that it asks for, which should be rest; one base for all
 
     murrell, price : for the energy of his work, at least; murrell_at_most, price_at_most : at most
     rohmert : for what his back and shoulders hold still out of neutral, whichever asks for most
     """
-    rate = _energy(resting.spent, log, plan).work_kcal_per_min
-    rohmert = _rohmert(resting.still, log, plan)
+    spent = _energy(resting.spent, log, plan)
+    rate, rohmert = spent.work_kcal_per_min, _rohmert(resting.still, 60.0 * spent.work_min, plan)
     for rank, worker in enumerate(plan.workers):
         standards = [STANDARD_KCAL_PER_MIN[sex] for sex in ("mm", "ff", "mf")[_known(worker.body.sex)]]
         values = {
@@ -77,7 +81,19 @@ def rest_allowances(resting: Resting, log: EventLog, plan: Plan) -> Iterator[Fig
 
 
 def _energy(spent: Spent, log: EventLog, plan: Plan) -> Energy:
-    return energy(spent, present_s(log, plan), _spent_s(log, plan, BREAK), _spent_s(log, plan, WALK), plan)
+    times_s = present_s(log, plan), _spent_s(log, plan, BREAK), _spent_s(log, plan, WALK)
+    return energy(spent, *times_s, plan, list(_carried(log, plan)))
+
+
+def _carried(log: EventLog, plan: Plan) -> Iterator[tuple[int, float, float]]:
+    """(worker, kilograms, seconds in the window) of walks with a job whose mass is told."""
+    rows = walk_rows(log)
+    rows = rows[carries(log, plan, rows)]
+    worker, product, seconds = log["worker"][rows], log["product"][rows], inside_s(log, rows, plan)
+    for rank, which in sorted(set(zip(worker.tolist(), product.tolist()))):
+        kg = carried_kg(plan, rank, which)
+        if kg:
+            yield rank, kg, float(seconds[(worker == rank) & (product == which)].sum())
 
 
 def _spent_s(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
@@ -90,8 +106,8 @@ def _known(sex: str | None) -> int:
     return {"m": 0, "f": 1}.get(sex or "", 2)
 
 
-def _rohmert(still: Still, log: EventLog, plan: Plan) -> np.ndarray:
-    """(W,) share of the time that should be rest."""
+def _rohmert(still: Still, work_s: np.ndarray, plan: Plan) -> np.ndarray:
+    """(W,) rest that holding asks for, as a share of the seconds at work (W,) and that rest together."""
     rest_s = np.zeros((len(plan.workers), len(LEANING)))
     runs = still.close()
     for place, region in enumerate(LEANING):
@@ -100,8 +116,7 @@ def _rohmert(still: Still, log: EventLog, plan: Plan) -> np.ndarray:
             mine = own.worker == rank
             share = hold_share(region, own.angle_deg[mine], worker.body)
             rest_s[rank, place] = own.seconds[mine] @ rohmert_rest_share(own.seconds[mine] / 60.0, share)
-    there_s = present_s(log, plan)
-    return of_whole(rest_s.max(axis=1) / np.where(there_s > 0, there_s, np.nan))
+    return of_whole(rest_s.max(axis=1) / np.where(work_s > 0, work_s, np.nan))
 
 
 def _most(values: np.ndarray) -> float:

@@ -26,8 +26,9 @@ def exposure_by(ledger: Ledger, plan: Plan, hours: float, log: EventLog) -> Iter
     """Measured minutes at each of ``LEVELS`` (part; with ``_at_most`` behind it: as many as there may be).
 
     exposure_by_station, exposure_by_task, exposure_by_product : in an hour of all workers' time, so that those of all
-        stations (tasks, products) sum to the figure of all; tasks ``walking`` and ``waiting`` where these count, and
-        ``none`` for what is done at no station, or for no product
+        stations (tasks, products) sum to the figure of all; but for the trunk, whose figures of all
+        (``trunk_beyond_60_min_per_h``) are of work alone, while these are of walking and waiting too. Tasks ``walking``
+        and ``waiting`` where these count, and ``none`` for what is done at no station, or for no product
     exposure_by_hour : by the hour of the day in which it was ("07:00"), in an hour of the time of those who were there
     """
     for column, subjects in _subjects(plan).items():

@@ -23,11 +23,12 @@ REPETITIONS = "repetitions_per_min"
 def holds(still: Still, log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Of all workers together (no subject) and of each; the part is the region of the body.
 
-    static_hold_min_per_h : minutes with the region out of neutral and still (within 10 degrees) for longer than 4 s, in
-        an hour in which he is there
+    static_hold_min_per_h : minutes with the region out of neutral, forward or backward, and still (within 10 degrees)
+        for longer than 4 s, in an hour in which he is there
     longest_hold_s        : the longest of these, in one go, over all tasks
     iso_11226_min_per_h   : minutes of holds that ISO 11226 does not recommend: too far, or longer than its time
     en_1005_4_min_per_h   : minutes in zones that EN 1005-4 does not accept for what is held, or for how often one moves
+        into them
     movements_per_min     : how often the trunk bends, or an arm rises, beyond 20 degrees, a minute of known posture
     and repetitions_per_min, as ``repetitions`` gives it
     """

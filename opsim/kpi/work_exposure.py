@@ -53,11 +53,28 @@ class WorkExposure:
     seen: WorstSeen
 
     def value(self, kpi: str, subject: str = "", part: str = "") -> float:
-        """One of the figures: ``value("rula_from_5_min_per_h", "ana", "at_most")``. Raises KeyError."""
+        """One of the figures: ``value("rula_from_5_min_per_h", "ana", "at_most")``.
+
+        Raises KeyError that says which there are.
+        """
         for figure in self.figures:
             if (figure.kpi, figure.subject, figure.part) == (kpi, subject, part):
                 return float(figure.value)
-        raise KeyError(f"no figure {kpi!r}, subject {subject!r}, part {part!r}")
+        raise KeyError(self._no_figure(kpi, subject, part))
+
+    def _no_figure(self, kpi: str, subject: str, part: str) -> str:
+        """What is wrong with three words that name no figure, and the nearest ones that do."""
+        own = [one for one in self.figures if one.kpi == kpi]
+        if not own and kpi in EXPOSURE:
+            return f"no figure {kpi!r} was made: ask for it, exposure_of(..., figures=[{kpi!r}])"
+        if not own:
+            return f"no figure {kpi!r}; {did_you_mean(kpi, dict.fromkeys(one.kpi for one in self.figures))}"
+        parts = dict.fromkeys(one.part for one in own if one.subject == subject)
+        if not parts:
+            subjects = dict.fromkeys(one.subject or "''" for one in own)
+            return f"{kpi}: no subject {subject!r}; {did_you_mean(subject, subjects, otherwise='there are')}"
+        there = {word or "''" for word in parts}
+        return f"{kpi} of {subject!r}: no part {part!r}; {did_you_mean(part, there, otherwise='there are')}"
 
     def minutes(
         self, level: str | None = None, worker: str | None = None, task: str | None = None, at_most: bool = False

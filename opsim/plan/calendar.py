@@ -32,6 +32,7 @@ class Duty:
 
     shift : rank among the shifts; number : how many shifts of his were before it
     cut   : whether it goes on beyond the horizon
+    whole_s : from when to when it would be were it not cut; None: as it is
     """
 
     start_s: float
@@ -40,6 +41,7 @@ class Duty:
     number: int
     pauses: tuple[Pause, ...] = ()
     cut: bool = False
+    whole_s: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +87,7 @@ def _duties(names: list[str], scenario: Any, ranks: Any) -> tuple[Duty, ...]:
             number,
             _pauses(scenario.shifts[name], day, start_s, horizon_s, ranks.places),
             end_s > horizon_s,
+            (start_s, end_s),
         )
         for number, (start_s, end_s, day, name) in enumerate(begun(names, scenario))
     )

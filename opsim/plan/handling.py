@@ -20,7 +20,7 @@ SAID = ("grip", "force", "forearm", "arms_supported", "sitting", "legs", "rapid"
 class Handling:
     """None: nobody said so, and scores that ask for it are intervals.
 
-    load_kg : in both hands together, from ``start`` to ``end`` of each performance
+    load_kg : in both hands together, of each member of a team, from ``start`` to ``end`` of each performance
     grip    : one of GRIPS (REBA's coupling, NIOSH's coupling multiplier)
     force   : one of FORCES, how the load or force comes (RULA's force, REBA's shock)
     forearm : one of FOREARMS, how far the forearm is twisted (RULA's wrist twist)
@@ -39,6 +39,11 @@ class Handling:
     rapid: bool | None = None
     start: Moment = START
     end: Moment = END
+
+    @property
+    def by_share(self) -> bool:
+        """Whether it is known without a performance when hands are full."""
+        return self.start.mark < 0 and self.end.mark < 0
 
 
 NOT_SAID = Handling()

@@ -8,9 +8,10 @@ from opsim.ergonomics.kernels.compiled import compiled
 
 
 @compiled(error_model="numpy", nogil=True)
-def held(value, start_s, end_s, neutral, band, least_s, gap_s, mark):
+def held(value, start_s, end_s, backward, forward, band, least_s, gap_s, mark):
     """Set ``mark`` (N,) True for every frame of some run of frames that lasts longer than ``least_s``, without a gap in
-    time beyond ``gap_s``, in which |value| is always beyond ``neutral`` and its range is at most ``band``.
+    time beyond ``gap_s``, in which value is always above ``forward`` or below minus ``backward``, and its range is at
+    most ``band``.
 
     Two queues of indices keep the run's largest and least.
     """
@@ -21,10 +22,11 @@ def held(value, start_s, end_s, neutral, band, least_s, gap_s, mark):
     for right in range(n):
         x = value[right]
         broken = right > 0 and start_s[right] - end_s[right - 1] > gap_s
-        if broken or not abs(x) > neutral:
-            left = right if abs(x) > neutral else right + 1
+        out = x > forward or x < -backward
+        if broken or not out:
+            left = right if out else right + 1
             high_from, high_to, low_from, low_to = 0, 0, 0, 0
-            if not abs(x) > neutral:
+            if not out:
                 continue
         while high_to > high_from and value[high[high_to - 1]] <= x:
             high_to -= 1

@@ -46,11 +46,8 @@ def _above(value, edge):
 
 
 @compiled(error_model="numpy", nogil=True)
-def _upper_arm(flexion, abduction, sideways):
-    if abs(abduction) > sideways:  # the elevation e, cos e = cos a cos f, is at most 90 where flexion is
-        if abs(flexion) <= 90.0:
-            return 3, 3
-        return (4, 4) if abs(flexion) > 90.0 else (3, 4)
+def _flexed(flexion):
+    """The upper arm's code from its flexion alone."""
     if flexion < -90.0 or flexion > 90.0:
         return 4, 4
     if flexion > 45.0:
@@ -60,6 +57,18 @@ def _upper_arm(flexion, abduction, sideways):
     if flexion <= 20.0:
         return 1, 1
     return 1, 4
+
+
+@compiled(error_model="numpy", nogil=True)
+def _upper_arm(flexion, abduction, sideways):
+    low, high = _flexed(flexion)
+    if abs(abduction) <= sideways:
+        return low, high
+    # beyond, the elevation e, cos e = cos a cos f, is at most 90 where flexion is
+    raised = (3, 3) if abs(flexion) <= 90.0 else (4, 4) if abs(flexion) > 90.0 else (3, 4)
+    if abs(abduction) > sideways:
+        return raised
+    return min(low, raised[0]), max(high, raised[1])
 
 
 @compiled(error_model="numpy", nogil=True)

@@ -41,10 +41,12 @@ class Posture:
     def arm(self, side):
         """The angle that is scored: far out to the side the elevation of the arm, in place of its flexion."""
         flexion, abduction = self.one(f"{side}_arm_flexion"), self.one(f"{side}_arm_abduction")
-        if not abs(abduction) > self.t.arm_sideways:
+        if abs(abduction) <= self.t.arm_sideways:
             return self.may_be(f"{side}_arm_flexion", "arm")
         flexions = (0.0, 120.0) if isnan(flexion) else (flexion,)
-        return [degrees(acos(cos(radians(abduction)) * cos(radians(one)))) for one in flexions]
+        beyond = 0.5 * (self.t.arm_sideways + 90.0) if isnan(abduction) else abduction
+        raised = [degrees(acos(cos(radians(beyond)) * cos(radians(one)))) for one in flexions]
+        return raised + list(self.may_be(f"{side}_arm_flexion", "arm")) if isnan(abduction) else raised
 
     def out(self, side):
         """Whether the forearm works across the midline or out: where the upper arm is not abducted, by turning it."""

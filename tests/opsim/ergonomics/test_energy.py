@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from opsim.ergonomics.bends import bending_kcal
 from opsim.ergonomics.energy import Spent, energy, lifting_kcal
 from opsim.ergonomics.garg import moved_kcal
 from opsim.plan.handling import Handling
+from opsim.plan.tools import Moment
 from opsim.plan.worker import Body
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT
@@ -44,7 +46,7 @@ def test_bending_sitting_holding_and_walking_by_hand():
     """
     plan = replace(plan_of(sitting=True))
     plan = replace(plan, workers=tuple(replace(one, walk_m_per_s=1.0) for one in plan.workers))
-    bent = made_frames(1, seconds=180.0, task=BEND, trunk_flexion=20.0)
+    bent = made_frames(1, seconds=180.0, task=BEND, trunk_flexion=20.0, **hands(1.0))
     held = made_frames(1, seconds=180.0, task=BEND, carrying=True, trunk_flexion=90.0, **hands(1.0))
     seated = made_frames(1, seconds=720.0, task=COUNT, trunk_flexion=40.0)
     found = energy_of([bent, held, seated], plan, walk_s=300.0)
@@ -85,3 +87,53 @@ def test_whose_sex_is_not_said_is_between_both_and_an_unknown_mass_is_75_kg():
 def test_who_was_never_there_has_no_figure():
     found = energy_of([], plan_of(), there_s=0.0)
     assert np.isnan(found.kcal_per_min).all() and np.isnan(found.work_kcal_per_min).all()
+
+
+def test_a_load_without_a_body_is_held_for_its_share_and_one_at_marks_from_never_to_always():
+    """10 kg for the second half of 60 s without a posture: 0.62 kcal/min for half a minute; at marks none to a minute,
+    and arms that are free for a minute at most.
+    """
+    half = Handling(load_kg=10.0, start=Moment(share=0.5))
+    marked = Handling(load_kg=10.0, start=Moment(mark=0), end=Moment(mark=1))
+    for handling, carrying, most in ((half, [False, True], 0.31 + 1.2 * 0.5), (marked, [True, True], 0.62 + 1.2)):
+        plan = plan_of()
+        tasks = list(plan.tasks)
+        tasks[COUNT] = replace(tasks[COUNT], handling=handling)
+        frames = made_frames(2, seconds=30.0, task=COUNT, carrying=carrying)
+        frames.measures[:] = np.nan
+        found = energy_of([frames], replace(plan, tasks=tuple(tasks)))
+        least = 0.31 if handling is half else 0.0
+        assert found.work_kcal[0] == pytest.approx([60 * 1.68 + least, 60 * 1.68 + most])
+
+
+def test_a_bend_without_a_load_costs_the_body_s_way_down_and_up_at_most():
+    """A man of 70 kg, hands from 1.0 to 0.31 m and back: down 0.01 x (0.268 x 70 + 5.22) x 0.5, up 0.01 x 0.325 x 70 x
+    0.5; bent for 1 of 3 s; arms free for all.
+    """
+    up_m = np.array([1.0, 0.31, 1.0])
+    bent = np.array([0.0, 60.0, 0.0])
+    found = energy_of([made_frames(3, task=COUNT, trunk_flexion=bent, **hands(up_m))], plan_of())
+    least = 60 * 1.68 + (1.96 - 1.68) / 60
+    way = 0.01 * 0.5 * (0.268 * 70 + 5.22 + 0.325 * 70)
+    assert found.work_kcal[0] == pytest.approx([least, least + way + 1.2 * 3 / 60])
+    upright = energy_of([made_frames(3, task=COUNT, **hands(np.array([1.0, 0.75, 1.0])))], plan_of())
+    assert upright.work_kcal[0, 1] == pytest.approx(60 * 1.68 + 1.2 * 3 / 60)
+
+
+def test_going_down_for_a_load_counts_once_and_coming_up_with_it_is_the_lift():
+    """Down with empty hands to 0.31 m, up with 10 kg to 0.81 m."""
+    up_m, bent = np.array([1.0, 0.31, 0.31, 0.82]), np.array([0.0, 60.0, 60.0, 0.0])
+    frames = made_frames(4, task=BEND, carrying=[False, False, True, True], trunk_flexion=bent, **hands(up_m))
+    spent = Spent(plan_of())
+    spent.add(frames)
+    bends = spent.bends()
+    assert bends.low_m.tolist() == [0.31] and bends.down.tolist() == [True] and bends.up.tolist() == [False]
+    assert bending_kcal(bends, 0, 70.0, 1.0) == pytest.approx(0.01 * 0.5 * (0.268 * 70 + 5.22))
+
+
+def test_walks_with_something_in_the_hands_cost_more():
+    """70 kg at 1 m/s with 10 kg for 2 of 5 min: 4.006 against 2.288 kcal/min."""
+    plan = replace(plan_of(), workers=tuple(replace(one, walk_m_per_s=1.0) for one in plan_of().workers))
+    spent, times = Spent(plan), [np.full(2, seconds) for seconds in (3600.0, 0.0, 300.0)]
+    found = energy(spent, *times, plan, [(0, 10.0, 120.0)]).work_kcal
+    assert found[0, 0] - found[1, 0] == pytest.approx(2 * (4.006 - 2.288))

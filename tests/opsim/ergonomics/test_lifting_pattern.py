@@ -60,3 +60,38 @@ def test_more_recovery_never_lengthens_and_more_lifting_never_shortens(periods, 
     lifting_s, recovery_s = (np.array([60 * p[i] for p in periods]) for i in (0, 1))
     found = duration_hours(lifting_s, recovery_s)
     assert duration_hours(lifting_s, recovery_s * times) <= found <= duration_hours(lifting_s * times, recovery_s)
+
+
+def lifting(until_min, begin_min=0, every_min=1):
+    start_s = np.arange(begin_min, until_min, every_min) * 60.0
+    return start_s, start_s + 5.0
+
+
+@pytest.mark.parametrize("seen_min", [(0, 40), (0, 100), (0, 200), (60, 100)])
+def test_the_duration_is_that_of_the_shift_whatever_part_of_it_is_seen(seen_min):
+    seen_s = 60.0 * seen_min[0], 60.0 * seen_min[1]
+    found = [
+        pattern(*lifting(seen_min[1], seen_min[0]), [(0.0, shift_s)], seen_s)
+        for shift_s in (HOUR_S * 0.9, 2 * HOUR_S, 8 * HOUR_S)
+        if shift_s >= seen_s[1]
+    ]
+    assert [one.hours for one in found] == [1, 2, 8][3 - len(found) :]
+    assert all(one.most_hours == one.hours for one in found)
+
+
+def test_recovery_that_is_seen_is_in_the_rest_of_the_shift_too():
+    """30 min of lifting, 60 of recovery, of which 1.2 x 30 = 36 are enough; 30 of recovery are not (0.3 x 30 are)."""
+    for whole_min, hours in ((90, 1), (60, 2)):
+        shown = lifting(30)
+        assert pattern(*shown, [(0.0, 8 * HOUR_S)], (0.0, 60.0 * whole_min)).hours == hours
+
+
+def test_who_has_no_shifts_may_go_on_as_long_as_the_table_knows():
+    found = pattern(*lifting(40))
+    assert (found.hours, found.most_hours, found.columns) == (1, 8, (1, 2, 8))
+
+
+def test_a_shift_that_is_seen_to_its_end_is_as_it_is_and_so_is_one_in_which_nothing_is_lifted():
+    whole = pattern(*lifting(50), [(0.0, HOUR_S)], (0.0, HOUR_S))
+    other = pattern(*lifting(50), [(0.0, HOUR_S), (HOUR_S, 9 * HOUR_S)], (0.0, 1.5 * HOUR_S))
+    assert whole == other and whole.hours == 1

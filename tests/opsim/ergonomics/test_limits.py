@@ -62,7 +62,17 @@ def test_more_bent_or_longer_is_never_better(region, one, other, shorter, longer
 
 
 def test_zones_belong_to_their_edges():
-    assert zone([-0.1, 0.0, 20.0, 20.1, 60.0, 60.1, np.nan], EN_1005_4.trunk).tolist() == [0, 1, 1, 2, 2, 3, -1]
+    assert zone([-5.1, -5.0, 20.0, 20.1, 60.0, 60.1, np.nan], EN_1005_4.trunk).tolist() == [0, 1, 1, 2, 2, 3, -1]
+
+
+@pytest.mark.parametrize("region", ["trunk", "arm", "neck"])
+def test_both_standards_leave_an_upright_body_the_same_leeway(region):
+    zones, held = (
+        getattr(EN_1005_4, region),
+        getattr(ISO_11226, {"arm": "left_arm", "neck": "head"}.get(region, region)),
+    )
+    assert zones.low == 0.0 and zones.backward_from == held.least == -5.0
+    assert zone([-1.0, -5.0, -5.1], zones).tolist() == [1, 1, 0]
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from opsim.ergonomics.bounds import NOTHING_OPEN, bounds_of
 from opsim.ergonomics.columns import COLUMNS
 from opsim.ergonomics.joints import CANONICAL
 from opsim.ergonomics.measures import measures_of_joints
-from opsim.ergonomics.movement import Movement, scored_movements, worst_postures
+from opsim.ergonomics.movement import Movement, alike, scored_movements, worst_postures
 from opsim.ergonomics.options import USUAL
 from opsim.plan.handling import Handling
 from tests.opsim.ergonomics.bodies import bent, standing
@@ -51,11 +51,11 @@ def test_times_are_those_of_the_postures():
 
 
 def test_the_worst_postures_come_first_and_stand_apart():
-    """Bent by 70, 69 and 75, half a second apart, which score alike: the first and the third are a second apart."""
+    """Bent by 70, 69 and 75, half a second apart, and by 50: all within 20 degrees of 70; 40 and 0 are not."""
     one, other = movement(0, 70, 69, 75, 0, 0, 40), movement(0.0, 50.0, name="other")
     scored = scored_movements([one, other], bounds_of(Handling(load_kg=0.0)))
     found = list(worst_postures(scored, n=4))
-    assert found[0] == (0, 1) and (1, 1) in found and (0, 2) not in found and (0, 3) in found
+    assert found[:2] == [(0, 1), (0, 6)] and (1, 1) not in found and (0, 2) not in found and (0, 3) not in found
     assert len(list(worst_postures(scored, n=1))) == 1
 
 
@@ -68,5 +68,28 @@ def test_a_posture_that_nobody_knows_is_never_among_the_worst():
 
 @pytest.mark.parametrize("seconds", [0.05, 0.1])
 def test_the_time_between_the_worst_is_asked_for(seconds):
-    scored = scored_movements([movement(*[60.0] * 40, seconds=seconds)], NOTHING_OPEN)
-    assert len(list(worst_postures(scored, n=99, apart_s=0.5))) == round(40 * seconds / 0.5)
+    """Four kinds, one after the other: all, or, if two steps must lie between, the worst and one more."""
+    scored = scored_movements([movement(0.0, 30.0, 60.0, 90.0, seconds=seconds)], NOTHING_OPEN)
+    assert len(list(worst_postures(scored, n=99, apart_s=seconds))) == 4
+    assert len(list(worst_postures(scored, n=99, apart_s=1.5 * seconds))) == 2
+
+
+def test_copies_of_one_posture_are_told_once_however_far_apart():
+    scored = scored_movements([movement(*[60.0] * 9), movement(60.0, 45.0, 20.0)], NOTHING_OPEN)
+    assert list(worst_postures(scored)) == [(0, 0), (1, 2)]
+    assert [same.tolist() for same in alike(scored, 0, 0)] == [[True] * 9, [True, True, False]]
+
+
+def test_hands_that_hold_nothing_are_no_posture_like_one_with_a_load():
+    both = replace(movement(60.0, 60.0, seconds=2.0), carrying=np.array([False, True]))
+    scored = scored_movements([both], bounds_of(Handling(load_kg=12.0)))
+    assert list(worst_postures(scored)) == [(0, 1), (0, 0)]
+    assert both.loaded_s == 2.0 and movement(0.0, 10.0).loaded_s == 1.0
+
+
+def test_a_load_counts_only_while_it_is_in_the_hands():
+    """12 kg, now and then: RULA's force of 10 kg or more is 2 at least; empty hands have 0, and score as without."""
+    held = replace(movement(0.0, 0.0), carrying=np.array([False, True]))
+    (one,) = scored_movements([held], bounds_of(Handling(load_kg=12.0)))
+    (none,) = scored_movements([held], bounds_of(Handling(load_kg=0.0)))
+    assert (one.scores.rula[0] == none.scores.rula[0]).all() and (one.scores.rula[1] > none.scores.rula[1]).all()

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from opsim.ergonomics.bounds import NOTHING_OPEN, WALKING, Bounds, bounds_of
-from opsim.ergonomics.columns import COLUMNS
+from opsim.ergonomics.columns import AT, COLUMNS
 from opsim.ergonomics.options import USUAL, Options, Thresholds
 from opsim.ergonomics.scoring import ASKED, score
 from opsim.plan.handling import Handling
@@ -188,3 +188,24 @@ def test_what_does_not_fit_is_refused():
     with pytest.raises(ValueError, match="rula_force: no 'papers'; did you mean 'paper'"):
         score(upright()[None], NOTHING_OPEN, Options(rula_force="papers"))
     assert score(np.empty((0, len(COLUMNS))), NOTHING_OPEN).rula.shape == (0, 2)
+
+
+def test_an_arm_of_which_only_the_flexion_is_known_may_be_out_to_the_side():
+    """Hanging (1) or, out beyond 80 degrees, raised to at most 90 (3), and abducted (1 more); RULA's table A at 4."""
+    row = upright()
+    row[AT["left_arm_abduction"]] = np.nan
+    codes = explained_arm(row)
+    assert codes == (1, 4)
+    row[AT["left_arm_flexion"]] = 120.0
+    assert explained_arm(row) == (4, 5)
+
+
+def explained_arm(row):
+    """RULA's code of the left upper arm, low and high."""
+    from opsim.ergonomics.kernels import scores as kernel
+    from opsim.ergonomics.scoring import edges_of, phases_of, places
+
+    codes = np.empty((kernel.ARM + 2 * kernel.ARM_CODES, 2), np.int64)
+    phases = phases_of(NOTHING_OPEN)
+    kernel.find_codes(np.asarray(row, float), places(), edges_of(USUAL.thresholds), phases[1], False, codes)
+    return tuple(codes[kernel.ARM].tolist())

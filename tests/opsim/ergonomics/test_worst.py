@@ -54,6 +54,12 @@ def test_nobody_has_two_of_one_task_and_the_worst_come_first(cell):
     assert (first.worker, first.task, first.at_s) == (found[0].worker, found[0].task, found[0].at_s)
 
 
+def test_a_list_of_them_reads_in_a_line_each_without_arrays(cell):
+    first = cell[2][0]
+    assert repr(first).startswith(f"<Worst: {first.worker} at {first.task}, {first.clock}: RULA {first.rula[0]}")
+    assert "REBA" in repr(first) and len(repr(first)) < 100 and str(first) == repr(first)
+
+
 def test_of_each_task_there_may_be_the_worst_alone(cell):
     log, plan, found = cell
     seen = WorstSeen()

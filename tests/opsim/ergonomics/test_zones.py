@@ -1,18 +1,12 @@
 """Zones of EN 1005-4 and movements a minute."""
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
 
-from opsim.ergonomics.zones import movements, per_minute, verdicts
+from opsim.ergonomics.limits import CONDITIONAL, NOT_RECOMMENDED
+from opsim.ergonomics.zones import per_minute, verdicts, zoned_angles_deg
+from tests.opsim.ergonomics.made_frames import made_frames
 
-
-def test_a_movement_begins_beyond_the_edge_and_ends_well_below_it():
-    """Up, a little back (17 is within 5 of 20), up again: one; right back to 14, up: another."""
-    angle = np.array([0.0, 25.0, 17.0, 25.0, 14.0, 18.0, 21.0, np.nan, 30.0])
-    assert np.flatnonzero(movements(angle, 20.0)).tolist() == [1, 6]
-    assert movements(np.array([30.0, 30.0]), 20.0).tolist() == [True, False]
-    assert movements(np.empty(0), 20.0).size == 0
+MINUTE_S, NEVER = np.arange(60.0), np.zeros(60, bool)
 
 
 def test_movements_are_counted_by_the_minute_of_the_clock():
@@ -20,17 +14,48 @@ def test_movements_are_counted_by_the_minute_of_the_clock():
     assert per_minute(np.array([True, True, False, True, False]), start_s).tolist() == [2, 2, 2, 1, 0]
 
 
-def naive_movements(angle, beyond, back):
-    up, found = False, []
-    for value in angle:
-        found.append(not up and value > beyond)
-        up = True if value > beyond else False if value < beyond - back else up
-    return found
+def test_who_stands_upright_is_accepted_a_degree_backward_too():
+    """57 s at -1 degree and three bends of a second to 25: the bends are too often, standing is not."""
+    angle = np.full(60, -1.0)
+    angle[[10, 30, 50]] = 25.0
+    for region in ("trunk", "neck"):
+        found = verdicts(angle, NEVER, MINUTE_S, region)
+        assert (found == NOT_RECOMMENDED).sum() == (3 if region == "trunk" else 0)
+        assert not found[angle < 0].any()
 
 
-@given(st.lists(st.sampled_from([0.0, 14.9, 15.0, 18.0, 20.0, 20.1, 40.0, np.nan]), max_size=40))
-def test_movements_are_the_naive_ones(angle):
-    assert movements(np.array(angle), 20.0).tolist() == naive_movements(angle, 20.0, 5.0)
+def test_each_zone_has_the_frequency_of_the_movements_into_it():
+    """Back once, and three bends to 40: bending is too often, leaning back is not."""
+    angle = np.zeros(60)
+    angle[[10, 20, 30]], angle[40:50] = 40.0, -10.0
+    found = verdicts(angle, NEVER, MINUTE_S, "trunk")
+    assert (found[[10, 20, 30]] == NOT_RECOMMENDED).all() and (found[40:50] == CONDITIONAL).all()
+    twice = angle.copy()
+    twice[52:] = -10.0
+    assert (verdicts(twice, NEVER, MINUTE_S, "trunk")[40:50] == NOT_RECOMMENDED).all()
+
+
+def test_from_40_degrees_to_70_again_and_again_is_often_in_zone_3_and_seldom_in_zone_2():
+    angle = np.full(60, 40.0)
+    angle[[10, 20, 30]] = 70.0
+    found = verdicts(angle, NEVER, MINUTE_S, "trunk")
+    assert (found == NOT_RECOMMENDED).tolist() == (angle == 70.0).tolist()
+
+
+def test_who_bends_twice_and_deep_once_is_seldom_in_zone_3():
+    angle = np.zeros(60)
+    angle[[10, 20]], angle[30] = 40.0, 70.0
+    found = verdicts(angle, NEVER, MINUTE_S, "trunk")
+    assert found[30] == CONDITIONAL and (found[[10, 20]] == NOT_RECOMMENDED).all()
+
+
+def test_an_arm_is_behind_the_trunk_by_its_flexion():
+    frames = made_frames(60, left_arm_elevation=30.0, left_arm_flexion=-30.0, right_arm_elevation=30.0)
+    angles = zoned_angles_deg(frames.measures)
+    assert (angles["left_arm"] == -30.0).all() and (angles["right_arm"] == 30.0).all()
+    assert (verdicts(angles["left_arm"], NEVER, MINUTE_S, "left_arm") == CONDITIONAL).all()
+    assert (verdicts(angles["left_arm"], ~NEVER, MINUTE_S, "left_arm") == NOT_RECOMMENDED).all()
+    assert (verdicts(angles["right_arm"], ~NEVER, MINUTE_S, "right_arm") == CONDITIONAL).all()
 
 
 def test_arms_that_rise_once_a_minute_are_accepted_and_twice_above_60_are_not():

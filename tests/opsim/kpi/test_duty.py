@@ -5,7 +5,7 @@ import pytest
 from plans import plan
 
 from opsim.kpi.duty import present_s
-from opsim.log import ABSENT, BREAK, JOB_BLOCKED, MEETING, OFF, WAIT, WALK
+from opsim.log import ABSENT, BREAK, JOB_BLOCKED, MEETING, OFF, REST, WAIT, WALK
 from tests.opsim.kpi.made_logs import found, made, row, work
 
 H = 3600
@@ -75,6 +75,13 @@ def test_a_figure_is_what_the_hand_finds(by_hand, kpi, subject, part, expected):
 
 def test_who_was_never_there_has_no_use(by_hand):
     assert np.isnan(by_hand["duty_use", "ben", ""])
+
+
+def test_a_rest_by_need_is_time_in_which_he_might_have_worked():
+    # 5 h there, 1 h of break and meeting: 3 h of work of 4, whether he waits in the other one or rests by need
+    p = plan(FLOOR)
+    rows = [row(BREAK, 5 * H, 6 * H, worker=0, cause=REST) if at == 5 else one for at, one in enumerate(ROWS)]
+    assert found(made(rows, p), p)["duty_use", "ana", ""] == pytest.approx(3 / 4)
 
 
 def test_who_has_no_shift_has_no_duty(by_hand):

@@ -66,6 +66,18 @@ def test_a_held_stoop_asks_for_rest_by_rohmert():
     assert still[REST[0], "ben", "rohmert"] == 0.0
 
 
+def test_the_base_of_rohmerts_share_is_the_time_at_work_with_its_rest():
+    """600 s held ask for a rest of r s: r / (r + 3600) of an hour at work, r / (r + 1800) with half of it a break.
+
+    From shares a and b: r = 3600 a / (1 - a) = 1800 b / (1 - b).
+    """
+    plan = made_plan(Bending(kind=Stooping))
+    rows = [work(0, 600, 0, worker=0, task=BEND, k=0)]
+    a = values(rows, plan, REST)[REST[0], "ana", "rohmert"]
+    b = values([*rows, row(BREAK, 1800, 3600, worker=0)], plan, REST)[REST[0], "ana", "rohmert"]
+    assert 3600 * a / (1 - a) == pytest.approx(1800 * b / (1 - b)) and b > a > 0.05
+
+
 class Stooping(Bending().kind):
     """Bent by 60 degrees from beginning to end."""
 

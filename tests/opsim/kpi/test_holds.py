@@ -6,7 +6,7 @@ import pytest
 from opsim.kpi.holds import sentences
 from opsim.kpi.names import HELD
 from opsim.log import OFF
-from tests.opsim.ergonomics.made_work import BEND, Bending, made_plan
+from tests.opsim.ergonomics.made_work import BEND, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import row, work
 from tests.opsim.kpi.test_energy import Stooping, values
 
@@ -27,6 +27,21 @@ def test_a_stoop_held_over_many_performances_is_one_hold():
     assert found["iso_11226_min_per_h", "ana", "trunk"] == pytest.approx(3.0)
     assert found["static_hold_min_per_h", "ben", "trunk"] == 0.0
     assert found["static_hold_min_per_h", "", "trunk"] == pytest.approx(1.5)
+
+
+class Deep(Bends):
+    """Bent by 25 degrees, and by 70 from a third to a half of the time."""
+
+    course = staticmethod(lambda share: np.where((share > 1 / 3) & (share < 1 / 2), 70.0, 25.0))
+
+
+def test_holds_at_two_angles_are_judged_each_at_its_own():
+    """60 s of 25 degrees may be held for 217 s; 70 degrees not at all: of 48 s, 8 are beyond ISO 11226."""
+    plan = made_plan(Bending(kind=Deep))
+    found = of([work(0, 48, 0, worker=0, task=BEND, k=0)], plan)
+    assert found["longest_hold_s", "ana", "trunk"] == pytest.approx(24.0, abs=1.0)
+    assert found["static_hold_min_per_h", "ana", "trunk"] == pytest.approx(48 / 60)
+    assert found["iso_11226_min_per_h", "ana", "trunk"] == pytest.approx(8 / 60, abs=1 / 60)
 
 
 def test_short_holds_with_pauses_are_within_iso_11226():

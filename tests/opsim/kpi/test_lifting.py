@@ -69,6 +69,22 @@ def test_nobody_pays_for_what_nobody_asked():
     assert not {kpi for kpi, _, _ in found(log, plan)} & set(LIFTED)
 
 
+def test_a_sentence_says_where_the_edge_of_the_equation_stands_for_what_is_beyond():
+    values = {("lifting_index", "pick", ""): 1.5, ("lifting_index", "pick", "at_most"): 1.5}
+    (said,) = sentences({**values, ("lifts_out_of_range_share", "pick", ""): 0.25})
+    assert said.endswith("(NIOSH); 25% of lifts are beyond the equation's range, whose edge stands for them: no bound.")
+    (said,) = sentences({**values, ("lifts_out_of_range_share", "pick", ""): 0.0})
+    assert said.endswith("(NIOSH).")
+
+
+def test_what_is_lifted_sitting_has_no_index():
+    value = figures_of(plan_with(load_kg=10.0, grip="good", sitting=True))
+    assert math.isnan(value["lifting_index", "bend", ""]) and math.isnan(value["lifting_index", "bend", "at_most"])
+    assert math.isnan(value["composite_lifting_index", "ana", ""])
+    assert value["composite_lifting_index", "", "worst"] == 0.0
+    assert value["lifts_out_of_range_share", "bend", ""] == 1.0
+
+
 def test_sentences_say_who_and_how_far():
     index, composite = "lifting_index", "composite_lifting_index"
     values = {

@@ -362,8 +362,15 @@ def test_what_makes_no_sense_is_said():
         exposure_of(log).minutes("rula_from_6")
     with pytest.raises(ValueError, match="no task 'bed'; did you mean 'bend'"):
         exposure_of(log).minutes(task="bed")
-    with pytest.raises(KeyError, match="no figure"):
-        exposure_of(log).value("rula_mean", "ben")
+    seen = exposure_of(log)
+    for words, said in (
+        (("rula_mean", "ben"), "rula_mean: no subject 'ben'; there are: '', ana"),
+        (("rula_men",), "no figure 'rula_men'; did you mean 'rula_mean'"),
+        (("lifting_index", "ana"), "was made: ask for it, exposure_of.*figures=.'lifting_index'"),
+        (("rula_mean", "ana", "at_mst"), "no part 'at_mst'; did you mean 'at_most'"),
+    ):
+        with pytest.raises(KeyError, match=said):
+            seen.value(*words)
 
 
 def test_pieces_of_two_runs_are_refused():

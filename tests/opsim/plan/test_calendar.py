@@ -95,6 +95,7 @@ def test_the_last_week_before_the_run_has_the_last_of_several_shifts():
 def test_a_shift_that_goes_on_beyond_the_horizon_is_cut_there():
     found = duties("night", ("14 d", "20 h"))
     assert [hours(one) for one in found] == [(16, 20)] and found[0].cut and found[0].pauses == ()
+    assert found[0].whole_s == (16 * H, 24 * H)
     assert pauses(duties("night", ("14 d", "73200 s"))[0]) == [("meal", 20, 73200 / H)]
     assert duties("late", ("14 d", "8 h")) == ()
 
