@@ -106,6 +106,24 @@ def _lying(
     ]
 
 
+def stands_along(take: Take) -> str:
+    """The axis along which a body, said to be z up, clearly stands; "z" too where it lies or does not tell."""
+    up = _found_up(take)
+    return up if up != "z" and _stands(take, up) and not _rests_on_floor(take) else "z"
+
+
+def lies_all_along(take: Take) -> bool:
+    """Whether the head is not above the feet most of the time, of a body that stands along no other axis either."""
+    return _found_up(take) != "z" and stands_along(take) == "z"
+
+
+def _found_up(take: Take) -> str:
+    try:
+        return found_up(take.positions_m, take.names)[0]
+    except NotTold:
+        return "z"
+
+
 def _stands(take: Take, up: str) -> bool:
     """Whether the lowest joint along an axis is near 0 and stays there."""
     low, high = np.quantile(_lowest(turned_up(take.positions_m, up)), [0.02, 0.98])

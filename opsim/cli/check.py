@@ -21,20 +21,21 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     from opsim.collecting import without_collecting
 
     with mistakes(), without_collecting():
-        variants, warnings = _checked(file, names)
+        variants, warnings, without = _checked(file, names)
     if as_json:
         print_json({"file": file, **_plain(variants), "warnings": warnings})
         return
     for name, loads in variants.items():
-        print_loads(name, loads)
+        print_loads(name, loads, without[name])
         for warning in warnings[name]:
             click.echo(f"warning: {name}: {warning}", err=True)
     said = ", ".join(variants)
     click.echo(f"{file}: no problems found in {'variant' if len(variants) == 1 else 'variants'} {said}")
 
 
-def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[str, list[str]]]:
-    """By variant: the loads of everything, and what may go wrong."""
+def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[str, list[str]], dict[str, str]]:
+    """By variant: the loads of everything, what may go wrong, and the effects that loads know nothing of."""
+    from opsim.cli.check_tables import left_out
     from opsim.plan import compile_plan
     from opsim.plan.joins import wide_joins
     from opsim.plan.loads import loads_of, overloads
@@ -47,14 +48,14 @@ def _checked(file: str, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[st
     from opsim.scenario.risks import risks_of
 
     loaded = read_scenarios(file, list(names) or None)
-    loads, warnings = {}, {}
+    loads, warnings, without = {}, {}, {}
     for name, variant in loaded.items():
         plan = compile_plan(variant)
-        loads[name] = loads_of(plan)
+        loads[name], without[name] = loads_of(plan), left_out(plan)
         warnings[name] = [*overloads(plan, loads[name]), *risks_of(variant.scenario), *late_orders(plan)]
         warnings[name] += [*hour_risks(plan, loads[name]), *unread(plan), *unmoved_bodies(plan), *wide_joins(plan)]
         warnings[name] += unseen(plan, variant.scenario.outputs)
-    return loads, warnings
+    return loads, warnings, without
 
 
 def _plain(variants: dict[str, Any]) -> dict[str, Any]:

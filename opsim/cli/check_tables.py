@@ -13,8 +13,8 @@ NEXT = 2
 """Of what limits the floor after the bottleneck, so many are named."""
 
 
-def print_loads(variant: str, loads: Any) -> None:
-    """Everything that ``opsim check`` has found about a variant."""
+def print_loads(variant: str, loads: Any, without: str = "") -> None:
+    """Everything that ``opsim check`` has found about a variant. without : what its mean times leave out, in words"""
     _print_stations(variant, loads.stations, loads.scheduled_share)
     _print_people(variant, loads.skills, loads.crew)
     _print_shared(variant, loads.shared)
@@ -22,6 +22,18 @@ def print_loads(variant: str, loads: Any) -> None:
         first, *others = (_limit(one) for one in loads.limits[: NEXT + 1])
         rest = f"; next {', '.join(others)}" if others else ""
         click.echo(f"{variant}: bottleneck by mean times: {first}{rest}\n")
+    if without:
+        click.echo(f"{variant}: {without}\n")
+
+
+def left_out(plan: Any) -> str:
+    """Effects on people that are on and that mean times know nothing of; nothing where none is."""
+    from opsim.plan.human import EFFECTS
+    from opsim.report.words import listing
+
+    names = {"rest": "rest by need", "state_pace": "state-dependent pace", "circadian": "the time of day"}
+    on = [names.get(effect, effect) for effect in EFFECTS if getattr(plan.human, effect) is not None]
+    return f"these loads and this bottleneck are without {listing(on)} (on under 'human')" if on else ""
 
 
 def _limit(one: Any) -> str:

@@ -27,14 +27,16 @@ def command(
 
     Replications with the same number have the same random numbers in every variant, so their differences say more.
     """
-    from opsim.cli.compare_frontier import frontier_asked, frontier_json, print_frontier
+    from opsim.cli.compare_frontier import frontier_json, frontier_or_why, print_frontier
     from opsim.cli.console import print_json
     from opsim.cli.running import Failed
     from opsim.study.compare import compare
 
     with mistakes():
-        folder, results = _results(of, out, how)
-        comparison, found = compare(results, base, kpis), frontier_asked(results, base, frontier)
+        folder, results = _results(of, out, how, (base, kpis, frontier))
+        comparison = compare(results, base, kpis)
+        refuse = frontier is not None and Path(of).is_dir()
+        found, no_frontier = frontier_or_why(results, base, frontier, refuse=refuse)
         title = str(results[base].summary.get("scenario", folder.name))
     page, failed = _page(comparison, folder / "compare.html", title, found)
     if as_json:
@@ -45,6 +47,8 @@ def command(
             print_frontier(found, bool(comparison.hours))
         if page is not None:
             click.echo(f"comparison: {page}")
+    if no_frontier:
+        click.echo(no_frontier, err=True)
     if failed:
         raise Failed(failed)
 
@@ -59,7 +63,9 @@ def _page(comparison: Any, path: Path, title: str, frontier: Any) -> tuple[Path 
         return None, f"{path}: cannot be written: {error.strerror or error}"
 
 
-def _results(of: str, out: Path | None, how: dict[str, Any]) -> tuple[Path, dict[str, Any]]:
+def _results(of: str, out: Path | None, how: dict[str, Any], asked: Any) -> tuple[Path, dict[str, Any]]:
+    """asked : base, figures and frontier, which are checked before anything is run"""
+    from opsim.cli.compare_asked import check_asked
     from opsim.cli.running import run_variants
     from opsim.results import variants_in
 
@@ -69,7 +75,7 @@ def _results(of: str, out: Path | None, how: dict[str, Any]) -> tuple[Path, dict
         if given:
             raise ValueError(f"{', '.join(given)}: only where a scenario FILE is run; {of} is a folder of results")
         return folder, variants_in(folder)
-    folder, _, results = run_variants(of, out, **how)
+    folder, _, results = run_variants(of, out, check=lambda variants: check_asked(variants, *asked), **how)
     return folder, results
 
 

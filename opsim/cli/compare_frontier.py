@@ -15,18 +15,30 @@ def frontier_asked(results: Mapping[str, Any], base: str, asked: str | None) -> 
 
     Raises ValueError where these are not two figures, NotComparable where a figure is not there.
     """
+    from opsim.cli.compare_asked import frontier_texts
     from opsim.kpi.better import read_asked
     from opsim.study.frontier import frontier_of
 
-    texts = list(results[base].summary.get("frontier", [])) if asked is None else asked.split(",")
+    texts = frontier_texts(asked)
+    texts = list(results[base].summary.get("frontier", [])) if texts is None else texts
     if not texts:
         return None
-    if len(texts) != 2 or not all(text.strip() for text in texts):
-        raise ValueError(
-            f"--frontier: expected two figures and a comma between them, found {asked!r}; "
-            "such as throughput_per_h,walked_m"
-        )
     return frontier_of(results, read_asked(texts[0]), read_asked(texts[1]))
+
+
+def frontier_or_why(results: Mapping[str, Any], base: str, asked: str | None, *, refuse: bool) -> tuple[Any, str]:
+    """The Frontier, or None and why there is none, so that what else was found is told all the same.
+
+    refuse : raise what ``frontier_asked`` raises
+    """
+    from opsim.study.compare import NotComparable
+
+    try:
+        return frontier_asked(results, base, asked), ""
+    except NotComparable as error:
+        if refuse:
+            raise
+        return None, f"no picture of two figures against each other: {error}"
 
 
 def print_frontier(frontier: Any, hours: bool) -> None:
@@ -45,7 +57,7 @@ def print_frontier(frontier: Any, hours: bool) -> None:
                 plus_minus({"mean": one.mean, "half_width": one.half_width, "unit": key[3]}, most)
                 for one, key, most in zip((point.x, point.y), (frontier.x, frontier.y), largest)
             ),
-            _VERDICTS[kind_of(point)],
+            _VERDICTS[kind_of(point)] if point.x.n and point.y.n else "not shown",
         )
         for point in frontier.points
     ]

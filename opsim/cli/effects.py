@@ -6,6 +6,13 @@ from typing import Any
 
 import click
 
+BESIDE = (
+    "acts_on: posture (default: who is slowed moves as people do who take longer) or time (the time alone); it stands "
+    "under human: itself, for all effects.",
+    "absence: 0.05: the share of shifts missed, of everybody with a shift who does not say his own; under human: too.",
+)
+"""Keys under ``human:`` that are no models."""
+
 
 @click.command("effects")
 @click.argument("effect", required=False)
@@ -44,6 +51,8 @@ def _print_all(found: list[Any]) -> None:
     print_table("human effects", ("effect", "model", "what it does", "parameters with defaults"), rows, words=4)
     for one in found:
         click.echo(f"{one.effect} {one.model}: {one.source}.")
+    for line in BESIDE:
+        click.echo(line)
 
 
 def _print_one(found: list[Any]) -> None:

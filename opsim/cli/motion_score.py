@@ -17,6 +17,7 @@ from opsim.cli.verbs import mistakes
 @click.option("-n", "n", type=click.IntRange(1, 500), help="Performances to draw from a library.  [default: 10]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
 @click.option("--load", metavar="MASS", help="What is in both hands together, such as '8 kg'; '0 kg' for nothing.")
+@click.option("--loaded", metavar="FROM..TO", help="When it is in the hands: marks or shares, such as 'grasp..1.0'.")
 @click.option("--grip", metavar="WORD", help="good, fair, poor or unacceptable (REBA's coupling).")
 @click.option("--force", metavar="WORD", help="intermittent, repeated, static or shock (RULA, REBA).")
 @click.option("--forearm", metavar="WORD", help="mid or end: how far the forearm is twisted (RULA).")
@@ -65,11 +66,16 @@ def _read(source: str, task: str | None, out: Path | None, given: dict[str, Any]
         read = reader_of(source, task, given["n"], given["seed"])
     except (ValueError, OSError) as error:
         wrong.append(str(error))
+    if asked.loaded is not None and read is not None:
+        wrong += asked.loaded.unknown(read.mark_names)
     if out is not None and not wrong:
         ready(out, ".html")
     if wrong or read is None:
         raise ValueError("\n".join(wrong))
-    return asked, read(asked.options, asked.neck_neutral_rad)
+    found = read.measured(asked)
+    if asked.loaded is not None and not any(movement.loaded_s > 0 for movement in found.movements):
+        raise ValueError(f"--loaded: found hands full at no time {asked.loaded.words}, expected a later end")
+    return asked, found
 
 
 def _scored(found: Any, asked: Any) -> list[Any]:
@@ -107,16 +113,17 @@ def _told(found: Any, scored: list[Any], asked: Any, out: Path | None) -> dict[s
 
 def _print(found: Any, scored: list[Any], asked: Any, out: Path | None) -> None:
     from opsim.cli.console import print_table, printable
-    from opsim.cli.motion_score_told import ABSENT, assumptions
+    from opsim.cli.motion_score_told import ASSUMED, assumptions
     from opsim.ergonomics.movement_figures import movement_figures
 
     rows = [figure.row for figure in movement_figures(scored)]
     click.echo(printable(found.title))
     print_table("", ["share of time, score", "at least", "at most"], rows)
     notes = assumptions(found, scored, asked)
-    absent = [note for note in notes if note.startswith(ABSENT)]
-    for note in notes[: len(notes) - len(absent)]:
+    assumed = [note for note in notes if note.startswith(ASSUMED)]
+    for note in notes[: len(notes) - len(assumed)]:
         click.echo(printable(note))
-    click.echo(f"{len(absent)} more assumptions, of what no skeleton shows, are in the page (-o) and with --json")
+    more = "what no skeleton shows, and how the methods were read"
+    click.echo(f"{len(assumed)} more assumptions, {more}, are in the page (-o) and with --json")
     if out is not None:
         click.echo(f"page: {out}")

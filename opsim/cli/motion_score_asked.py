@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from opsim.cli.motion_score_loaded import LoadedTime, loaded_of
 from opsim.plan.handling import FORCES, FOREARMS, GRIPS, LEGS
 
 YES_NO = ("yes", "no")
@@ -27,6 +28,7 @@ class Asked:
     """handling, options : as a scenario would say them
 
     repeated         : done again and again, as no single movement tells
+    loaded           : when the load is in the hands; None: all the time
     neck_neutral_rad : None: found from how the movements begin
     """
 
@@ -34,6 +36,7 @@ class Asked:
     options: Any
     repeated: bool
     neck_neutral_rad: float | None
+    loaded: LoadedTime | None = None
 
 
 def asked_of(given: Mapping[str, Any]) -> tuple[Asked, list[str]]:
@@ -47,7 +50,8 @@ def asked_of(given: Mapping[str, Any]) -> tuple[Asked, list[str]]:
     neutral_rad = _quantity("--neck-neutral", given["neck_neutral"], "angle", wrong)
     if neutral_rad is not None and abs(neutral_rad) > math.pi / 2:
         wrong.append(f"--neck-neutral: found {given['neck_neutral']!r}, expected -90 deg to 90 deg")
-    return Asked(handling or NOT_SAID, options or USUAL, given["repeated"], neutral_rad), wrong
+    loaded = loaded_of(given["loaded"], wrong)
+    return Asked(handling or NOT_SAID, options or USUAL, given["repeated"], neutral_rad, loaded), wrong
 
 
 def wrong_out(out: Path | None, source: str) -> list[str]:
@@ -62,14 +66,15 @@ def wrong_out(out: Path | None, source: str) -> list[str]:
 
 def _handling(given: Mapping[str, Any], wrong: list[str]) -> Any:
     from opsim.plan.handling import Handling
+    from opsim.scenario.fields import MOST_LOAD_KG
 
     said: dict[str, Any] = {name: _word(name, given[name], known, wrong) for name, known in HANDS.items()}
     for name in FLAGS:
         word = _word(name, given[name], YES_NO, wrong)
         said[name] = None if word is None else word == "yes"
     load_kg = _quantity("--load", given["load"], "mass", wrong)
-    if load_kg is not None and load_kg < 0:
-        wrong.append(f"--load: found {given['load']!r}, expected a mass of 0 kg or more")
+    if load_kg is not None and not 0 <= load_kg <= MOST_LOAD_KG:
+        wrong.append(f"--load: found {given['load']!r}, expected a mass of 0 kg to {MOST_LOAD_KG:g} kg in both hands")
     return Handling(load_kg=load_kg, **said)
 
 

@@ -15,16 +15,18 @@ OPEN = {
     "rapid": "whether posture changes quickly (--rapid)",
 }
 SETTLED_BY_WALKING = ("arms_supported", "sitting", "legs")
-ABSENT = "taken as absent: "
+ASSUMED = ("not seen: ", "by rule: ")
+"""Beginnings of what holds of every movement."""
 
 
 def assumptions(found: Any, scored: list[Any], asked: Any) -> list[str]:
     """Sentences: what the skeleton lacks, what nobody said, whence the neck's neutral, what no skeleton shows."""
     from opsim.ergonomics.missing import missing_scores
     from opsim.ergonomics.movement_figures import in_words, unknown_share
-    from opsim.ergonomics.not_seen import NOT_SEEN
+    from opsim.ergonomics.not_seen import NOT_SEEN, RULES
 
-    said = [f"missing: {sentence}" for sentence in missing_scores(found.skeleton.names)]
+    said = [f"missing: {sentence}" for sentence in missing_scores(found.seen_names)]
+    said += found.notes
     unknown = unknown_share(scored)
     if unknown > 0:
         share = in_words(unknown, "share")
@@ -32,11 +34,25 @@ def assumptions(found: Any, scored: list[Any], asked: Any) -> list[str]:
     open_words = _open(asked.handling, found.walking)
     if open_words:
         said.append(f"not said, so scores are intervals: {', '.join(open_words)}")
+    if asked.handling.load_kg != 0:
+        said.append(_loaded(found, scored, asked))
     if not asked.repeated:
         said.append("taken as done less than four times a minute (--repeated)")
     if "head" in found.skeleton.names:
         said.append(f"neutral of the neck: {found.neutral_said}")
-    return said + [f"{ABSENT}{sentence}" for sentence in NOT_SEEN]
+    return said + [f"{begins}{each}" for begins, all_of in zip(ASSUMED, (NOT_SEEN, RULES)) for each in all_of]
+
+
+def _loaded(found: Any, scored: list[Any], asked: Any) -> str:
+    """When the hands are full."""
+    from opsim.ergonomics.movement_figures import in_words, loaded_share
+
+    load = "something" if asked.handling.load_kg is None else f"{asked.handling.load_kg:g} kg"
+    if asked.loaded is None:
+        marks = f"; marks: {', '.join(found.mark_names)}" if found.mark_names else ""
+        return f"{load} in the hands all the time, as nobody said when (--loaded FROM..TO{marks})"
+    share = in_words(loaded_share(scored), "share")
+    return f"{load} in the hands {asked.loaded.words}, {share} of the time; empty hands before and after"
 
 
 def _open(handling: Any, walking: bool) -> list[str]:

@@ -36,7 +36,7 @@ def print_results(title: str, results: dict[str, Any]) -> None:
                 found.setdefault(row["kpi"], {}).setdefault((row["subject"], row["part"]), {})[name] = row
     rows = []
     for kpi, by_subject in found.items():
-        kept = {of: cells for of, cells in by_subject.items() if matters(kpi, of[1], cells)}
+        kept = {of: c for of, c in by_subject.items() if matters(kpi, of[1], c) and not _says_again(of, by_subject)}
         largest = largest_mean(row for cells in kept.values() for row in cells.values())
         for of, cells in kept.items():
             texts = [plus_minus(cells[name], largest) if name in cells else "" for name in results]
@@ -57,6 +57,15 @@ def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool
     if kpi in SHOWN_WHERE_ANY:
         return is_shown(kpi, part, cells.values())
     return part in _WHERE_LARGE.get(kpi, ()) and any((row["mean"] or 0) > _LARGE for row in cells.values())
+
+
+def _says_again(of: tuple[str, str], found: Mapping[tuple[str, str], Cells]) -> bool:
+    """Whether a row is one of at most that is the same as at least in all variants."""
+    from opsim.report.parts import says_again
+
+    own = {part: cells for (subject, part), cells in found.items() if subject == of[0]}
+    beside = {part: [cells.get(name, {}) for name in found[of]] for part, cells in own.items()}
+    return says_again(of[1], list(found[of].values()), beside)
 
 
 def without_repeats(rows: list[tuple[str, ...]]) -> list[tuple[str, ...]]:

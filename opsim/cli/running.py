@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -23,16 +23,24 @@ class Failed(click.ClickException):
 
 
 def run_variants(
-    file: str, out: Path | None, *, names: tuple[str, ...] = (), horizon: str | None = None, **how: Any
+    file: str,
+    out: Path | None,
+    *,
+    names: tuple[str, ...] = (),
+    horizon: str | None = None,
+    check: Callable[[dict[str, Any]], None] | None = None,
+    **how: Any,
 ) -> tuple[Path, dict[str, Any], dict[str, Any]]:
     """(results folder, variants as read, their Results); everything that is wrong is found before the first run.
 
-    how : arguments of ``run_scenario``
+    check : may raise ValueError of the variants as read; how : arguments of ``run_scenario``
     """
     from opsim.cli.stopping import stops_once
 
     with mistakes():
         variants = _variants(file, names, horizon)
+        if check is not None:
+            check(variants)
         out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):

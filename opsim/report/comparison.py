@@ -9,7 +9,7 @@ from typing import Any
 from opsim.report.frontier import frontier_section
 from opsim.report.interval_picture import intervals_svg
 from opsim.report.parts import part_name
-from opsim.report.words import digits, is_number, kpi_name, quantity, scale_of
+from opsim.report.words import digits, half_digits, is_number, kpi_name, quantity, scale_of
 from opsim.whole import write_text
 
 HERE = Path(__file__).parent
@@ -45,16 +45,19 @@ def comparison_cells(difference: Any, largest: float | None = None) -> dict[str,
     interval, unit = difference.interval, difference.key[3]
     factor, word = scale_of(unit, difference.base if largest is None else largest)
     half = interval.half_width * factor if is_number(interval.half_width) and interval.half_width else None
-    by = digits(interval.mean * factor, half)
+    of = difference.base * factor if is_number(difference.base) else 0.0
+    by = digits(interval.mean * factor, half, of)
     relative = 100 * interval.mean / abs(difference.base) if difference.base else None
     share = None if relative is None or half is None else 100 * interval.half_width / abs(difference.base)
     ratio = difference.variance_ratio
+    by = by if half is None else f"{by} ± {half_digits(interval.mean * factor, half, of)}"
+    percent = f"{digits(relative, share, 100.0)} %" if is_number(relative) else ""
     return {
         "base": quantity_in(difference.base, factor, half),
         "mean": quantity_in(difference.mean, factor, half),
-        "difference": "0" if difference.identical else f"{by} ± {digits(half, half)}" if half is not None else by,
+        "difference": "0" if difference.identical else by,
         "unit": word,
-        "relative": "0 %" if difference.identical else f"{digits(relative, share)} %" if is_number(relative) else "",
+        "relative": "0 %" if difference.identical else percent,
         "pairing": f"{ratio:.3g}" if is_number(ratio) else "",
         "verdict": difference.verdict,
         "n": str(interval.n),

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.levels import OWAS, REBA, RULA
+from opsim.ergonomics.levels import OWAS, REBA, RULA, Level
 from opsim.ergonomics.movement import ScoredMovement
 from opsim.report.palette import GRID, INK, MUTED
 from opsim.report.strips import render
 
-WIDE_IN, PANEL_IN, ROW_IN = 10.6, 0.95, 0.17
-LEFT_SHARE, RIGHT_SHARE = 0.13, 0.985
+WIDE_IN, SLIM_IN, PANEL_IN, ROW_IN = 10.6, 4.6, 0.95, 0.17
+"""SLIM_IN is for telephones: labels stay as large as they are."""
+LEFT_IN, RIGHT_IN = 1.38, 0.16
 MOST_ROWS = 40
 LEVELS = ("#dfeaf2", "#f7e7b4", "#f0b04a", "#d9692b", "#a8320a")
 """From nothing to be done to at once; RULA and OWAS have four levels, REBA five."""
@@ -26,41 +27,46 @@ Letters = Mapping[tuple[int, int], str]
 """(movement, posture) -> the letter of a posture that is drawn elsewhere."""
 
 
-def course_svg(scored: Sequence[ScoredMovement], letters: Letters) -> bytes:
+def course_svg(scored: Sequence[ScoredMovement], letters: Letters, wide_in: float = WIDE_IN) -> bytes:
     """The scores of the movement of the first letter along time, above RULA of the first 40 movements, as SVG.
 
-    Shaded between at least and at most; the colours are action levels, in rows of the middle between both.
+    Shaded between at least and at most; the colours are action levels. In rows the lower half is at least, the upper
+    half at most.
     """
     from matplotlib.figure import Figure
 
     first = next(iter(letters), (0, 0))[0]
     rows = list(range(min(len(scored), MOST_ROWS))) if len(scored) > 1 else []
     heights = [0.35, *[PANEL_IN] * 3, 0.42, *([0.5, ROW_IN * len(rows) + 0.02, 0.45] if rows else [])]
-    figure = Figure(figsize=(WIDE_IN, sum(heights)), facecolor="white")
+    figure = Figure(figsize=(wide_in, sum(heights)), facecolor="white")
+    left, wide = LEFT_IN / wide_in, 1 - (LEFT_IN + RIGHT_IN) / wide_in
     tops = 1.0 - np.cumsum([0.0, *heights]) / sum(heights)
     for place, name in enumerate(METHODS):
-        box = (LEFT_SHARE, tops[place + 2] + 0.012, RIGHT_SHARE - LEFT_SHARE, tops[place + 1] - tops[place + 2] - 0.024)
+        box = (left, tops[place + 2] + 0.012, wide, tops[place + 1] - tops[place + 2] - 0.024)
         _draw_course(figure.add_axes(box), scored[first], name, first, letters, last=place == 2)
     title = f"{scored[first].movement.name}: scores along time"
-    figure.text(
-        LEFT_SHARE, 1 - 0.12 / sum(heights), title, size=10, weight="bold", color=INK, va="top", parse_math=False
-    )
+    figure.text(left, 1 - 0.12 / sum(heights), title, size=10, weight="bold", color=INK, va="top", parse_math=False)
     if rows:
-        box = (LEFT_SHARE, tops[7], RIGHT_SHARE - LEFT_SHARE, tops[6] - tops[7])
+        box = (left, tops[7], wide, tops[6] - tops[7])
         _draw_rows(figure.add_axes(box), scored, rows, letters)
         said = (
             "RULA of all, along their time"
             if len(rows) == len(scored)
             else f"RULA of the first {len(rows)} of {len(scored)}"
         )
-        figure.text(LEFT_SHARE, tops[6] + 0.12 / sum(heights), said, size=10, weight="bold", color=INK, va="bottom")
+        figure.text(left, tops[6] + 0.12 / sum(heights), said, size=10, weight="bold", color=INK, va="bottom")
     return render(figure, "svg")
 
 
 def level_colour(name: str, value: float) -> str:
-    """The colour of the action level of a score, or of a middle between two scores."""
+    """The colour of the action level of a score."""
     _, levels, colours = METHODS[name]
-    return colours[max(place for place, level in enumerate(levels) if value >= level.least or place == 0)]
+    return colours[levels.index(level_of(levels, value))]
+
+
+def level_of(levels: Sequence[Level], value: float) -> Level:
+    """The action level of a score; the lowest of one below all."""
+    return max((level for level in levels if value >= level.least), default=levels[0], key=lambda level: level.least)
 
 
 def _draw_course(axes: Any, one: ScoredMovement, name: str, which: int, letters: Letters, *, last: bool) -> None:
@@ -91,19 +97,13 @@ def _draw_course(axes: Any, one: ScoredMovement, name: str, which: int, letters:
 
 def _draw_rows(axes: Any, scored: Sequence[ScoredMovement], rows: Sequence[int], letters: Letters) -> None:
     for place, which in enumerate(rows):
-        movement, middle = scored[which].movement, scored[which].scores.rula.mean(axis=1)
-        colours = [level_colour("rula", value) if known else "#ffffff" for value, known in zip(middle, movement.known)]
-        edges_s = np.r_[movement.start_s, movement.duration_s]
-        for first, last in pairwise(
-            [k for k in range(len(colours) + 1) if k in (0, len(colours)) or colours[k] != colours[k - 1]]
-        ):
-            bar = [(edges_s[first], edges_s[last] - edges_s[first])]
-            axes.broken_barh(bar, (place - 0.42, 0.84), facecolors=colours[first], lw=0, zorder=2)
+        for end, top in enumerate((place, place - 0.42)):  # places grow downwards
+            _draw_row(axes, scored[which], end, top)
     for (which, posture), letter in letters.items():
         if which in rows:
             at_s = scored[which].movement.start_s[posture] + 0.5 * scored[which].movement.seconds[posture]
-            dark = level_colour("rula", float(scored[which].scores.rula[posture].mean())) in LEVELS[3:]
-            look = {"size": 8, "weight": "bold", "color": "#ffffff" if dark else INK}
+            behind = {"boxstyle": "round,pad=0.12", "facecolor": "white", "lw": 0, "alpha": 0.8}
+            look = {"size": 8, "weight": "bold", "color": INK, "bbox": behind}
             axes.text(at_s, which, letter, ha="center", va="center", zorder=4, **look)
     longest_s = max(scored[which].movement.duration_s for which in rows)
     axes.set(xlim=(0, longest_s), ylim=(len(rows) - 0.5, -0.5))
@@ -112,6 +112,18 @@ def _draw_rows(axes: Any, scored: Sequence[ScoredMovement], rows: Sequence[int],
     axes.set_xlabel("time, s", size=9, color=MUTED)
     axes.grid(axis="x", color=GRID, lw=0.6, zorder=1)
     axes.spines[:].set_visible(False)
+
+
+def _draw_row(axes: Any, one: ScoredMovement, end: int, top: float) -> None:
+    """Half a row, of at least (end 0) or at most (end 1)."""
+    movement, scores = one.movement, one.scores.rula[:, end].tolist()
+    colours = [level_colour("rula", score) if known else "#ffffff" for score, known in zip(scores, movement.known)]
+    edges_s = np.r_[movement.start_s, movement.duration_s]
+    for first, last in pairwise(
+        [k for k in range(len(colours) + 1) if k in (0, len(colours)) or colours[k] != colours[k - 1]]
+    ):
+        bar = [(edges_s[first], edges_s[last] - edges_s[first])]
+        axes.broken_barh(bar, (top, 0.42), facecolors=colours[first], lw=0, zorder=2)
 
 
 def _short(name: str) -> str:

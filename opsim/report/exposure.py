@@ -14,8 +14,8 @@ Row = Mapping[str, Any]
 MOST = 30
 """Workers shown: those with most, where there are more."""
 TITLES = {
-    "exposure_workers": "By worker, in an hour in which he is there",
-    "exposure_by_hour": "By the hour of the day, in an hour of who is there",
+    "exposure_workers": "By worker, in an hour in which he is there, breaks included",
+    "exposure_by_hour": "By the hour of the day, in an hour of who is there, breaks included",
     "exposure_by_task": "By task, in an hour of all workers' time",
     "exposure_by_station": "By station, in an hour of all workers' time",
     "exposure_by_region": "By what the score comes from, in an hour of all workers' time",

@@ -28,7 +28,7 @@ def exposure_sentences(rows: Sequence[Row]) -> list[str]:
         *_where(everybody, bars_by(rows, "exposure_by_task"), bars_by(rows, "exposure_by_station")),
         *_when(bars_by(rows, "exposure_by_hour")),
         *region_sentences(everybody, bars_of_regions(rows)),
-        *_open(everybody),
+        *_open(everybody, find(rows, "posture_measured_share")),
     ]
 
 
@@ -75,8 +75,8 @@ def _when(hours: Sequence[Bar]) -> Iterator[str]:
         yield f"By the hour it is {low} to {high} minutes: no hour is told apart from the others."
         return
     yield (
-        f"The worst hour is that from {worst.subject}, with {_minutes(worst)} minutes of an hour of who is there; the "
-        f"best that from {least.subject}, with {_minutes(least)}."
+        f"The worst hour is that from {worst.subject}, with {_minutes(worst)} minutes of an hour of who is there, "
+        f"breaks included; the best that from {least.subject}, with {_minutes(least)}."
     )
 
 
@@ -90,12 +90,15 @@ def region_sentences(everybody: Bar, regions: Sequence[Bar]) -> Iterator[str]:
             yield f"{words}: {listing(named)}."
 
 
-def _open(everybody: Bar) -> Iterator[str]:
+def _open(everybody: Bar, known: Row | None) -> Iterator[str]:
+    """known : how much of the work is seen at all, where that is asked"""
+    seen = 1.0 if known is None else float(known["mean"])
+    of = f", of the {100 * seen:.0f} % of the work whose posture is known; of the rest nothing" if seen < 0.995 else ""
     if everybody.is_open:
         yield (
             f"All workers together: at least {digits(everybody.five)} and at most {digits(everybody.most)} minutes of "
-            "an hour. What lies between hangs on what nobody said of the tasks (load, grip, force, support) or saw of "
-            "the body: see the assumption sheet."
+            f"an hour{of}. What lies between hangs on what nobody said of the tasks (load, grip, force, support) or "
+            "saw of the body: see the assumption sheet."
         )
 
 

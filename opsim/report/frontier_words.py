@@ -16,6 +16,7 @@ def frontier_sentences(frontier: Any) -> list[str]:
         _front([point.variant for point in frontier.points if point.on_front]),
         *_beaten(frontier),
         *_behind(frontier),
+        *_absent(frontier),
         *_unknown(frontier),
         *_hours(frontier),
     ]
@@ -57,8 +58,18 @@ def _said(points: Sequence[Any], by: str) -> str:
     return f"{said}; and {len(points) - MOST_SAID} more" if len(points) > MOST_SAID else said
 
 
+def _absent(frontier: Any) -> Iterator[str]:
+    """Variants without a figure, as where the effect behind it is off."""
+    by_figures: dict[tuple[str, ...], list[str]] = {}
+    for variant, figures in frontier.absent:
+        by_figures.setdefault(figures, []).append(variant)
+    for figures, variants in by_figures.items():
+        yield f"Not shown, as there is no {' and no '.join(figures)} there: {listing(variants)}."
+
+
 def _unknown(frontier: Any) -> Iterator[str]:
-    unknown = [point.variant for point in frontier.points if point.x.n == 0 or point.y.n == 0]
+    absent = dict(frontier.absent)
+    unknown = [p.variant for p in frontier.points if (p.x.n == 0 or p.y.n == 0) and p.variant not in absent]
     if unknown:
         yield f"Not shown, as a figure was observed in no replication: {listing(unknown)}."
 

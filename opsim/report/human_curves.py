@@ -14,6 +14,8 @@ from opsim.report.words import listing
 
 MOST = 8
 """Curves of a figure: of those who tire or learn most."""
+PAUSE_S, PAUSES, STEPS = 600.0, 40, 16
+"""In pauses longer than this, the longest so many of them, recovery is drawn at so many steps, closer at first."""
 
 
 def curves_section(loaded: Any, result: Any) -> list[dict[str, Any]]:
@@ -59,19 +61,36 @@ def _shown(name: str, title: str, curves: Sequence[Curve], start: str, words: An
 
 
 def _fatigue(log: EventLog, plan: Plan) -> list[Curve]:
-    """A curve a worker: at the beginning and at the end of each piece of work."""
-    from opsim.tiredness import tiredness
+    """A curve a worker: at the beginning and at the end of each piece of work, and through long pauses."""
+    from opsim.tiredness import levels_at, tiredness
 
     found, curves = tiredness(log, plan), []
     worker = log["worker"][found.row]
     for rank, person in enumerate(plan.workers):
         own = worker == rank
         at_s = np.stack([log["start_s"][found.row[own]], log["end_s"][found.row[own]]], axis=1).ravel()
-        if at_s.size:
-            curves.append(
-                Curve(person.name, *thinned(at_s, np.stack([found.begin[own], found.end[own]], axis=1).ravel()))
-            )
+        if not at_s.size:
+            continue
+        value = np.stack([found.begin[own], found.end[own]], axis=1).ravel()
+        pause_s = _pauses_s(at_s)
+        paused = levels_at(log, plan, rank, pause_s) if pause_s.size else pause_s
+        curves.append(_merged(person.name, thinned(at_s, value), (pause_s, paused)))
     return curves
+
+
+def _pauses_s(at_s: np.ndarray) -> np.ndarray:
+    """(P,) times within the long pauses between pieces of work, in their order. at_s : beginnings and ends in turn"""
+    begin_s, end_s = at_s[1:-1:2], at_s[2::2]
+    long = np.flatnonzero(end_s - begin_s > PAUSE_S)
+    long = np.sort(long[np.argsort(begin_s[long] - end_s[long], kind="stable")[:PAUSES]])
+    share = np.linspace(0, 1, STEPS + 1) ** 2
+    return (begin_s[long, None] + (end_s - begin_s)[long, None] * share).ravel()
+
+
+def _merged(name: str, *parts: tuple[np.ndarray, np.ndarray]) -> Curve:
+    at_s, value = (np.concatenate([part[side] for part in parts]) for side in (0, 1))
+    order = np.argsort(at_s, kind="stable")
+    return Curve(name, at_s[order], value[order])
 
 
 def _learning(log: EventLog, plan: Plan) -> list[Curve]:

@@ -11,11 +11,11 @@ from typing import Any
 from opsim.ergonomics.bounds import bounds_of
 from opsim.ergonomics.columns import AT
 from opsim.ergonomics.explained import explain
-from opsim.ergonomics.movement import ScoredMovement, worst_postures
+from opsim.ergonomics.movement import ALIKE_DEG, ScoredMovement, alike, worst_postures
 from opsim.ergonomics.movement_figures import movement_figures
 from opsim.ergonomics.options import Options
 from opsim.plan.handling import Handling
-from opsim.report.course_picture import METHODS, course_svg, level_colour
+from opsim.report.course_picture import METHODS, SLIM_IN, course_svg, level_colour, level_of
 from opsim.report.offline import asset, template
 from opsim.report.posture_picture import posture_svg, room_of, warm
 from opsim.whole import write_text
@@ -64,13 +64,17 @@ def page(said: Said, scored: Sequence[ScoredMovement]) -> str:
     """The page's HTML."""
     worst = list(worst_postures(scored, DRAWN))
     letters = dict(zip(worst, ascii_uppercase))
-    cards = [_card(said, scored[which], posture, letter) for (which, posture), letter in letters.items()]
+    cards = [
+        _card(said, scored[which], posture, letter) | {"like": _like(scored, which, posture)}
+        for (which, posture), letter in letters.items()
+    ]
     return template("scored.html.jinja").render(
         title=said.title,
         style=asset("report.css"),
         figures=[figure.row for figure in movement_figures(scored)],
         cards=_with_pictures(said, cards),
         course=course_svg(scored, letters).decode(),
+        course_slim=course_svg(scored, letters, SLIM_IN).decode(),
         levels=[(words, list(zip(levels, colours))) for words, levels, colours in METHODS.values()],
         drives=[(f"{points:g}", warm(points)) for points in (0.0, 0.5, 1.0, 2.0)],
         options=_options(said.options),
@@ -82,7 +86,8 @@ def _card(said: Said, one: ScoredMovement, posture: int, letter: str) -> dict[st
     """All that is told of one posture, and its joints."""
     movement, measures = one.movement, one.movement.measures[posture]
     bounds, static = bounds_of(said.handling, walking=said.walking), bool(one.static[posture])
-    why = explain(measures, bounds, said.options, repeated=said.repeated, static=static)
+    full = movement.full(posture)
+    why = explain(measures, bounds, said.options, repeated=said.repeated, static=static, carrying=full)
     side = str(why["rula"]["side"])
     return {
         "letter": letter,
@@ -95,7 +100,18 @@ def _card(said: Said, one: ScoredMovement, posture: int, letter: str) -> dict[st
         "angles": _angles(measures, side),
         "drawn_by": why["rula"]["drives"],
         "joints": movement.body(posture),
+        "load_kg": said.handling.load_kg if full else None,
+        "hands": "" if movement.carrying is None else "the load in the hands" if full else "nothing in the hands",
     }
+
+
+def _like(scored: Sequence[ScoredMovement], which: int, posture: int) -> str:
+    """For how long postures are like this one, and in how many movements."""
+    same = alike(scored, which, posture)
+    seconds = sum(float(one.movement.seconds[rows].sum()) for one, rows in zip(scored, same))
+    n = sum(bool(rows.any()) for rows in same)
+    more = f", in {n} of {len(scored)} movements" if len(scored) > 1 else ""
+    return f"Postures like it (angles within {ALIKE_DEG:.0f}°): {seconds:.1f} s{more}"
 
 
 def _with_pictures(said: Said, cards: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -104,7 +120,7 @@ def _with_pictures(said: Said, cards: Sequence[dict[str, Any]]) -> list[dict[str
         return []
     joints = [card["joints"] for card in cards]
     for card in cards:
-        look = {"drives": card["drawn_by"], "side": card["side"], "load_kg": said.handling.load_kg}
+        look = {"drives": card["drawn_by"], "side": card["side"], "load_kg": card["load_kg"]}
         label = f"posture {card['letter']}: {', '.join(angle for angle in card['angles'])}"
         rooms = {view: room_of(joints, said.skeleton, view, card["side"]) for view in VIEWS}
         card["pictures"] = [
@@ -114,11 +130,13 @@ def _with_pictures(said: Said, cards: Sequence[dict[str, Any]]) -> list[dict[str
     return list(cards)
 
 
-def _badge(name: str, why: Mapping[str, Any]) -> dict[str, str]:
-    low, high = why["score"]
-    words = METHODS[name][0]
-    colour = level_colour(name, (low + high) / 2)
-    return {"words": words, "score": _pair((low, high)), "colour": colour, "text": why["text"]}
+def _badge(name: str, why: Mapping[str, Any]) -> dict[str, Any]:
+    """A chip in the colours of both ends, and the words of both where they are of different levels."""
+    words, levels, _ = METHODS[name]
+    low, high = (level_of(levels, score) for score in why["score"])
+    colours = [level_colour(name, score) for score in why["score"]]
+    text = high.text if low == high else f"at least: {low.text}; at most: {high.text}"
+    return {"words": words, "score": _pair(why["score"]), "colours": colours, "text": text}
 
 
 def _rows(why: Mapping[str, Any]) -> list[tuple[str, str, str]]:

@@ -97,6 +97,8 @@ ENDINGS = ("_per_calendar_h", "_per_h", "_per_s", "_h", "_s", "_m", "_kg", "_j",
 ROUNDING = 1e-12
 """A half-width below this share of its mean is 0."""
 ABSENT = "\N{EN DASH}"
+FINEST = 1e-4
+"""No digit of a mean is shown that is smaller than this share of it, however narrow its interval."""
 
 
 def kpi_name(kpi: str, hours: bool = False) -> str:
@@ -117,14 +119,29 @@ def is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def digits(value: Any, half_width: Any = None) -> str:
-    """``value`` as exact as its half-width says (two digits of it below 355, else one), or with four digits."""
+def digits(value: Any, half_width: Any = None, of: float = 0.0) -> str:
+    """``value`` as exact as its half-width says (two digits of it below 355, else one), or with four digits.
+
+    With five digits at most, beyond which nobody's plant is known; of : of what it is a difference, which counts too
+    """
     if not is_number(value):
         return ABSENT
-    scale = _last_digit(abs(half_width)) if is_wide(value, half_width) else abs(value) / 1000
-    places = 0 if scale <= 0 else min(6, max(0, -math.floor(math.log10(scale))))
+    places = _places(value, half_width, of)
     text = f"{value:,.{places}f}"
     return text.lstrip("-") if float(text.replace(",", "")) == 0 else text.replace("-", "\N{MINUS SIGN}")
+
+
+def half_digits(value: float, half_width: float, of: float = 0.0) -> str:
+    """A half-width behind its mean; one that is less than the mean's last digit is rounded up to it."""
+    step = 10.0 ** -_places(value, half_width, of)
+    return f"{step:g}" if 0 < half_width < step else digits(half_width, half_width)
+
+
+def _places(value: float, half_width: Any, of: float = 0.0) -> int:
+    """Digits behind the point."""
+    wide = is_wide(value, half_width)
+    scale = max(_last_digit(abs(half_width)), FINEST * max(abs(value), abs(of))) if wide else abs(value) / 1000
+    return 0 if scale <= 0 else min(6, max(0, -math.floor(math.log10(scale))))
 
 
 def is_wide(value: float, half_width: Any) -> bool:
@@ -196,7 +213,7 @@ def plus_minus(row: Mapping[str, Any], largest: float | None = None) -> str:
     if not is_number(half):
         return f"{digits(row['mean'] * factor)} {unit}".strip()
     step = half * factor if is_wide(row["mean"], half) else 0.0  # type: ignore[operator]
-    return f"{digits(row['mean'] * factor, step)} ± {digits(step, step)} {unit}".strip()
+    return f"{digits(row['mean'] * factor, step)} ± {half_digits(row['mean'] * factor, step)} {unit}".strip()
 
 
 def largest_mean(rows: Iterable[Mapping[str, Any]]) -> float | None:

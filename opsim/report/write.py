@@ -11,9 +11,10 @@ from typing import Any
 from opsim.provenance import behind
 from opsim.report import figures
 from opsim.report.exposure import exposure_section
+from opsim.report.kinds import KINDS, kind_of
 from opsim.report.limit_sentences import limit_sentences
 from opsim.report.offline import asset, policy, template
-from opsim.report.parts import is_shown, part_name
+from opsim.report.parts import is_shown, part_name, without_again
 from opsim.report.posture import SHARES, posture_section
 from opsim.report.sentence import sentences
 from opsim.report.words import clock, interval_cells, kpi_name, largest_mean, quantity
@@ -63,7 +64,7 @@ def report_html(
     """The page as text. Names are escaped: in HTML by jinja2, in JSON by ``tojson``, in figures by ``escape``."""
     bundle, script = asset("assets/plotly-cartesian.min.js"), asset("report.js")
     drawn: dict[str, Any] = {}
-    shown = [row for row in summary["kpis"] if is_shown(row["kpi"], row.get("part", ""), [row])]
+    shown = without_again([row for row in summary["kpis"] if is_shown(row["kpi"], row.get("part", ""), [row])])
     drawn |= {curve["id"]: curve["figure"] for curve in curves}
     hours = "scheduled_h" in summary
     context = {
@@ -116,15 +117,16 @@ def _rows_of(kpi: str, rows: Sequence[Mapping[str, Any]], hours: bool) -> list[d
 
 
 def _groups(rows: Sequence[Mapping[str, Any]], hours: bool) -> list[dict[str, Any]]:
-    """Tables to unfold: figures of the whole together, the others each by itself."""
+    """By what figures are of, tables to unfold: those of the whole together, the others each by itself."""
+    by_kind = {kind: [row for row in rows if kind_of(row["kpi"]) == kind] for kind in KINDS}
+    return [{"title": kind, "tables": _unfolded(of, hours)} for kind, of in by_kind.items() if of]
+
+
+def _unfolded(rows: Sequence[Mapping[str, Any]], hours: bool) -> list[dict[str, Any]]:
     whole = [row for row in rows if not row["subject"]]
     kinds = list(dict.fromkeys(row["kpi"] for row in rows if row["subject"]))
-    groups = [(kpi_name(kind, hours), [row for row in rows if row["kpi"] == kind and row["subject"]]) for kind in kinds]
-    return [
-        {"title": title, "rows": _table(of, hours)}
-        for title, of in [("Other figures of the whole", whole), *groups]
-        if of
-    ]
+    tables = [(kpi_name(kind, hours), [row for row in rows if row["kpi"] == kind and row["subject"]]) for kind in kinds]
+    return [{"title": title, "rows": _table(of, hours)} for title, of in [("Of the whole", whole), *tables] if of]
 
 
 def _states(summary: Mapping[str, Any], drawn: dict[str, Any]) -> list[dict[str, Any]]:

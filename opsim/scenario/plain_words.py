@@ -66,7 +66,7 @@ def _path(loc: tuple[Part, ...]) -> tuple[Part, ...]:
 def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Problem:
     kind, ctx = item["type"], item.get("ctx", {})
     if kind == "extra_forbidden":
-        hint = did_you_mean(path[-1], keys_allowed(item["loc"][:-1]), otherwise="keys here")
+        hint = _block_above(path) or did_you_mean(path[-1], keys_allowed(item["loc"][:-1]), otherwise="keys here")
         return problem(_key_place(tree, path), path, f"unknown key {shown(path[-1])}", hint)
     node = _deepest(tree, path)
     if kind == "plain":
@@ -75,6 +75,13 @@ def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Probl
     message, hint = _wrong_value(kind, ctx, node.value)
     hint = hint or _such_as(kind, ctx, item["loc"])
     return problem(node.name_place if node.value is None else node.place, path, message, hint)
+
+
+def _block_above(path: tuple[Part, ...]) -> str:
+    """Where a key stands in an effect and is one of all effects."""
+    if len(path) == 3 and path[0] == "human" and path[2] in ("acts_on", "absence"):
+        return f"'{path[2]}' stands under 'human' itself, beside '{path[1]}'"
+    return ""
 
 
 def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, str]:

@@ -5,14 +5,16 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from opsim.kpi.names import needs_postures
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
+from opsim.study.no_figure import remedy
 
 PER_SCHEDULED_HOUR, PER_CALENDAR_HOUR = ("throughput_per_h",), "throughput_per_calendar_h"
 ROUNDING = 1e-9
 """Differences below this share of the values are of the order in which numbers were added, not of the variants."""
+FEW = 10
+"""Pairs: in fewer of them the same step everywhere may be luck, as with counts, and says nothing of the spread."""
 
 
 class NotComparable(ValueError):
@@ -49,7 +51,7 @@ class Difference:
 
     @property
     def verdict(self) -> str:
-        """What may be said: higher, lower, no clear difference, identical, other hours, or nothing."""
+        """What may be said: higher, lower, no clear difference, identical, other hours, too few, or nothing."""
         if self.other_hours:
             return "other hours"
         if self.interval.n == 0:
@@ -57,7 +59,7 @@ class Difference:
         if self.identical:
             return "identical"
         if np.isnan(self.p_together):
-            return "one replication says nothing"
+            return "one replication says nothing" if self.interval.n == 1 else "too few replications to say"
         if self.p_together > 1 - CONFIDENCE:
             return "no clear difference"
         return "higher" if self.interval.mean > 0 else "lower"
@@ -144,17 +146,21 @@ def _tested(difference: Difference) -> float:
 def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, float | None]:
     """(interval of the mean of a - b, two-sided p, variance ratio) of pairs; a pair with a nan is left out.
 
-    Differences that are all below ``ROUNDING`` of the values are taken for 0.
+    Differences that are all below ``ROUNDING`` of the values are taken for 0. Where a and b vary, and their difference
+    does not in fewer than ``FEW`` pairs, p is nan; where neither varies, nothing is left to luck.
     """
     from scipy.special import stdtr  # scipy.stats costs three times this import
 
     pairs = np.array([a, b], dtype=float)
     pairs = pairs[:, ~np.isnan(pairs).any(axis=0)]
     apart_by = pairs[0] - pairs[1]
-    if np.abs(apart_by).max(initial=0) <= ROUNDING * np.abs(pairs).max(initial=0):
+    least = ROUNDING * np.abs(pairs).max(initial=0)
+    if np.abs(apart_by).max(initial=0) <= least:
         apart_by = np.zeros_like(apart_by)
     interval = t_interval(apart_by)
     if interval.n < 2:
+        return interval, np.nan, None
+    if interval.n < FEW and interval.mean != 0 and np.ptp(apart_by) <= least < np.ptp(pairs, axis=1).max():
         return interval, np.nan, None
     if interval.sd == 0:
         return interval, 1.0 if interval.mean == 0 else 0.0, None
@@ -199,13 +205,6 @@ def _check(results: Mapping[str, Result], base: str) -> None:
     if len(set(seeds.values())) > 1:
         said = ", ".join(f"{name} has seed {seed}" for name, seed in seeds.items())
         raise NotComparable(f"pairs need the same random numbers: {said}; run all variants with one seed")
-
-
-def remedy(kpi: str, names: set[str]) -> str:
-    """What to do about a figure that is not there: some are made only where the scenario asks for them."""
-    if needs_postures([kpi]):
-        return "it is made where the scenario's 'outputs' list it: add it there, and run again"
-    return did_you_mean(kpi, names)
 
 
 def _keys(base: Result, keys: list[Key], kpis: Sequence[str], by_calendar: bool) -> list[Key]:

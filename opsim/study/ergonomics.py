@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.not_seen import NOT_SEEN
+from opsim.ergonomics.carried import EMPTY_HANDS
+from opsim.ergonomics.not_seen import NOT_SEEN, RULES
 from opsim.ergonomics.options import Options, Thresholds
 from opsim.kpi.better import read_asked
 from opsim.kpi.names import REGION, SCORED
@@ -37,6 +38,7 @@ def ergonomics(loaded, plan: Plan) -> Lines:
     yield from _unsaid(bodies)
     yield from (("not seen", f"{listed(names)}: {sentence}") for sentence, names in lacking(bodies).items())
     yield from (("not seen", sentence) for sentence in NOT_SEEN)
+    yield from (("by rule", sentence) for sentence in RULES)
 
 
 def _sent_by_dose() -> str:
@@ -63,8 +65,9 @@ def _forks(options: Options) -> Lines:
     )
     yield (
         "scores",
-        "repeated (RULA's muscle use, REBA's activity): the worker began the same task at least 4 times within a "
-        "minute; static: a posture was held for more than a minute; both are taken from the whole shift",
+        "repeated (RULA's muscle use, REBA's activity): the worker did the same task at least 4 times a minute, "
+        "which is a cycle of 15 s or less (4 beginnings within 45 s); static: a posture was held for more than a "
+        "minute; both are taken from the whole shift",
     )
     if options.waiting == "upright":
         yield "scores", "who waits is taken as standing upright with hanging arms, which nobody has seen"
@@ -76,8 +79,10 @@ def _counted(plan: Plan) -> Lines:
         yield (
             "scores",
             "figures of scores and of raised arms count walking too; a walk that is not looked at has the postures of "
-            "the one of the same worker that is nearest in length",
+            "the one of the same worker that is nearest in length; figures of the trunk are of work alone, so those by "
+            "task, station or product sum to more than they say",
         )
+        yield "scores", f"{EMPTY_HANDS}: as heavy as it is told, else of any mass"
     if plan.ergonomics.waiting == "upright":
         yield "scores", "they count waiting too, as said above; breaks, meetings and absence are never counted"
 
@@ -99,6 +104,9 @@ def _loads(tasks: list[TaskPlan]) -> Lines:
     said = [f"{task.name} {_load(task.handling)}" for task in tasks if task.handling.load_kg]
     if said:
         yield "loads", f"in the hands, as the scenario says: {listed(said)}"
+    teams = [task.name for task in tasks if task.handling.load_kg and task.team > 1]
+    if teams:
+        yield "loads", f"{listed(teams)}: in the hands of each member of the team"
 
 
 def _load(handling: Handling) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from opsim.study.manifest import deciding, library_files, manifest_of, recorded_files
-from opsim.study.resolved import differences, read_resolved, resolved_text, with_run
+from opsim.study.resolved import decides_figures, differences, read_resolved, resolved_text, with_run
 from opsim.whole import whole_file, write_json, write_text
 
 MANIFEST, RESOLVED = "manifest.json", "scenario.resolved.yaml"
@@ -29,7 +29,8 @@ def open_folder(folder: Path, loaded, seed: int, replications: int, *, overwrite
         _empty(folder)
     elif (words := other_run(folder, loaded, seed)) is not None:
         raise OtherRun(words)
-    if _read_manifest(folder) != manifest or _decided_figures(folder) != _figures_of(loaded.resolved):
+    held = _read_resolved(folder)
+    if _read_manifest(folder) != manifest or not held or decides_figures(held) != decides_figures(loaded.resolved):
         _remove(folder, RESULTS)
     _copy_inputs(folder, loaded)
     say_replications(folder, loaded, seed, replications)
@@ -105,15 +106,6 @@ def _empty(folder: Path) -> None:
 def _remove(folder: Path, names: tuple[str, ...]) -> None:
     for name in names:
         (folder / name).unlink(missing_ok=True)
-
-
-def _figures_of(resolved: dict[str, Any]) -> tuple[Any, ...]:
-    return resolved.get("outputs"), resolved["run"].get("warm_up")
-
-
-def _decided_figures(folder: Path) -> tuple[Any, ...]:
-    held = _read_resolved(folder)
-    return _figures_of(held) if isinstance(held.get("run"), dict) else ()
 
 
 def _read_resolved(folder: Path) -> dict[str, Any]:

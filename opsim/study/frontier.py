@@ -12,8 +12,9 @@ from opsim.kpi.better import LESS, MORE, Asked
 from opsim.kpi.names import KPIS
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
-from opsim.study.compare import PER_SCHEDULED_HOUR, ROUNDING, NotComparable, holm, paired, remedy, scheduled_hours
+from opsim.study.compare import PER_SCHEDULED_HOUR, ROUNDING, NotComparable, holm, paired, scheduled_hours
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
+from opsim.study.no_figure import remedy
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +40,8 @@ class Frontier:
 
     other_hours : whether a figure is per scheduled hour and variants are open for different hours, so that what is
         better says nothing of what comes out, and nothing is clear
+    absent : (variant, the figures that do not exist there), as where the effect that makes them is off; such a variant
+        has no mean of them, and is beside the others
     """
 
     x: Key
@@ -48,6 +51,7 @@ class Frontier:
     points: tuple[Point, ...]
     n: int
     other_hours: bool = False
+    absent: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
 def non_dominated(values: np.ndarray) -> np.ndarray:
@@ -67,7 +71,7 @@ def dominates(values: np.ndarray) -> np.ndarray:
 
 
 def frontier_of(results: Mapping[str, Result], x: Asked, y: Asked) -> Frontier:
-    """Where each variant stands.
+    """Where each variant stands; a variant in which a figure does not exist stands nowhere, and is named.
 
     Raises NotComparable, all mistakes at once: unknown figures, figures whose better way is not known, one figure
     twice, results of other seeds; OSError where results cannot be read.
@@ -77,14 +81,19 @@ def frontier_of(results: Mapping[str, Result], x: Asked, y: Asked) -> Frontier:
     _one_luck(results)
     shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
     values = {  # (2, n) by variant
-        name: np.array([[table[key].get(r, np.nan) for r in shared] for key in keys], dtype=float)
+        name: np.array([[table.get(key, {}).get(r, np.nan) for r in shared] for key in keys], dtype=float)
         for name, table in tables.items()
     }
     hours = scheduled_hours(results)
     other_hours = len(set(hours.values())) > 1 and any(key[0] in PER_SCHEDULED_HOUR for key in keys)
     signs = np.array([1.0 if asked.better == MORE else -1.0 for asked in (x, y)])
     points = placed(values, signs, tested=not other_hours)
-    return Frontier(keys[0], keys[1], x.better, y.better, points, len(shared), other_hours)
+    absent = tuple((name, lacking) for name, table in tables.items() if (lacking := _lacking(keys, table)))
+    return Frontier(keys[0], keys[1], x.better, y.better, points, len(shared), other_hours, absent)
+
+
+def _lacking(keys: Sequence[Key], table: Mapping[Key, object]) -> tuple[str, ...]:
+    return tuple(Asked(*key[:3]).name for key in keys if key not in table)
 
 
 def placed(values: Mapping[str, np.ndarray], signs: np.ndarray, *, tested: bool = True) -> tuple[Point, ...]:
@@ -133,7 +142,7 @@ def _clearly(values: Mapping[str, np.ndarray], signs: np.ndarray) -> set[tuple[s
 
 def _keys(tables: Mapping[str, Mapping[Key, object]], asked: Sequence[Asked]) -> list[Key]:
     known: list[Key] = list(dict.fromkeys(key for table in tables.values() for key in table))
-    wrong = [words for one in asked if (words := _wrong(one, known, tables))]
+    wrong = [words for one in asked if (words := _wrong(one, known))]
     if not wrong and asked[0].name == asked[1].name:
         wrong = [f"the frontier needs two different figures, found {asked[0].name} twice"]
     if wrong:
@@ -141,7 +150,7 @@ def _keys(tables: Mapping[str, Mapping[Key, object]], asked: Sequence[Asked]) ->
     return [next(key for key in known if key[:3] == (one.kpi, one.subject, one.part)) for one in asked]
 
 
-def _wrong(asked: Asked, known: Sequence[Key], tables: Mapping[str, Mapping[Key, object]]) -> str:
+def _wrong(asked: Asked, known: Sequence[Key]) -> str:
     """What is wrong with one figure that was asked for; nothing where all is well."""
     names = dict.fromkeys(key[0] for key in known)
     if asked.kpi not in names:
@@ -149,9 +158,6 @@ def _wrong(asked: Asked, known: Sequence[Key], tables: Mapping[str, Mapping[Key,
     of = {Asked(*key[:3]).name: key for key in known if key[0] == asked.kpi}
     if asked.name not in of:
         return f"no figure {asked.name!r}; {did_you_mean(asked.name, of, otherwise='there are')}"
-    lacking = [name for name, table in tables.items() if of[asked.name] not in table]
-    if lacking:
-        return f"{asked.name}: there is no such figure in {', '.join(lacking)}"
     if asked.better not in (MORE, LESS):
         said = f"write '{MORE} {asked.name}' or '{LESS} {asked.name}'"
         return f"{asked.name}: which way is better depends on who asks: {said}"

@@ -25,6 +25,10 @@ ASSUMED = {
     "forgetting": "all pauses between two performances of a task count by their length alone",
 }
 """What no source bears out."""
+RESTS = (
+    "who does not perform a task rests, as far as fatigue goes, wholly: also who walks or carries something from one "
+    "place to another, and who waits standing"
+)
 
 
 def human(loaded, plan: Plan) -> Lines:
@@ -35,6 +39,8 @@ def human(loaded, plan: Plan) -> Lines:
         if block is not None:
             yield TOPIC, f"{_words(entry(effect, block.model), block, effect, loaded.given)}; {ASSUMED[effect]}"
     yield from _postures(plan)
+    if plan.human.fatigue is not None:
+        yield TOPIC, RESTS
     yield from _bodies(plan)
     yield from _experience(plan)
     if said.absence:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.energy import BENT_DEG, SQUAT_DEG
+from opsim.ergonomics.bends import BENT_DEG, SQUAT_DEG
+from opsim.ergonomics.carried import EMPTY_HANDS
+from opsim.ergonomics.garg import BENCH_M
 from opsim.ergonomics.holds import STATIC_WORK
+from opsim.ergonomics.lifting import seated
 from opsim.ergonomics.lifting_pattern import PAUSE_S
 from opsim.ergonomics.lifts import LEAST_TRAVEL_M
+from opsim.ergonomics.limits import EN_1005_4
 from opsim.ergonomics.rest_allowance import PRICE_ACCEPTABLE_W, PRICE_RESTING_W, STANDARD_KCAL_PER_MIN
 from opsim.ergonomics.strength import HEIGHT_M, MASS_KG
 from opsim.kpi.better import read_asked
 from opsim.kpi.names import ENERGY, HELD, LIFTED, REST
 from opsim.names import listed
 from opsim.plan import Plan
+from opsim.plan.tasks import TaskPlan
 
 Lines = Iterator[tuple[str, str]]
 
@@ -24,7 +29,7 @@ def strain(loaded, plan: Plan) -> Lines:
         return
     asked = {*loaded.scenario.outputs, *(read_asked(one).kpi for one in loaded.scenario.frontier or ())}
     if not asked.isdisjoint(LIFTED):
-        yield from (("lifting", sentence) for sentence in _lifting())
+        yield from (("lifting", sentence) for sentence in _lifting(plan))
     if not asked.isdisjoint(HELD):
         yield from (("limits", sentence) for sentence in _holding())
     if not asked.isdisjoint((*ENERGY, *REST)):
@@ -33,7 +38,7 @@ def strain(loaded, plan: Plan) -> Lines:
         yield "rest", _resting()
 
 
-def _lifting() -> Iterator[str]:
+def _lifting(plan: Plan) -> Iterator[str]:
     yield (
         "a lift is a performance with a load whose hands go up or down by at least "
         f"{LEAST_TRAVEL_M * 100:g} cm between the first and the last posture with it; lowering counts alike; distances "
@@ -45,8 +50,26 @@ def _lifting() -> Iterator[str]:
     )
     yield (
         f"a time of more than {PAUSE_S / 60:g} min without a lift is recovery; lifts a minute are those of the time of "
-        "lifting; beyond the equation's range (63 cm, 175 cm, 135 degrees, too often) the edge of the range stands"
+        "lifting; beyond the equation's range (63 cm, 175 cm, 135 degrees, too often) the edge of the range stands, "
+        "and what is told as at most is no bound there: lifts_out_of_range_share tells how many these are"
     )
+    yield (
+        "the duration of lifting is that of the shift: where only a part of a shift was simulated, the rest of it goes "
+        "on as that part; a composite index at least and at most is sought over all orders its lifts may have"
+    )
+    unknown = [worker.name for worker in plan.workers if worker.duties is None]
+    if unknown:
+        yield f"{listed(unknown)}: no shifts: lifting lasts at least as long as in the run, and at most 8 h"
+    sitting = [task.name for task, sits in zip(plan.tasks, seated(plan)) if sits and task.handling.load_kg]
+    if sitting:
+        yield f"{listed(sitting)}: done sitting, for which the equation is not made: no index, and none in composites"
+    yield from _teams(plan)
+
+
+def _teams(plan: Plan) -> Iterator[str]:
+    names = [task.name for task in plan.tasks if task.team > 1 and task.handling.load_kg]
+    if names:
+        yield f"{listed(names)}: load is what each member of the team has in the hands, here as in energy and fatigue"
 
 
 def _holding() -> Iterator[str]:
@@ -57,8 +80,14 @@ def _holding() -> Iterator[str]:
     )
     yield (
         f"held still: within {STATIC_WORK.band_deg:g} degrees for more than {STATIC_WORK.least_s:g} s, and out of "
-        f"neutral ({STATIC_WORK.trunk_deg:g} degrees of trunk and arms, {STATIC_WORK.neck_deg:g} of the neck), also "
-        "from one performance to the next; a slow drift within these is still; movements are counted by the minute"
+        f"neutral ({STATIC_WORK.trunk_deg:g} degrees of trunk and arms, {STATIC_WORK.neck_deg:g} of the neck, "
+        f"{STATIC_WORK.backward_deg:g} backward), also from one performance to the next; what drifts farther than this "
+        "is several holds, the longest first, each judged at its mean angle"
+    )
+    yield (
+        f"up to {EN_1005_4.trunk.leeway_deg:g} degrees backward are upright, in both standards; an arm is backward "
+        "where it is behind the plane of the trunk; how often one moves is counted by the minute of the clock, for "
+        "each zone at the edge at which it begins"
     )
 
 
@@ -67,8 +96,14 @@ def _energy(plan: Plan) -> Iterator[str]:
         f"one is bent from {BENT_DEG:g} degrees of trunk flexion, and lifts from the knees where they are bent by "
         f"{SQUAT_DEG:g} degrees; breaks are sat, waiting is stood; who walks within a task, as his feet tell, walks at "
         "the speed of his ways; not in it: tools, pushing, pulling; at most: light work of both arms while he stands "
-        "at work without a load"
+        "at work without a load, and the body's part of lowering and lifting for each way down and up without a load "
+        f"(hands below {BENCH_M * 100:g} cm, bent in the trunk or the knees), which at least leaves out"
     )
+    yield _walking(plan)
+    marks = [task.name for task in plan.tasks if task.handling.load_kg and not _timed(task)]
+    if marks:
+        yield f"{listed(marks)}: no body tells when hands are full: the load is held never at least, always at most"
+    yield from _teams(plan)
     heavy = [worker.name for worker in plan.workers if worker.body.mass_kg is None]
     if heavy:
         yield f"{MASS_KG:g} kg are taken for {listed(heavy)}, whose mass nobody told"
@@ -77,9 +112,21 @@ def _energy(plan: Plan) -> Iterator[str]:
         yield f"of both sexes the range, for {listed(unknown)}, of whom nobody told"
 
 
+def _timed(task: TaskPlan) -> bool:
+    """Whether it is known when its load is in the hands."""
+    return task.handling.by_share or getattr(task.model, "skeleton", None) is not None
+
+
+def _walking(plan: Plan) -> str:
+    unknown = [one.name for one in plan.products if one.carried and one.mass_kg is None]
+    nothing = f"; {listed(unknown)}: no mass told, so nothing" if unknown else ""
+    return f"{EMPTY_HANDS} (as much of a lot as they may carry at once, also on its last way){nothing}"
+
+
 def _resting() -> str:
     standard = STANDARD_KCAL_PER_MIN
     return (
+        "shares are of the time at work (there, and in no break) with the rest it asks for; "
         f"Murrell: {standard['m']:g} kcal/min may be spent all day ({standard['f']:g} by women, both where it is not "
         f"said); Price: {PRICE_ACCEPTABLE_W:g} W, {PRICE_RESTING_W:g} W at rest, from memory and to be checked; "
         f"Rohmert: of the back and of straight arms, without load, of {HEIGHT_M:g} m where no height is told"

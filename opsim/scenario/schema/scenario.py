@@ -65,6 +65,11 @@ def _two(figures: list[str]) -> list[str]:
 Frontier = Annotated[list[Annotated[str, BeforeValidator(_known_figure)]], AfterValidator(_two)]
 
 
+def _nothing(value: object) -> object:
+    """``human: null`` in an override switches all effects off."""
+    return {} if value is None else value
+
+
 def _version_1(value: object) -> object:
     if isinstance(value, bool) or value != 1:
         raise plain_error(f"expected 1, found {shown(value)}", "this opsim reads version 1 of the language: 'opsim: 1'")
@@ -165,7 +170,7 @@ class Scenario(Block):
         description="how postures are scored",
         examples=["{arm_reference: gravity}"],
     )
-    human: Human = Field(
+    human: Annotated[Human, BeforeValidator(_nothing)] = Field(
         default_factory=Human.model_construct,
         description="what becomes of people as they work: learning, fatigue, pace; every effect is off unless named",
         examples=["{learning: {model: wright, rate: 0.85}}"],

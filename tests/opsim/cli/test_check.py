@@ -152,3 +152,10 @@ def test_where_hours_are_kept_check_says_of_which_hours_it_speaks_and_agrees_wit
 def test_without_hours_check_speaks_of_hours_alone(tmp_path):
     code, shown, _ = opsim("check", line(tmp_path))
     assert code == 0 and "jobs per h at most" in shown and "scheduled" not in shown
+
+
+def test_effects_that_are_on_and_that_loads_know_nothing_of_are_named(tmp_path):
+    human = "human: {learning: {model: wright}, fatigue: {model: lffrm}, rest: {above: 0.5, until: 0.2}}\n"
+    code, shown, _ = opsim("check", line(tmp_path, ONE_SHIFT + human))
+    assert code == 0 and "bottleneck are without learning, fatigue and rest by need (on under" in shown
+    assert "bottleneck are without" not in opsim("check", line(tmp_path, ONE_SHIFT))[1]

@@ -81,6 +81,30 @@ def test_a_scenario_that_asks_for_a_frontier_has_one(tmp_path):
     assert code == 0 and "Two figures against each other" in shown
 
 
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (["--frontier", "throughput_per_hour,time_in_system_s"], "did you mean 'throughput_per_h'"),
+        (["--frontier", "throughput_per_h,queue_length"], "it is of each station: say which, such as queue_length/"),
+        (["--frontier", "throughput_per_h,less queue_length/pres"], "did you mean 'press'"),
+        (["--frontier", "throughput_per_h,rula_mean"], "it is made where the scenario's 'outputs' list it"),
+        (["--frontier", "throughput_per_h"], "expected two figures and a comma between them"),
+        (["--base", "wide"], "did you mean 'wider'"),
+        (["--kpi", "throughput_per_hour"], "did you mean 'throughput_per_h'"),
+    ],
+)
+def test_names_that_do_not_exist_are_found_before_anything_is_run(tmp_path, words, said):
+    code, shown, complaint = opsim("compare", line(tmp_path, TWO), "-o", tmp_path / "out", *words)
+    assert code == 2 and said in complaint and not shown and not (tmp_path / "out").exists()
+
+
+def test_after_the_runs_no_frontier_takes_the_comparison_with_it(tmp_path):
+    words = ("--frontier", "throughput_per_h,first_pass_yield")
+    code, shown, complaint = opsim("compare", line(tmp_path, TWO), "-o", tmp_path / "out", *words)
+    assert code == 0 and "wider" in shown and (tmp_path / "out" / "compare.html").is_file()
+    assert "no picture of two figures against each other: no figure 'first_pass_yield'" in complaint
+
+
 @pytest.mark.parametrize("words", [[], ["--json"]])
 def test_where_no_page_can_be_written_the_table_is_told_all_the_same(results, monkeypatch, words):
     def refuse(path, _):

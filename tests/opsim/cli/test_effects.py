@@ -31,3 +31,8 @@ def test_an_unknown_effect_is_a_mistake_with_the_nearest_word():
     assert opsim("effects", "fatige" if "fatigue" in EFFECTS else "learnin")[0] == 2
     code, _, complaint = opsim("effects", "learnin")
     assert code == 2 and complaint == "no effect 'learnin'; did you mean 'learning'?\n"
+
+
+def test_keys_of_all_effects_are_told_below_the_table():
+    _, shown, _ = opsim("effects")
+    assert "acts_on: posture" in shown and "absence: 0.05" in shown

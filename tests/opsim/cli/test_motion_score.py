@@ -10,6 +10,7 @@ from emulator.recordings.bvh_write import write_bvh
 from emulator.recordings.take import Recording, Take
 from emulator.recordings.takes_npz import write_recording
 from emulator.skeleton import standard_skeleton
+from opsim.ergonomics.not_seen import NOT_SEEN, RULES
 from tests.opsim.cli.calls import opsim
 from tests.opsim.ergonomics.bodies import bent
 
@@ -135,7 +136,12 @@ def test_a_rate_that_is_no_rate_is_refused(recording, rate):
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (["--load=-3 kg"], "expected a mass of 0 kg or more"),
+        (["--load=-3 kg"], "expected a mass of 0 kg to 500 kg in both hands"),
+        (["--load", "3000 kg"], "expected a mass of 0 kg to 500 kg in both hands"),
+        (["--loaded", "0.8..0.2"], "--loaded: found '0.8..0.2', expected FROM..TO"),
+        (["--loaded", "1..5"], "--loaded: found '1..5', expected FROM..TO"),
+        (["--loaded", "grasp"], "--loaded: found 'grasp', expected FROM..TO"),
+        (["--loaded", "grasp..1"], "no mark 'grasp'; the movement has no marks, only shares"),
         (["--load", "3 m"], "--load: "),
         (["--neck-neutral", "95 deg"], "expected -90 deg to 90 deg"),
         (["--threshold", "across_m=9 deg"], "--threshold across_m: "),
@@ -185,9 +191,128 @@ def test_postures_that_are_nan_are_counted_as_not_known(tmp_path):
     assert "nan" not in page.read_text().split("<body>")[1].lower()
 
 
-def test_a_recording_of_nothing_but_gaps_has_no_figures(tmp_path):
-    lost = replace(take(0, 70), positions_m=np.full((24, 21, 3), np.nan))
-    write_recording(Recording((lost,), "made", "MIT"), tmp_path / "lost.npz")
-    code, shown, _ = opsim("motion", "score", tmp_path / "lost.npz", "-o", tmp_path / "page.html")
-    assert code == 0 and "not known" in shown and "100.0 % of the time" in shown
-    assert "Nothing is known of any posture" in (tmp_path / "page.html").read_text()
+def changed(tmp_path, change):
+    """A recording of one take of 0 and 70 degrees whose positions were changed."""
+    made = take(0, 70)
+    write_recording(Recording((replace(made, positions_m=change(made.positions_m.copy())),)), tmp_path / "it.npz")
+    return tmp_path / "it.npz"
+
+
+def without(joints, frames=slice(None)):
+    def change(positions):
+        positions[frames, [SKELETON.names.index(name) for name in joints]] = np.nan
+        return positions
+
+    return change
+
+
+def once_far_off(positions):
+    positions[3] = 1e12
+    return positions
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (lambda m: m * np.nan, "found no position at all"),
+        (lambda m: m * 0.0, "found a body of 0 m, expected 1.05 to 2.35 m: it is not in metres"),
+        (lambda m: m * 1000.0, "it is not in metres; see `opsim motion import`"),
+        (once_far_off, "found a coordinate of 1e+12 m, expected a place in metres"),
+        (lambda m: m[..., [1, 2, 0]], "found a body that stands along y, expected z: it does not stand upright"),
+        (without(SKELETON.names[:3] + SKELETON.names[4:]), "found no posture of which anything is known"),
+    ],
+)
+def test_what_is_no_upright_body_in_metres_is_refused(tmp_path, change, expected):
+    code, shown, said = opsim("motion", "score", changed(tmp_path, change), "-o", tmp_path / "page.html")
+    assert code == 2 and not shown and expected in said and "it.npz" in said
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_takes_with_one_fault_are_one_sentence(tmp_path):
+    two = [replace(take(0, 40, trial=str(k)), positions_m=take(0, 40).positions_m * (1000.0 + k)) for k in range(2)]
+    write_recording(Recording((*two, take(0, 40, trial="good"))), tmp_path / "mm.npz")
+    _, _, said = opsim("motion", "score", tmp_path / "mm.npz")
+    assert said.count("it is not in metres") == 1 and "takes ana/0, ana/1: found" in said and "good" not in said
+
+
+def test_a_body_that_lies_all_along_is_scored_with_a_word(tmp_path):
+    """On the floor, its back at 0: nothing tells another axis, so it may well lie."""
+    file = changed(
+        tmp_path, lambda m: np.stack([-m[..., 2], m[..., 1], m[..., 0] - m[..., 0].min(axis=1)[:, None]], axis=-1)
+    )
+    assert any("does not stand upright at any time" in note for note in told(file)["notes"])
+
+
+@pytest.mark.parametrize(
+    ("joints", "expected"),
+    [
+        (["left_wrist"], "missing: no left wrist:"),
+        (["left_hip", "right_hip"], "missing: no hips:"),
+        (["left_shoulder", "left_elbow", "left_wrist", "left_hand"], "missing: no left elbow:"),
+    ],
+)
+def test_joints_that_are_never_seen_are_named(tmp_path, joints, expected):
+    assert any(note.startswith(expected) for note in told(changed(tmp_path, without(joints)))["notes"])
+
+
+def test_joints_that_are_seen_at_times_are_named_with_their_share(tmp_path):
+    """6 of 24 frames."""
+    notes = told(changed(tmp_path, without(["right_hand"], slice(6))))["notes"]
+    assert [note for note in notes if note.startswith("missing")] == [
+        "missing: not seen for a part of the time, where scores are wider: right hand 25.0 %"
+    ]
+
+
+def test_takes_of_which_nothing_is_known_are_named(tmp_path):
+    lost = replace(take(0, 70, trial="lost"), positions_m=np.full((24, 21, 3), np.nan))
+    write_recording(Recording((take(0, 70), lost)), tmp_path / "lost.npz")
+    assert "missing: nothing is known of ana/lost" in told(tmp_path / "lost.npz")["notes"]
+
+
+# When the hands are full
+
+
+@pytest.fixture
+def marked(tmp_path):
+    """Two seconds upright, 24 frames; a mark in frame 12."""
+    write_recording(Recording((replace(take(0, 0), mark_frame={"grasp": 12.0}),)), tmp_path / "marked.npz")
+    return tmp_path / "marked.npz"
+
+
+@pytest.mark.parametrize(
+    ("moments", "share"), [("grasp..1.0", 0.5), ("grasp..", 0.5), ("0.25..grasp", 0.25), ("..", 1)]
+)
+def test_a_load_counts_between_its_moments(marked, moments, share):
+    """12 kg scores more than nothing: the mean of times with and without it tells for how long it counted."""
+    words = [*ALL_SAID[2:], "--grip", "good", "--force", "repeated"]
+    held, none = (told(marked, *words, "--load", load)["figures"]["rula_mean"]["low"] for load in ("12 kg", "0.1 kg"))
+    found = told(marked, *words, "--load", "12 kg", "--loaded", moments)
+    empty = told(marked, *ALL_SAID)["figures"]["rula_mean"]["low"]
+    assert held > none >= empty
+    assert found["figures"]["rula_mean"]["low"] == pytest.approx(empty + share * (held - empty))
+    assert any(f"{100 * share:.1f} % of the time; empty hands before and after" in note for note in found["notes"])
+
+
+def test_where_nobody_says_when_the_load_is_held_that_is_told(marked):
+    (said,) = [note for note in told(marked, "--load", "8 kg")["notes"] if "in the hands" in note]
+    assert said == "8 kg in the hands all the time, as nobody said when (--loaded FROM..TO; marks: grasp)"
+    assert not any("in the hands" in note for note in told(marked, "--load", "0 kg")["notes"])
+
+
+def test_marks_that_a_movement_does_not_have_are_refused_with_the_nearest(marked):
+    code, _, said = opsim("motion", "score", marked, "--loaded", "grsp..1", "--load", "-1 kg")
+    assert code == 2 and "--loaded: no mark 'grsp'; did you mean 'grasp'?" in said and "--load: found" in said
+    code, _, said = opsim("motion", "score", marked, "--loaded", "grasp..0.1")
+    assert code == 2 and "found hands full at no time from grasp to 10 %" in said
+
+
+def test_draws_have_their_own_marks():
+    found = told("bench_work/stoop", "-n", 3, "--load", "8 kg", "--loaded", "grasp..lift_off")
+    always = told("bench_work/stoop", "-n", 3, "--load", "8 kg")
+    assert found["figures"]["rula_mean"]["high"] < always["figures"]["rula_mean"]["high"]
+
+
+def test_what_no_skeleton_shows_is_kept_apart_from_how_the_methods_were_read(recording):
+    notes = told(recording)["notes"]
+    assert [note for note in notes if note.startswith("not seen: ")] == [f"not seen: {one}" for one in NOT_SEEN]
+    assert [note for note in notes if note.startswith("by rule: ")] == [f"by rule: {one}" for one in RULES]

@@ -72,3 +72,19 @@ def test_of_exposure_by_anything_what_there_is_at_least_is_shown_in_plain_words(
     shown = capsys.readouterr().out
     assert "lift RULA 5 or more" in shown and "RULA 5 or more, at most" not in shown and "RULA 7" not in shown
     assert "at most" in shown and "whoever has most" in shown
+
+
+def test_at_most_is_shown_only_where_it_is_more_than_at_least_in_some_variant(capsys):
+    def rows(ana, ben):
+        found = [
+            ("ana", "", 2.0),
+            ("ana", "at_most", ana),
+            ("ben", "", 3.0),
+            ("ben", "at_most", ben),
+            ("", "worst", 3.0),
+        ]
+        return [kpi("rula_from_5_min_per_h", of, part, "min/h", mean, 0.0, headline=True) for of, part, mean in found]
+
+    print_results("made", {"base": result(*rows(2.0, 3.0)), "open": result(*rows(2.0, 5.0))})
+    shown = capsys.readouterr().out
+    assert "ben at most" in shown and "ana at most" not in shown and "whoever has most" in shown

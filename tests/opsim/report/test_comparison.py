@@ -1,9 +1,11 @@
 import math
 import re
 
+import numpy as np
+
 from opsim.report.comparison import comparison_cells, comparison_html
 from opsim.report.interval_picture import intervals_svg
-from opsim.study.compare import Comparison, Difference
+from opsim.study.compare import Comparison, Difference, paired
 from opsim.study.interval import Interval
 
 HARM = '<script>alert("x")</script>'
@@ -43,3 +45,11 @@ def test_a_picture_has_a_dot_a_variant_and_a_line_at_zero():
 
 def test_a_picture_of_nothing_but_zero_is_still_a_picture():
     assert "nan" not in intervals_svg([("same", 0.0, 0.0, 0.0, "identical")], "min")
+
+
+def test_a_difference_far_below_what_it_is_of_shows_no_digits_of_its_own():
+    """Rest of 2.756183 and 2.756181 minutes: a difference of a millionth of it is 0 to whoever reads."""
+    base = np.array([2.756183, 2.756184, 2.756182])
+    interval, p, ratio = paired(base - [2e-6, 1e-6, 3e-6], base)
+    cells = comparison_cells(Difference("b", ("x", "", "", "min/h"), 2.756183, 2.756181, interval, p, p, ratio))
+    assert (cells["base"], cells["difference"], cells["relative"]) == ("2.7562", "0.0000 ± 0.0001", "0.00 %")

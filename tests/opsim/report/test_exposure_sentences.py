@@ -12,7 +12,14 @@ def test_who_where_when_and_which_region_are_said_with_their_intervals():
     assert "worst hour is that from 06:00" in said and "best that from 07:00" in said
     assert "What brings people to RULA 5 or more: the trunk (60 %) and the load (40 %)." in said
     assert "What brings them to RULA 7: the trunk (75 %) and the load (25 %)." in said
-    assert "at least 20.00 and at most 24.00 minutes" in said
+    assert "at least 20.00 and at most 24.00 minutes" in said and "of an hour of who is there, breaks included" in said
+
+
+def test_how_much_of_the_work_is_seen_is_said_with_the_bounds():
+    known = row("posture_measured_share", "", "", 0.56, 0.01) | {"unit": "share"}
+    said = exposure_sentences([*ROWS, known])[-1]
+    assert "24.00 minutes of an hour, of the 56 % of the work whose posture is known" in said
+    assert "is known" not in exposure_sentences([*ROWS, known | {"mean": 1.0}])[-1]
 
 
 def test_how_evenly_three_workers_share_it_is_said():

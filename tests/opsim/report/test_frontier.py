@@ -21,6 +21,13 @@ def frontier(means, **more):
     return Frontier(*KEYS, "more", "less", placed(values, np.array([1.0, -1.0])), 10, **more)
 
 
+def test_a_variant_without_a_figure_is_said_with_the_figure():
+    values = {"a": np.array([[1.0, 2.0], [1.0, 2.0]]), "plain": np.array([[1.0, 2.0], [np.nan] * 2])}
+    found = Frontier(*KEYS, "more", "less", placed(values, np.array([1.0, -1.0])), 2, False, (("plain", ("tired",)),))
+    said = frontier_sentences(found)
+    assert "Not shown, as there is no tired there: plain." in said and not any("observed" in one for one in said)
+
+
 THREE = frontier({"floor": (50, 30), "hip": (55, 20), "slow": (40, 10)})
 
 

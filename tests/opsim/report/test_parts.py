@@ -1,6 +1,6 @@
 """Parts of figures in words, and which are shown."""
 
-from opsim.report.parts import is_shown, part_name
+from opsim.report.parts import is_shown, part_name, without_again
 from opsim.report.write import report_html
 from tests.made_result import kpi, summary
 
@@ -27,3 +27,25 @@ def test_the_report_lists_of_interruptions_what_there_was():
     page = report_html(summary(kpis=[*rows, *broken_off("weld", **FATES)]), {}, {})
     assert page.count("gone on with by the same one") == 2 and "weld · gone on with by the same one" in page
     assert "by_another" not in page and "gone on with by another" not in page and "handed over" not in page
+
+
+def test_nothing_of_a_figure_that_has_parts_alone_is_an_answer_and_the_unknown_none():
+    for name in ("rest_allowance_share", "iso_11226_min_per_h", "exposure_gini"):
+        assert is_shown(name, "murrell", [{"mean": 0.0}]) and not is_shown(name, "murrell", [{"mean": None}])
+    rows = [kpi("iso_11226_min_per_h", "ana", "trunk", "min/h", 0.0, 0.0)]
+    assert "Held beyond ISO 11226" in report_html(summary(kpis=rows), {}, {})
+
+
+def test_what_there_is_at_most_is_left_out_where_it_is_what_there_is_at_least():
+    rows = [
+        kpi("rest_allowance_share", "ana", part, "share", mean)
+        for part, mean in [("murrell", 0.1), ("murrell_at_most", 0.1), ("price", 0.1), ("price_at_most", 0.2)]
+    ]
+    alone = kpi("lifting_index", "lift", "at_most", "", 2.0)
+    assert without_again([*rows, alone]) == [rows[0], rows[2], rows[3], alone]
+
+
+def test_the_report_leaves_them_out_too():
+    rows = [kpi("rula_mean", "ana", part, "", 3.0) for part in ("", "at_most")]
+    page = report_html(summary(kpis=[*rows, kpi("rula_p90", "ana", "", "", 3.0)]), {}, {})
+    assert "at most" not in page and "Other figures: bodies" in page and "Other figures: flow" not in page

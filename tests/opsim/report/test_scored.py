@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -6,7 +8,8 @@ from opsim.ergonomics.bounds import bounds_of
 from opsim.ergonomics.movement import scored_movements
 from opsim.ergonomics.options import USUAL
 from opsim.plan.handling import Handling
-from opsim.report.scored import Said, page, write_scored
+from opsim.report.course_picture import LEVELS
+from opsim.report.scored import Said, _badge, page, write_scored
 from tests.opsim.ergonomics.test_movement import movement
 
 HANDLING = Handling(
@@ -51,6 +54,33 @@ def test_names_are_escaped_and_nothing_is_fetched(bends):
 def test_intervals_are_said_as_such():
     open_ = told(movement(0.0, 70.0), handling=Handling(load_kg=8.0))
     assert " to " in open_.split('<article class="posture">')[1] and "at most" in open_.split("The worst postures")[1]
+
+
+def test_a_chip_has_the_colours_and_words_of_both_ends(bends):
+    """REBA of 70 degrees with a load of which nothing else is said spans levels; of a task all said, it has one."""
+    chip = _badge("reba", {"score": (3, 9)})
+    assert chip["colours"] == [LEVELS[1], LEVELS[3]] and chip["score"] == "3 to 9"
+    assert chip["text"].startswith("at least: low risk") and "at most: high risk" in chip["text"]
+    one = _badge("reba", {"score": (4, 7)})
+    assert one["colours"] == [LEVELS[2]] * 2 and one["text"] == "medium risk, action necessary"
+    assert "at least:" not in bends.split('<article class="posture">')[1].split("</p>")[0]
+
+
+def test_copies_of_a_posture_are_one_card_with_their_time():
+    text = told(movement(*[70.0] * 8, name="one"), movement(70.0, 70.0, name="two"))
+    assert text.count('<article class="posture">') == 1
+    assert "Postures like it (angles within 20°): 5.0 s, in 2 of 2 movements" in text
+
+
+def test_a_load_is_drawn_only_while_it_is_held():
+    held = replace(movement(0.0, 70.0, seconds=2.0), carrying=np.array([True, False]))
+    cards = told(held).split('<article class="posture">')[1:]
+    drawn = sorted(("nothing in the hands" in card, "#dcc298" in card) for card in cards)
+    assert drawn == [(False, True), (True, False)]
+
+
+def test_telephones_have_a_picture_of_their_own(bends):
+    assert 'class="course slim"' in bends and 'class="course broad"' in bends
 
 
 def test_where_nothing_is_known_it_says_so():

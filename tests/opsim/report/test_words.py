@@ -30,6 +30,9 @@ def test_an_interval_of_no_width_is_written_in_one_way_whatever_rounding_left_of
         (-3.2, 1.0, "−3.2"),
         (2.5678, None, "2.568"),
         (5.0, 0.0, "5.000"),
+        (87.204106, 0.000032, "87.204"),
+        (2.756183, 1e-6, "2.7562"),
+        (-0.000002, 0.000001, "−0.000002"),
         (None, 1.0, "–"),
         (float("nan"), 1.0, "–"),
         (float("inf"), None, "–"),
@@ -83,6 +86,11 @@ def test_the_clock_runs_over_midnight_and_the_week():
     assert clock("Mon 06:00", 1800) == "Mon 06:30"
     assert clock("Sun 22:00", 3 * 3600) == "Mon 01:00"
     assert clock("some day", 7200) == "2 h after some day"
+
+
+def test_a_half_width_below_the_last_digit_of_its_mean_is_rounded_up_to_it():
+    assert plus_minus(kpi("x", unit="share", mean=0.87204106, half_width=3.2e-7)) == "87.204 ± 0.001 %"
+    assert plus_minus(kpi("x", unit="s", mean=60.123, half_width=1.04)) == "60.1 ± 1.0 s"
 
 
 def test_a_list_reads_as_a_sentence():

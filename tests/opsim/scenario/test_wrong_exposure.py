@@ -41,6 +41,7 @@ def test_what_is_right_is_read():
 
 CASES = [
     ("no unit", [("load: 2 kg", "load: 2")], ["tasks.make.load: 2 has no unit; expected a mass", "'2 kg'"]),
+    ("too much", [("load: 2 kg", "load: 6000 kg")], ["tasks.make.load: must be at most 500 kg, found '6000 kg'"]),
     ("a length", [("load: 2 kg", "load: 2 cm")], ["'2 cm' is a length; expected a mass"]),
     ("no load", [(" load: 2 kg,", "")], ["tasks.make.loaded: nothing says what is in the hands then", "load: 6 kg"]),
     ("mark", [("to: stop", "to: stpo")], ["tasks.make.loaded.to: no mark 'stpo' in this movement", "mean 'stop'?"]),

@@ -32,6 +32,10 @@ def answer(*edits):
 def test_what_is_right_is_read():
     assert answer() == "good"
     assert (
+        answer(("human: {acts_on", "overrides: {off: {human: null}}\nscenarios: {off: [off]}\nhuman: {acts_on"))
+        == "good"
+    )
+    assert (
         answer(FATIGUE, ("acts_on: time,", "rest: {above: 0.5, until: 0.2}, errors: {at_full_fatigue: 0.1},")) == "good"
     )
 
@@ -47,6 +51,12 @@ CASES = [
     ("effect", [("learning: {", "lerning: {")], ["human.lerning: unknown key 'lerning'", "did you mean 'learning'?"]),
     ("unit", [("forgotten_in: never", "forgotten_in: 90")], ["forgetting.forgotten_in: 90 has no unit"]),
     ("clock", [("'16:00'", "4 pm")], ["human.circadian.peak: expected a time of the day, found '4 pm'", "write 16:00"]),
+    (
+        "in an effect",
+        [("rate: 0.85", "rate: 0.85, acts_on: time")],
+        ["human.learning.acts_on: unknown key 'acts_on'", "'acts_on' stands under 'human' itself, beside 'learning'"],
+    ),
+    ("measured", [("measured_at: 9", "measured_at: 1e9")], ["human.learning.measured_at: must be at most 1"]),
     ("acts", [("acts_on: time", "acts_on: times")], ["human.acts_on: expected posture or time"]),
     ("absence", [("acts_on: time", "absence: 5 %")], ["human.absence: expected a probability, found '5 %'", "0.05"]),
     ("task", [("{make: 200}", "{mkae: 200}")], ["workers.ana.experience.mkae: no task 'mkae'", "did you mean 'make'?"]),

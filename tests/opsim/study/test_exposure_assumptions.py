@@ -3,7 +3,7 @@
 import plans
 import pytest
 
-from opsim.ergonomics.not_seen import NOT_SEEN
+from opsim.ergonomics.not_seen import NOT_SEEN, RULES
 from opsim.study.assumptions import assumptions_of
 from opsim.study.ergonomics import ergonomics
 from opsim.study.human import human
@@ -76,6 +76,7 @@ def test_what_no_skeleton_shows_is_listed_in_full():
     assert [line for line in said(ergonomics) if line.startswith("not seen")] == [
         f"not seen: {one}" for one in NOT_SEEN
     ]
+    assert [line for line in said(ergonomics) if line.startswith("by rule")] == [f"by rule: {one}" for one in RULES]
 
 
 def test_posture_off_is_said():

@@ -65,6 +65,49 @@ def test_more_replications_another_warm_up_or_name_keep_the_rows(finished, tmp_p
     assert all(after[path] == rows for path, rows in before.items() if path.suffix == ".parquet" and path.parent.name)
 
 
+STOOPS = """
+opsim: 1
+name: cell
+run: {start: Mon 06:30, horizon: 3 min, seed: 3, replications: 1}
+layout: {places: {here: [0 m, 0 m]}}
+libraries: {bench: libraries/bench_work.npz}
+tasks: {stoop: {emulator: bench/stoop, load: 2 kg}}
+stations: {low: {at: here, tasks: [stoop], buffer: 2}}
+products: {p: {route: [low]}}
+release: {kind: saturated}
+workers: {ana: {skills: {low: 1.0}}}
+outputs: [throughput_per_h, rula_mean]
+"""
+
+
+def stoops(folder, *edits):
+    from opsim.scenario.read import scenarios_in
+
+    text = STOOPS
+    for edit in edits:
+        text = text.replace(*edit)
+    read = scenarios_in(text.encode(), shipped_folder() / "made.yaml")["base"]
+    done = run_scenario(read, folder=folder, processes=1)
+    means = {(row["kpi"], row["subject"], row["part"]): row["mean"] for row in done.summary["kpis"]}
+    return means, (folder / "events" / "replication_00000.parquet").read_bytes()
+
+
+def test_another_load_keeps_the_rows_and_makes_figures_anew_of_them(tmp_path):
+    light, rows = stoops(tmp_path)
+    (tmp_path / "report.html").write_text("of 2 kg")
+    heavy, same = stoops(tmp_path, ("load: 2 kg", "load: 20 kg, handling: {grip: poor}"))
+    assert same == rows and not (tmp_path / "report.html").exists()
+    assert heavy["rula_mean", "", ""] > light["rula_mean", "", ""]
+    assert heavy["throughput_per_h", "", ""] == light["throughput_per_h", "", ""]
+
+
+def test_another_load_is_another_run_where_people_tire_by_it(tmp_path):
+    tire = ("release:", "human: {fatigue: {model: 3cc_r}}\nrelease:")
+    stoops(tmp_path, tire)
+    with pytest.raises(OtherRun, match=r"tasks\.stoop\.load 2 kg, now 20 kg"):
+        stoops(tmp_path, tire, ("load: 2 kg", "load: 20 kg"))
+
+
 def test_a_folder_of_an_unknown_run_is_refused(tmp_path):
     (tmp_path / "events").mkdir()
     (tmp_path / "events" / "replication_00000.parquet").write_bytes(b"rows")

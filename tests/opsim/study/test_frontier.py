@@ -64,7 +64,7 @@ def test_who_is_shown_to_be_better_in_both_beats_clearly_and_who_is_not_does_not
 
 def test_the_same_in_one_figure_and_better_in_the_other_is_clearly_better():
     luck = np.arange(10.0).reshape(2, 5)
-    worse, better = placed({"worse": luck, "better": luck - np.array([[0.0], [1.0]])}, MORE_LESS)
+    worse, better = placed({"worse": luck, "better": luck - [[0.0] * 5, [1.0, 1.1, 0.9, 1.0, 1.0]]}, MORE_LESS)
     assert worse.clearly_behind == ("better",) and better.on_front
 
 
@@ -111,6 +111,7 @@ ROWS_OF = {
         ("throughput_per_h", "worker_states/ana/wait", ["write 'more worker_states/ana/wait' or 'less"]),
         ("throughput_per_h", "throughput_per_h", ["two different figures"]),
         ("throughput_per_h", "trunk_beyond_60_min_per_h", ["'outputs'"]),
+        ("less rest_taken_min_per_h", "stock", ["have none of it: there is one only where people rest by need"]),
     ],
 )
 def test_wrong_figures_are_all_said_at_once(tmp_path, x, y, said):
@@ -120,13 +121,21 @@ def test_wrong_figures_are_all_said_at_once(tmp_path, x, y, said):
     assert all(words in str(error.value) for words in said)
 
 
-def test_other_seeds_and_figures_that_one_variant_lacks_are_refused(tmp_path):
+def test_other_seeds_are_refused(tmp_path):
     x, y = read_asked("throughput_per_h"), read_asked("walked_m/ana")
-    some = {key: values for key, values in ROWS_OF.items() if key[0] != "walked_m"}
     with pytest.raises(NotComparable, match="seeds 1, 2"):
         frontier_of({"a": result(tmp_path, rows=ROWS_OF), "b": result(tmp_path, 2, rows=ROWS_OF)}, x, y)
-    with pytest.raises(NotComparable, match="no such figure in b"):
-        frontier_of({"a": result(tmp_path, rows=ROWS_OF), "b": result(tmp_path, rows=some)}, x, y)
+
+
+def test_a_variant_that_lacks_a_figure_is_named_and_the_others_stand_where_they_did(tmp_path):
+    x, y = read_asked("throughput_per_h"), read_asked("walked_m/ana")
+    some = {key: values for key, values in ROWS_OF.items() if key[0] != "walked_m"}
+    better = {**ROWS_OF, ("walked_m", "ana", "", "m"): [1.0, 2.5, 2.0]}
+    both = {"a": result(tmp_path, rows=ROWS_OF), "c": result(tmp_path, rows=better)}
+    found = frontier_of({**both, "b": result(tmp_path, rows=some)}, x, y)
+    assert found.absent == (("b", ("walked_m/ana",)),)
+    assert found.points[:2] == frontier_of(both, x, y).points and found.points[0].behind == ("c",)
+    assert not found.points[2].on_front and found.points[2].y.n == 0
 
 
 POSTURES = """
@@ -153,8 +162,8 @@ def test_what_a_frontier_asks_for_is_made_and_kept_in_the_summary_and_nothing_el
 
 def test_nothing_is_clear_between_variants_that_are_open_for_different_hours(tmp_path):
     more = ROWS_OF | {
-        ("throughput_per_h", "", "", "1/h"): [5.0, 6.0, 7.0],
-        ("walked_m", "ana", "", "m"): [1.0, 2.0, 3.0],
+        ("throughput_per_h", "", "", "1/h"): [5.0, 6.01, 7.0],
+        ("walked_m", "ana", "", "m"): [1.0, 2.01, 3.0],
     }
     results = {"a": result(tmp_path, rows=ROWS_OF), "b": result(tmp_path, rows=more)}
     asked = read_asked("throughput_per_h"), read_asked("walked_m/ana")
