@@ -18,6 +18,8 @@ NEEDS_A_FLOOR = {
     "absence": "who comes is your model's",
 }
 """What means something only where the engine runs the floor."""
+_KEYS = (*(effect for effect in EFFECTS if effect not in NEEDS_A_FLOOR), "acts_on")
+"""What a worker in somebody's own model may be told."""
 
 
 def human_of(name: str, said: Any, experience: Any, models: Mapping[str, Any], start_s: Any) -> HumanPlan:
@@ -87,6 +89,7 @@ def _in_words(where: str, error: Any, words: dict[str, Any]) -> Iterator[str]:
     from opsim.scenario.positions import Node, Place, Source
 
     nowhere = Place(Source("", ()), 0, 0)
+    unknown = {key for key in map(str, words) if key not in (*_KEYS, *NEEDS_A_FLOOR)}
 
     def node(value: Any) -> Node:
         below = {key: node(one) for key, one in value.items()} if isinstance(value, Mapping) else value
@@ -94,7 +97,9 @@ def _in_words(where: str, error: Any, words: dict[str, Any]) -> Iterator[str]:
 
     for one in schema_problems(_Under("human", error), node({"human": words})):  # type: ignore[arg-type]
         path = where + one.path.removeprefix("human")
-        yield f"{path}: {one.message}" + (f"; {one.hint}" if one.hint else "")
+        key = one.path.removeprefix("human.")
+        hint = did_you_mean(key, _KEYS, otherwise="here are") if key in unknown else one.hint
+        yield f"{path}: {one.message}" + (f"; {hint}" if hint else "")
 
 
 class _Under:

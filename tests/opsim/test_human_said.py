@@ -37,6 +37,10 @@ def test_experience_is_by_task_in_natural_order():
         ({"fatigue": {"model": "lffrm", "tires_half_in": 7200}}, "human.fatigue.tires_half_in:"),
         ({"fatigue": {"model": "lffrm", "slows": -1}}, "human.fatigue.slows: must be at least 0, found -1"),
         ({"fatigue": "lffrm"}, "human.fatigue: expected a block of keys, found 'lffrm'; write {model: lffrm}"),
+        (
+            {"error": {}},
+            "human.error: unknown key 'error'; here are: acts_on, circadian, fatigue, forgetting, learning",
+        ),
         ({"fatige": {}}, "human.fatige: unknown key 'fatige'; did you mean 'fatigue'?"),
         ({"state_pace": {"model": "schultz"}}, "human.state_pace: not in a model of your own; it looks at the buffers"),
         ({"rest": {"above": 0.5}}, "human.rest: not in a model of your own; who sends your workers is your model"),
