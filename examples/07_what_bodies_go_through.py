@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from opsim import compile_plan, figures, read_scenarios, run_plan
-from opsim.ergonomics.worst import worst_frames
+from opsim.ergonomics.shift.worst import worst_frames
 
 HALF_AN_HOUR_S = 2700.0  # after the quarter of an hour that warms up
 variants = read_scenarios("low_pallet.yaml")

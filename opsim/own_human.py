@@ -23,7 +23,7 @@ class OwnHuman:
 
     def __init__(self, env: simpy.Environment, luck: OwnLuck, human: HumanPlan):
         from opsim.engine.simpy_engine.humans import install
-        from opsim.ergonomics.worker_plans import plan_of
+        from opsim.ergonomics.shift.worker_plans import plan_of
 
         self._env = env
         self.plan = replace(plan_of({luck.worker: luck}, [luck.worker], luck.handling), human=human)

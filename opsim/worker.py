@@ -21,7 +21,7 @@ from typing import Any
 import simpy
 
 from opsim.clock import on_grid
-from opsim.ergonomics.said import handlings
+from opsim.ergonomics.shift.said import handlings
 from opsim.human_said import human_of
 from opsim.own_human import OwnHuman
 from opsim.own_luck import OwnLuck

@@ -79,8 +79,8 @@ def _read(source: str, task: str | None, out: Path | None, given: dict[str, Any]
 
 
 def _scored(found: Any, asked: Any) -> list[Any]:
-    from opsim.ergonomics.bounds import bounds_of
-    from opsim.ergonomics.movement import scored_movements
+    from opsim.ergonomics.scores.bounds import bounds_of
+    from opsim.ergonomics.shift.movement import scored_movements
 
     bounds = bounds_of(asked.handling, walking=found.walking)
     return scored_movements(found.movements, bounds, asked.options, repeated=asked.repeated)
@@ -97,7 +97,7 @@ def _write(found: Any, scored: list[Any], asked: Any, out: Path) -> None:
 
 def _told(found: Any, scored: list[Any], asked: Any, out: Path | None) -> dict[str, Any]:
     from opsim.cli.motion_score_told import assumptions
-    from opsim.ergonomics.movement_figures import movement_figures
+    from opsim.ergonomics.shift.movement_figures import movement_figures
 
     figures = {row.name: {"unit": row.unit, "low": row.low, "high": row.high} for row in movement_figures(scored)}
     seconds = sum(movement.duration_s for movement in found.movements)
@@ -114,7 +114,7 @@ def _told(found: Any, scored: list[Any], asked: Any, out: Path | None) -> dict[s
 def _print(found: Any, scored: list[Any], asked: Any, out: Path | None) -> None:
     from opsim.cli.console import print_table, printable
     from opsim.cli.motion_score_told import ASSUMED, assumptions
-    from opsim.ergonomics.movement_figures import movement_figures
+    from opsim.ergonomics.shift.movement_figures import movement_figures
 
     rows = [figure.row for figure in movement_figures(scored)]
     click.echo(printable(found.title))

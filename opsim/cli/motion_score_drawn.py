@@ -13,8 +13,8 @@ def drawn(model: Any, n: int, seed: int, asked: Any) -> Source:
     import numpy as np
 
     from opsim.ergonomics.measures import measures_of, n_cells
-    from opsim.ergonomics.movement import Movement
     from opsim.ergonomics.neutral import neck_neutral_told_rad
+    from opsim.ergonomics.shift.movement import Movement
     from opsim.one_thread import one_blas_thread
     from opsim.provenance import behind
 
@@ -43,7 +43,7 @@ def _loaded_in(block: Any, n: int, cells: int, loaded: Any, mark_names: tuple[st
     """Of each draw, in which of its parts hands may be full; None where nobody said when."""
     import numpy as np
 
-    from opsim.ergonomics.seen import hands_full
+    from opsim.ergonomics.shift.seen import hands_full
     from opsim.plan.handling import Handling
 
     if loaded is None:

@@ -108,7 +108,7 @@ def _movement(take: Any, skeleton: _Skeleton, asked: Any, neutral_rad: float) ->
     import numpy as np
 
     from opsim.ergonomics.measures import measures_of_joints
-    from opsim.ergonomics.movement import Movement
+    from opsim.ergonomics.shift.movement import Movement
 
     duration_s = take.n_frames / take.rate_hz
     n = min(max(int(np.ceil(duration_s * asked.options.rate_hz)), 1), take.n_frames)

@@ -10,7 +10,7 @@ from typing import Any
 class Source:
     """What is scored, in words, on which skeleton, and where the neutral of necks comes from.
 
-    movements : ``opsim.ergonomics.movement.Movement`` each;  notes : what is missing or odd, in sentences
+    movements : ``opsim.ergonomics.shift.movement.Movement`` each;  notes : what is missing or odd, in sentences
     walking   : whether they are steps of somebody who walks
     mark_names, seen_names : marks of the movements, and joints that are seen at some time
     """

@@ -22,8 +22,8 @@ ASSUMED = ("not seen: ", "by rule: ")
 def assumptions(found: Any, scored: list[Any], asked: Any) -> list[str]:
     """Sentences: what the skeleton lacks, what nobody said, whence the neck's neutral, what no skeleton shows."""
     from opsim.ergonomics.missing import missing_scores
-    from opsim.ergonomics.movement_figures import in_words, unknown_share
-    from opsim.ergonomics.not_seen import NOT_SEEN, RULES
+    from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
+    from opsim.ergonomics.shift.movement_figures import in_words, unknown_share
 
     said = [f"missing: {sentence}" for sentence in missing_scores(found.seen_names)]
     said += found.notes
@@ -45,7 +45,7 @@ def assumptions(found: Any, scored: list[Any], asked: Any) -> list[str]:
 
 def _loaded(found: Any, scored: list[Any], asked: Any) -> str:
     """When the hands are full."""
-    from opsim.ergonomics.movement_figures import in_words, loaded_share
+    from opsim.ergonomics.shift.movement_figures import in_words, loaded_share
 
     load = "something" if asked.handling.load_kg is None else f"{asked.handling.load_kg:g} kg"
     if asked.loaded is None:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from opsim.ergonomics.worker_plans import OwnPlan
+from opsim.ergonomics.shift.worker_plans import OwnPlan
 from opsim.log import SETUP, WORK, EventLog
 from opsim.own_luck import OwnLuck
 from opsim.plan import Plan

@@ -74,7 +74,7 @@ def _drawn(plan: Plan, workforce: int, worker: int, task: int) -> np.ndarray | N
     import numpy as np
 
     from opsim.effects import worker_effect
-    from opsim.ergonomics.torque import shares, torques_nm
+    from opsim.ergonomics.joint_loads.torque import shares, torques_nm
     from opsim.one_thread import one_blas_thread
     from opsim.streams import stream
 
@@ -113,7 +113,7 @@ def _shares(moment: Moment, drawn: Any) -> np.ndarray:
 
 
 def _but_carried(course: np.ndarray, handling: Handling) -> np.ndarray:
-    from opsim.ergonomics.torque import JOINTS
+    from opsim.ergonomics.joint_loads.torque import JOINTS
 
     if handling.sitting:
         course[:, [JOINTS.index("hips"), JOINTS.index("knees")]] = 0.0

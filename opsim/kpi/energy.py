@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.carried import carried_kg, carries
-from opsim.ergonomics.energy import Energy, Spent, energy
-from opsim.ergonomics.hold_shares import hold_share
-from opsim.ergonomics.rest_allowance import (
+from opsim.ergonomics.shift.carried import carried_kg, carries
+from opsim.ergonomics.strain.energy import Energy, Spent, energy
+from opsim.ergonomics.strain.hold_shares import hold_share
+from opsim.ergonomics.strain.rest_allowance import (
     STANDARD_KCAL_PER_MIN,
     murrell_rest_share,
     of_whole,
     price_relaxation,
     rohmert_rest_share,
 )
-from opsim.ergonomics.still import Still
+from opsim.ergonomics.strain.still import Still
 from opsim.kpi.duty import present_s
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import inside_s

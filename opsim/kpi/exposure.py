@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from typing import Any, NamedTuple
 
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.energy import Spent
-from opsim.ergonomics.fold import fold
-from opsim.ergonomics.lifts import Lifted
-from opsim.ergonomics.regions import Regions
-from opsim.ergonomics.still import Still
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.fold import fold
+from opsim.ergonomics.shift.regions import Regions
+from opsim.ergonomics.strain.energy import Spent
+from opsim.ergonomics.strain.lifts import Lifted
+from opsim.ergonomics.strain.still import Still
 from opsim.kpi.energy import Resting, energy_spent, rest_allowances
 from opsim.kpi.exposure_by_region import exposure_by_region
 from opsim.kpi.exposure_levels import exposure_levels, measured_share
@@ -44,7 +44,7 @@ def exposure(log: EventLog, plan: Plan, asked: Collection[str]) -> Iterator[Figu
     """Whatever is asked for of what needs all postures, from one pass over them; nothing where there are no workers.
 
     How much of the work was measured stands beside it, where ``kpi/posture.py`` does not say so already.
-    Raises what ``opsim.ergonomics.day.days`` raises.
+    Raises what ``opsim.ergonomics.shift.day.days`` raises.
     """
     if not plan.workers or set(EXPOSURE).isdisjoint(asked):
         return

@@ -8,10 +8,10 @@ from itertools import pairwise
 import numpy as np
 
 from opsim.clock import on_the_clock
-from opsim.ergonomics.booking import HOUR_S, HOURS
-from opsim.ergonomics.day import UPRIGHT, hours_s
-from opsim.ergonomics.ledger import Ledger
-from opsim.ergonomics.stretch import WAITING, WALKING
+from opsim.ergonomics.shift.booking import HOUR_S, HOURS
+from opsim.ergonomics.shift.day import UPRIGHT, hours_s
+from opsim.ergonomics.shift.ledger import Ledger
+from opsim.ergonomics.shift.stretch import WAITING, WALKING
 from opsim.kpi.figure import Figure
 from opsim.kpi.levels import LEVELS, bounds_of_level, minutes
 from opsim.kpi.values import SECONDS_PER_HOUR

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.regions import LEVELS, REGIONS, Regions
+from opsim.ergonomics.shift.regions import LEVELS, REGIONS, Regions
 from opsim.kpi.duty import present_s
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import SECONDS_PER_HOUR

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.ledger import AT_MOST, Ledger
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.ledger import AT_MOST, Ledger
 from opsim.kpi.duty import present_s
 from opsim.kpi.evenness import gini
 from opsim.kpi.exposure_by import exposure_by

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.ledger import AT_MOST, KEY, Ledger
-from opsim.ergonomics.stretch import WAITING
+from opsim.ergonomics.shift.ledger import AT_MOST, KEY, Ledger
+from opsim.ergonomics.shift.stretch import WAITING
 from opsim.kpi.levels import bounds_of_level, mean_score, minutes
 
 TITLES = {

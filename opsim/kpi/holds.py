@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.ergonomics.holds import REGIONS
-from opsim.ergonomics.limits import ISO_11226, NOT_RECOMMENDED, judged_static
-from opsim.ergonomics.repetition import begun
-from opsim.ergonomics.still import Still
-from opsim.ergonomics.zones import ZONED
+from opsim.ergonomics.strain.holds import REGIONS
+from opsim.ergonomics.strain.limits import ISO_11226, NOT_RECOMMENDED, judged_static
+from opsim.ergonomics.strain.repetition import begun
+from opsim.ergonomics.strain.still import Still
+from opsim.ergonomics.strain.zones import ZONED
 from opsim.kpi.duty import present_s
 from opsim.kpi.figure import Figure
 from opsim.kpi.values import SECONDS_PER_HOUR, in_window, inside_s

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from opsim.ergonomics.ledger import AT_MOST, BINS, Ledger
+from opsim.ergonomics.shift.ledger import AT_MOST, BINS, Ledger
 
 
 class Level(NamedTuple):

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.ergonomics.lifting import Indices, composite_of, indices, too_often
-from opsim.ergonomics.lifts import Lifted, Lifts, loads_kg
+from opsim.ergonomics.strain.lifting import Indices, composite_of, indices, too_often
+from opsim.ergonomics.strain.lifts import Lifted, Lifts, loads_kg
 from opsim.kpi.figure import Figure
 from opsim.log import EventLog
 from opsim.plan import Plan

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from opsim.ergonomics.worker_rows import rows_of
+from opsim.ergonomics.shift.worker_rows import rows_of
 from opsim.log import EventLog
 from opsim.own_luck import OwnLuck
 from opsim.performance import Performance

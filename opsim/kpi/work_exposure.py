@@ -18,14 +18,14 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.fold import fold
-from opsim.ergonomics.ledger import AT_MOST, KEY, Ledger
 from opsim.ergonomics.options import USUAL, Options, checked
-from opsim.ergonomics.said import handlings
-from opsim.ergonomics.worker_plans import OwnPlan, groups, models_of, plan_of
-from opsim.ergonomics.worker_rows import only, whole_days
-from opsim.ergonomics.worst import Worst, WorstSeen
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.fold import fold
+from opsim.ergonomics.shift.ledger import AT_MOST, KEY, Ledger
+from opsim.ergonomics.shift.said import handlings
+from opsim.ergonomics.shift.worker_plans import OwnPlan, groups, models_of, plan_of
+from opsim.ergonomics.shift.worker_rows import only, whole_days
+from opsim.ergonomics.shift.worst import Worst, WorstSeen
 from opsim.kpi.exposure import ASKING
 from opsim.kpi.exposure_levels import exposure_levels, measured_share
 from opsim.kpi.figure import Figure

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.regions import REGIONS, Regions
-from opsim.ergonomics.timeline import MINUTE_S, Minutes, Timeline
-from opsim.ergonomics.worst import Worst, WorstSeen
+from opsim.ergonomics.shift.regions import REGIONS, Regions
+from opsim.ergonomics.shift.timeline import MINUTE_S, Minutes, Timeline
+from opsim.ergonomics.shift.worst import Worst, WorstSeen
 from opsim.kpi.names import EXPOSURE
 from opsim.plan import Plan
 from opsim.report.day_picture import Strip, draw_day, legend
@@ -33,7 +33,7 @@ def bodies_section(loaded: Any, result: Any) -> dict[str, Any] | None:
     None where the scenario asks for nothing that needs all postures, or nothing is known of any.
     Raises ValueError or OSError as reading does.
     """
-    from opsim.ergonomics.fold import fold
+    from opsim.ergonomics.shift.fold import fold
     from opsim.log_store import read_events
     from opsim.plan import compile_plan
 

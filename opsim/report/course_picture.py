@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.levels import OWAS, REBA, RULA, Level
-from opsim.ergonomics.movement import ScoredMovement
+from opsim.ergonomics.scores.levels import OWAS, REBA, RULA, Level
+from opsim.ergonomics.shift.movement import ScoredMovement
 from opsim.report.palette import GRID, INK, MUTED
 from opsim.report.strips import render
 

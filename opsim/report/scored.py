@@ -8,12 +8,12 @@ from pathlib import Path
 from string import ascii_uppercase
 from typing import Any
 
-from opsim.ergonomics.bounds import bounds_of
 from opsim.ergonomics.columns import AT
-from opsim.ergonomics.explained import explain
-from opsim.ergonomics.movement import ALIKE_DEG, ScoredMovement, alike, worst_postures
-from opsim.ergonomics.movement_figures import movement_figures
 from opsim.ergonomics.options import Options
+from opsim.ergonomics.scores.bounds import bounds_of
+from opsim.ergonomics.scores.explained import explain
+from opsim.ergonomics.shift.movement import ALIKE_DEG, ScoredMovement, alike, worst_postures
+from opsim.ergonomics.shift.movement_figures import movement_figures
 from opsim.plan.handling import Handling
 from opsim.report.course_picture import METHODS, SLIM_IN, course_svg, level_colour, level_of
 from opsim.report.offline import asset, template

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.carried import EMPTY_HANDS
-from opsim.ergonomics.not_seen import NOT_SEEN, RULES
 from opsim.ergonomics.options import Options, Thresholds
+from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
+from opsim.ergonomics.shift.carried import EMPTY_HANDS
 from opsim.kpi.better import read_asked
 from opsim.kpi.names import REGION, SCORED
 from opsim.names import listed

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.strength import HEIGHT_M, MASS_KG
+from opsim.ergonomics.joint_loads.strength import HEIGHT_M, MASS_KG
 from opsim.human.catalogue import Entry, entry
 from opsim.human.listing import as_written, name_written
 from opsim.names import listed

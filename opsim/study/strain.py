@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.bends import BENT_DEG, SQUAT_DEG
-from opsim.ergonomics.carried import EMPTY_HANDS
-from opsim.ergonomics.garg import BENCH_M
-from opsim.ergonomics.holds import STATIC_WORK
-from opsim.ergonomics.lifting import seated
-from opsim.ergonomics.lifting_pattern import PAUSE_S
-from opsim.ergonomics.lifts import LEAST_TRAVEL_M
-from opsim.ergonomics.limits import EN_1005_4
-from opsim.ergonomics.rest_allowance import PRICE_ACCEPTABLE_W, PRICE_RESTING_W, STANDARD_KCAL_PER_MIN
-from opsim.ergonomics.strength import HEIGHT_M, MASS_KG
+from opsim.ergonomics.joint_loads.strength import HEIGHT_M, MASS_KG
+from opsim.ergonomics.shift.carried import EMPTY_HANDS
+from opsim.ergonomics.strain.bends import BENT_DEG, SQUAT_DEG
+from opsim.ergonomics.strain.garg import BENCH_M
+from opsim.ergonomics.strain.holds import STATIC_WORK
+from opsim.ergonomics.strain.lifting import seated
+from opsim.ergonomics.strain.lifting_pattern import PAUSE_S
+from opsim.ergonomics.strain.lifts import LEAST_TRAVEL_M
+from opsim.ergonomics.strain.limits import EN_1005_4
+from opsim.ergonomics.strain.rest_allowance import PRICE_ACCEPTABLE_W, PRICE_RESTING_W, STANDARD_KCAL_PER_MIN
 from opsim.kpi.better import read_asked
 from opsim.kpi.names import ENERGY, HELD, LIFTED, REST
 from opsim.names import listed

@@ -10,8 +10,8 @@ from bench.cpu import best_s
 
 from opsim.engine.simpy_engine import run_plan
 from opsim.ergonomics import trunk_exposure
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.fold import fold
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.fold import fold
 from opsim.ergonomics.walking import walking_exposure
 from opsim.kpi import figures
 from opsim.kpi.names import POSTURE

@@ -3,9 +3,9 @@
 import numpy as np
 from bench.cpu import best_s
 
-from opsim.ergonomics.bounds import NOTHING_OPEN, bounds_of
 from opsim.ergonomics.columns import COLUMNS
-from opsim.ergonomics.scoring import score
+from opsim.ergonomics.scores.bounds import NOTHING_OPEN, bounds_of
+from opsim.ergonomics.scores.scoring import score
 
 N, MOST_US = 50_000, 1.5
 

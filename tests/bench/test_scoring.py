@@ -12,9 +12,9 @@ import pytest
 from bench.cpu import best_s
 
 from opsim.engine.simpy_engine import run_plan
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.fold import fold
 from opsim.ergonomics.measures import measures_of, n_cells
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.fold import fold
 from opsim.kpi.values import inside_s
 from opsim.log import WORK
 from opsim.plan import compile_plan

@@ -10,7 +10,7 @@ from opsim.engine.simpy_engine.humans import Human
 from opsim.plan.evenness import evens_out
 
 if TYPE_CHECKING:
-    from opsim.ergonomics.dose_rates import DoseRates
+    from opsim.ergonomics.shift.dose_rates import DoseRates
 
 
 class Dose:
@@ -59,7 +59,7 @@ def install(floor: Floor) -> None:
     plan = floor.plan
     if not evens_out(plan):
         return
-    from opsim.ergonomics.dose_rates import dose_rates_of
+    from opsim.ergonomics.shift.dose_rates import dose_rates_of
 
     rates = dose_rates_of(plan, floor.draws.workforce)
     floor.doses = tuple(Dose(rates, worker.rank) for worker in floor.workers)

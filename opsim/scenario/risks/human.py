@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.ergonomics.strength import HEIGHT_M, MASS_KG
+from opsim.ergonomics.joint_loads.strength import HEIGHT_M, MASS_KG
 from opsim.names import natural_key
 from opsim.scenario.risks.words import listed
 from opsim.scenario.schema import Scenario

@@ -7,7 +7,7 @@ from checked_floors import differ
 
 from opsim.engine.simpy_engine import run_plan
 from opsim.engine.simpy_engine.doses import Dose
-from opsim.ergonomics.dose_rates import DoseRates
+from opsim.ergonomics.shift.dose_rates import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios
 

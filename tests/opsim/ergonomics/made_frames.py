@@ -3,7 +3,7 @@
 import numpy as np
 
 from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.stretch import Frames
+from opsim.ergonomics.shift.stretch import Frames
 
 
 def made_frames(n=None, *, worker=0, start_s=0.0, seconds=1.0, task=0, k=0, carrying=False, **measures):

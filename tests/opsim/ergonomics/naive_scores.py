@@ -6,9 +6,9 @@ from itertools import product
 from math import acos, cos, degrees, isnan, radians
 
 from opsim.ergonomics.columns import AT
-from opsim.ergonomics.owas import owas
-from opsim.ergonomics.reba import reba
-from opsim.ergonomics.rula import rula
+from opsim.ergonomics.scores.owas import owas
+from opsim.ergonomics.scores.reba import reba
+from opsim.ergonomics.scores.rula import rula
 
 BANDS = {"trunk": (0.0, 10.0, 40.0, 100.0), "neck": (0.0, 15.0, 30.0, -30.0), "arm": (0.0, 30.0, 60.0, 120.0)}
 BANDS |= {"elbow": (80.0, 0.0), "wrist": (0.0, 10.0, 30.0), "knee": (0.0, 45.0, 90.0), "above": (-1.0, 1.0)}

@@ -5,15 +5,15 @@ import pytest
 from plans import ran
 
 from opsim.ergonomics.again import performance_again
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.bounds import bounds_of
 from opsim.ergonomics.columns import AT
-from opsim.ergonomics.fold import fold
 from opsim.ergonomics.measures import n_cells
 from opsim.ergonomics.neutral import neck_neutrals_rad
 from opsim.ergonomics.posture_measures import measures_of_positions
-from opsim.ergonomics.repetition import repeated_rows
-from opsim.ergonomics.scoring import score
+from opsim.ergonomics.scores.bounds import bounds_of
+from opsim.ergonomics.scores.scoring import score
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.fold import fold
+from opsim.ergonomics.strain.repetition import repeated_rows
 from opsim.log import WORK
 
 CELL = """

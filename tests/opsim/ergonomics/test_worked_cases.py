@@ -5,15 +5,15 @@ import json
 import numpy as np
 import pytest
 
-from opsim.ergonomics.bounds import NOTHING_OPEN, Bounds
-from opsim.ergonomics.explained import explain
 from opsim.ergonomics.joints import CANONICAL
 from opsim.ergonomics.measures import measures_of_positions
 from opsim.ergonomics.options import USUAL, Options
-from opsim.ergonomics.owas import owas
-from opsim.ergonomics.reba import reba
-from opsim.ergonomics.rula import rula
-from opsim.ergonomics.scoring import score
+from opsim.ergonomics.scores.bounds import NOTHING_OPEN, Bounds
+from opsim.ergonomics.scores.explained import explain
+from opsim.ergonomics.scores.owas import owas
+from opsim.ergonomics.scores.reba import reba
+from opsim.ergonomics.scores.rula import rula
+from opsim.ergonomics.scores.scoring import score
 from tests.opsim.ergonomics.bodies import arm, bent, moved, turn
 from tests.opsim.ergonomics.reference import WHERE
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.ergonomics.torque import JOINTS
+from opsim.ergonomics.joint_loads.torque import JOINTS
 from opsim.human import burden
 from opsim.human.burden import DRAWS, PARTS, Burdens
 

@@ -7,9 +7,9 @@ import pytest
 from plans import loaded, ran
 
 from opsim.engine.simpy_engine import run_plan
-from opsim.ergonomics.booking import Booking
-from opsim.ergonomics.ledger import AT_MOST
 from opsim.ergonomics.options import Options
+from opsim.ergonomics.shift.booking import Booking
+from opsim.ergonomics.shift.ledger import AT_MOST
 from opsim.kpi import exposure, figures
 from opsim.kpi.exposure_levels import exposure_levels, measured_share
 from opsim.kpi.levels import LEVELS
@@ -18,7 +18,7 @@ from opsim.log import OFF, WAIT, WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, made_plan
-from tests.opsim.ergonomics.test_booking import frames, scores
+from tests.opsim.ergonomics.shift.test_booking import frames, scores
 from tests.opsim.kpi.made_logs import made, row, work
 
 HOUR_S = 3600.0

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.ergonomics.ledger import BINS, Ledger
+from opsim.ergonomics.shift.ledger import BINS, Ledger
 from opsim.kpi.levels import LEVELS, bounds_of_level, mean_score, minutes, quantile
 
 

@@ -4,12 +4,12 @@ from types import SimpleNamespace
 import pytest
 from plans import ran
 
-from opsim.ergonomics.regions import Regions
-from opsim.ergonomics.timeline import timeline
-from opsim.ergonomics.worst import worst_frames
+from opsim.ergonomics.shift.regions import Regions
+from opsim.ergonomics.shift.timeline import timeline
+from opsim.ergonomics.shift.worst import worst_frames
 from opsim.report.bodies import bodies_section, day_of, regions_said, write_postures
 from opsim.report.worst_picture import pair, posture_cards
-from tests.opsim.ergonomics.test_regions import CELL
+from tests.opsim.ergonomics.shift.test_regions import CELL
 
 
 @pytest.fixture(scope="module")

@@ -4,10 +4,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from opsim.ergonomics.bounds import NOTHING_OPEN
-from opsim.ergonomics.movement import scored_movements
+from opsim.ergonomics.scores.bounds import NOTHING_OPEN
+from opsim.ergonomics.shift.movement import scored_movements
 from opsim.report.course_picture import LEVELS, MOST_ROWS, SLIM_IN, WIDE_IN, course_svg, level_colour
-from tests.opsim.ergonomics.test_movement import movement
+from tests.opsim.ergonomics.shift.test_movement import movement
 
 
 def test_scores_have_the_colour_of_their_action_level():

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from emulator.skeleton import standard_skeleton
-from opsim.ergonomics.bounds import bounds_of
-from opsim.ergonomics.movement import scored_movements
 from opsim.ergonomics.options import USUAL
+from opsim.ergonomics.scores.bounds import bounds_of
+from opsim.ergonomics.shift.movement import scored_movements
 from opsim.plan.handling import Handling
 from opsim.report.course_picture import LEVELS
 from opsim.report.scored import Said, _badge, page, write_scored
-from tests.opsim.ergonomics.test_movement import movement
+from tests.opsim.ergonomics.shift.test_movement import movement
 
 HANDLING = Handling(
     load_kg=8.0,

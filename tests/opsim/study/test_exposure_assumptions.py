@@ -3,7 +3,7 @@
 import plans
 import pytest
 
-from opsim.ergonomics.not_seen import NOT_SEEN, RULES
+from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
 from opsim.study.assumptions import assumptions_of
 from opsim.study.ergonomics import ergonomics
 from opsim.study.human import human

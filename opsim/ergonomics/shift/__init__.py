@@ -1,0 +1,1 @@
+"""Every posture of a shift in time order, and what is folded over them."""

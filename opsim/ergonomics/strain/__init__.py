@@ -1,0 +1,1 @@
+"""Lifting, limits of postures, holds, repetition, energy and the rest they ask for."""
