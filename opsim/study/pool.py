@@ -3,7 +3,7 @@
 import os
 import signal
 from collections.abc import Callable, Generator, Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import get_context
@@ -31,7 +31,6 @@ def pooled(prepare: Prepare, items: Iterable[Any], processes: int) -> Generator[
     context = get_context("spawn")  # a fork would copy the locks of whatever threads run by then
     parent_lives, parent_ends = context.Pipe(duplex=False)
     pool = ProcessPoolExecutor(processes, context, initializer=_begin, initargs=(prepare, parent_lives))
-    futures: list[Future[Any]] = []
     try:
         with _without_control_c():
             futures = [pool.submit(_work, item) for item in items]
@@ -41,11 +40,19 @@ def pooled(prepare: Prepare, items: Iterable[Any], processes: int) -> Generator[
     except BrokenProcessPool:
         raise ProcessLost("a process was killed (out of memory?)") from None
     finally:
-        for future in futures:
-            future.cancel()
         parent_ends.close()  # each process sees this, and ends
+        _let_go(pool)
         pool.shutdown(wait=True, cancel_futures=True)
         parent_lives.close()
+
+
+def _let_go(pool: ProcessPoolExecutor) -> None:
+    """A process that ends while it sends a result leaves half of it in the pipe: the pool would wait for the rest for
+    ever, as the pipe has a writer left in this very process. Without it the pool sees that nobody writes any more.
+    """
+    results = getattr(pool, "_result_queue", None)  # None once the pool is shut down
+    if results is not None:
+        results._writer.close()
 
 
 @contextmanager

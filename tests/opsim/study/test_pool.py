@@ -1,6 +1,8 @@
 import math
 import multiprocessing
 import signal
+import subprocess
+import sys
 from functools import partial
 
 import pytest
@@ -37,3 +39,25 @@ def test_an_iteration_that_is_left_early_leaves_no_process():
     next(results)
     results.close()
     assert multiprocessing.active_children() == []
+
+
+def test_an_iteration_that_is_left_while_a_large_result_is_sent_ends_too(tmp_path):
+    """In a process of its own: what went wrong here was to wait for ever for the rest of a result."""
+    script = tmp_path / "left.py"
+    script.write_text(LEFT)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=20)
+    assert done.stdout == "left\n" and "Traceback" not in done.stderr
+
+
+LEFT = """
+import time
+from functools import partial
+from opsim.study.pool import pooled
+
+if __name__ == "__main__":
+    results = pooled(partial(partial, bytes), [60_000_000] * 8, 2)
+    next(results)
+    time.sleep(0.02)
+    results.close()
+    print("left")
+"""
