@@ -15,8 +15,9 @@ from opsim.streams import BLOCK, stream
 def drawn_s(plan: Plan, replication: int, worker: int, task: int, k: np.ndarray) -> np.ndarray:
     """(n,) seconds of a worker's performances ``k`` (n,) of a task, at rating 1 and without human effects."""
     person, named = plan.workers[worker], plan.tasks[task]
-    if getattr(named.model, "by_index", False):
-        return np.asarray(named.model.at(k), dtype=np.float64)  # type: ignore[attr-defined]
+    model: Any = named.model
+    if getattr(model, "by_index", False):
+        return np.asarray(model.at(k), dtype=np.float64)
     who = (person.name, plan.seed, plan.workforce_of(replication), person.body, plan.across_tasks)
     numbers, which = np.unique(k // BLOCK, return_inverse=True)
     with one_blas_thread():

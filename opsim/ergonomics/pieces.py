@@ -31,7 +31,9 @@ class Pieces(NamedTuple):
 
     def some(self, rows: np.ndarray | slice) -> Pieces:
         """A few of them."""
-        return Pieces(*(None if column is None else column[rows] for column in self))  # type: ignore[arg-type]
+        shift = None if self.pace_shift is None else self.pace_shift[rows]
+        worker, task, k = self.worker[rows], self.task[rows], self.k[rows]
+        return Pieces(worker, task, k, self.progress_from[rows], self.progress_to[rows], self.seconds[rows], shift)
 
 
 def pieces_in_window(log: EventLog, plan: Plan) -> Pieces:

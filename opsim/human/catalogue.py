@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from opsim.human.parameter import Parameter, neutral_of, parameters_of
+from opsim.human.parameter import Checked, Parameter, neutral_of, parameters_of
 
 _HOMES: dict[str, dict[str, str]] = {
     "learning": {
@@ -38,17 +38,17 @@ class Entry:
 
     effect: str
     model: str
-    cls: type
+    cls: type[Checked]
 
     @property
     def does(self) -> str:
         """What it does, in a few words."""
-        return self.cls.does  # type: ignore[attr-defined]
+        return self.cls.does
 
     @property
     def source(self) -> str:
         """Who published it."""
-        return self.cls.source  # type: ignore[attr-defined]
+        return self.cls.source
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import MISSING, Field, dataclass, field, fields
 from math import inf, isnan
-from typing import Any
+from typing import Any, ClassVar
 
 _KEY = "parameter"
 
@@ -78,9 +78,14 @@ def mistakes_of(model: Any) -> list[str]:
 
 
 class Checked:
-    """A model that refuses parameters out of bounds with one ValueError that lists all of them."""
+    """A model that refuses parameters out of bounds with one ValueError that lists all of them.
+
+    does : what it does, in a few words; source : who published it
+    """
 
     __slots__ = ()
+    does: ClassVar[str]
+    source: ClassVar[str]
 
     def __post_init__(self) -> None:
         if mistakes := mistakes_of(self):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 from opsim.ergonomics.missing import missing_scores
 from opsim.kpi.names import SCORED
@@ -20,7 +21,8 @@ def lacking(tasks: Iterable[TaskPlan]) -> dict[str, list[str]]:
     """Names of tasks by what their skeletons do not tell, each a sentence; nothing where they have every joint."""
     found: dict[str, list[str]] = {}
     for task in tasks:
-        for sentence in missing_scores(tuple(task.model.skeleton.names)):  # type: ignore[attr-defined]
+        model: Any = task.model
+        for sentence in missing_scores(tuple(model.skeleton.names)):
             found.setdefault(sentence, []).append(task.name)
     return found
 

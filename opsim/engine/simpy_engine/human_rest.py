@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import simpy
+
 from opsim.engine.rules import CALENDAR
 from opsim.engine.simpy_engine.floor import Floor, Handler, cancel
 from opsim.engine.simpy_engine.presence import DUTY
@@ -33,7 +35,7 @@ class Rests:
     def __init__(self, floor: Floor, rest, model):
         self.rest, self.model, self.floor = rest, model, floor
         self.worked: set[int] = set()
-        self.resting: dict[int, object] = {}
+        self.resting: dict[int, simpy.Event] = {}
 
     def look(self, floor: Floor) -> bool:
         """Who has to go rests no more; who has come free tired rests. True where something changed."""
@@ -66,7 +68,7 @@ class Rests:
         return True
 
     def _over(self, floor: Floor, worker: Worker) -> None:
-        cancel(self.resting.pop(worker.rank))  # type: ignore[arg-type]
+        cancel(self.resting.pop(worker.rank))
         set_free(floor, worker)
 
 
