@@ -7,7 +7,7 @@ from pathlib import Path
 from opsim.kpi.better import read_asked
 from opsim.plan import compile_plan
 from opsim.results import Result
-from opsim.study.assumptions import Asked
+from opsim.study.assumed.assumptions import Asked
 from opsim.study.precision import MOST, Precision, replicate_until
 from opsim.study.replicate import Progress, Replicated, replicate
 

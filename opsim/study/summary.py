@@ -12,14 +12,14 @@ from opsim.laws import CHECKS
 from opsim.log_store import parquet_file
 from opsim.plan import Plan
 from opsim.plan.hours.scheduled import floor_has_hours
-from opsim.study.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
+from opsim.study.assumed.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
+from opsim.study.assumed.posture_words import posture_assumptions
+from opsim.study.assumed.sources import task_sources
+from opsim.study.assumed.walking import walking_source
+from opsim.study.assumed.warnings import warnings_of
 from opsim.study.interval import CONFIDENCE, t_interval
-from opsim.study.posture_words import posture_assumptions
 from opsim.study.precision import Reached
 from opsim.study.replicate import Replicated
-from opsim.study.sources import task_sources
-from opsim.study.walking import walking_source
-from opsim.study.warnings import warnings_of
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40

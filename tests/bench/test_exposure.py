@@ -19,7 +19,7 @@ from opsim.kpi.values import inside_s
 from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
-from opsim.study.posture_words import _has_body
+from opsim.study.assumed.posture_words import _has_body
 
 MOST_S_PER_1000, FASTER_THAN_WORK, MOST_MB, MOST_TIMES = 0.2, 10_000, 64, 12
 DAY_AND_NIGHT_S = 24 * 3600.0

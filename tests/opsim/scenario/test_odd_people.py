@@ -12,7 +12,7 @@ from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.risks import risks_of
-from opsim.study.assumptions import assumptions_of
+from opsim.study.assumed.assumptions import assumptions_of
 
 HERE = Path(__file__).parent
 EVERYTHING, GOOD = (

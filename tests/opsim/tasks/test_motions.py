@@ -17,8 +17,8 @@ from opsim.scenario import read_scenarios
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.risks import risks_of
 from opsim.streams import stream
-from opsim.study.assumptions import assumptions_of
-from opsim.study.sources import task_sources
+from opsim.study.assumed.assumptions import assumptions_of
+from opsim.study.assumed.sources import task_sources
 from opsim.tasks.motions import emulators_of, same_task
 
 KIT = """

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.plan.station import STATION
-from opsim.study.assignment import assignment, qualities
-from opsim.study.crews import crews
-from opsim.study.lines import lines
-from opsim.study.released import released
-from opsim.study.station_model import by_themselves, station_model, vehicles
-from opsim.study.stopped import stopped
+from opsim.study.assumed.assignment import assignment, qualities
+from opsim.study.assumed.crews import crews
+from opsim.study.assumed.lines import lines
+from opsim.study.assumed.released import released
+from opsim.study.assumed.station_model import by_themselves, station_model, vehicles
+from opsim.study.assumed.stopped import stopped
 
 _IDLE = {
     "stay": "stay where they are",

@@ -4,8 +4,8 @@ import pytest
 from plans import loaded, plan
 
 from opsim.plan import compile_plan
-from opsim.study.assumptions import assumptions_of
-from opsim.study.working_time import working_time
+from opsim.study.assumed.assumptions import assumptions_of
+from opsim.study.assumed.working_time import working_time
 
 TEXT = """
 opsim: 1

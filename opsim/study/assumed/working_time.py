@@ -9,7 +9,7 @@ from opsim.names import listed
 from opsim.plan import Plan
 from opsim.plan.hours.scheduled import has_hours
 from opsim.plan.release import SATURATED
-from opsim.study.station_model import Line
+from opsim.study.assumed.station_model import Line
 
 _BROKEN_OFF = {
     "finish": "who has to go finishes the task under way first",

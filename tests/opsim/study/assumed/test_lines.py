@@ -3,9 +3,9 @@
 from plans import loaded, plan
 
 from opsim.plan import compile_plan
-from opsim.study.flow import flow
-from opsim.study.lines import lines
-from opsim.study.people import people
+from opsim.study.assumed.flow import flow
+from opsim.study.assumed.lines import lines
+from opsim.study.assumed.people import people
 
 TEXT = """
 opsim: 1

@@ -5,9 +5,9 @@ import pytest
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
+from opsim.study.assumed.released import released
+from opsim.study.assumed.station_model import station_model
 from opsim.study.folder import OtherRun
-from opsim.study.released import released
-from opsim.study.station_model import station_model
 
 TEXT = """
 opsim: 1

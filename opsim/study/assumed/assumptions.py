@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.provenance import behind, fit_report
-from opsim.study.ergonomics import ergonomics
-from opsim.study.flow import flow
-from opsim.study.human import human
-from opsim.study.people import asked_for_pace, people
-from opsim.study.strain import strain
-from opsim.study.walking import walking
+from opsim.study.assumed.ergonomics import ergonomics
+from opsim.study.assumed.flow import flow
+from opsim.study.assumed.human import human
+from opsim.study.assumed.people import asked_for_pace, people
+from opsim.study.assumed.strain import strain
+from opsim.study.assumed.walking import walking
 from opsim.tasks.motions import emulators_of
 
 

@@ -10,8 +10,8 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.unread import tasks_of, unknown_there
 from opsim.plan.worker import WorkerPlan, start_place
 from opsim.streams import stream
-from opsim.study.rotations import rotations
-from opsim.study.working_time import working_time
+from opsim.study.assumed.rotations import rotations
+from opsim.study.assumed.working_time import working_time
 
 _OWN_PACE = ("full", "between_only", "shuffled")
 """Under these, workers differ in pace."""

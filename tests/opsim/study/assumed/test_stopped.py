@@ -4,8 +4,8 @@ import pytest
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.study.sources import task_sources
-from opsim.study.stopped import stopped
+from opsim.study.assumed.sources import task_sources
+from opsim.study.assumed.stopped import stopped
 
 TEXT = """
 opsim: 1

@@ -4,9 +4,9 @@ import plans
 import pytest
 
 from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
-from opsim.study.assumptions import assumptions_of
-from opsim.study.ergonomics import ergonomics
-from opsim.study.human import human
+from opsim.study.assumed.assumptions import assumptions_of
+from opsim.study.assumed.ergonomics import ergonomics
+from opsim.study.assumed.human import human
 
 CELL = """
 opsim: 1
