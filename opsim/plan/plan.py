@@ -49,6 +49,7 @@ class Plan:
     ergonomics : how postures are scored; human : what becomes of people as they work; posture : whether anybody looks
                  at postures at all
     start_s : when on the clock the run begins, seconds after Monday 00:00
+    workforce : the number that keys who the workers are, whatever ``staffing`` says: the outer index of a nested study
     """
 
     name: str
@@ -95,6 +96,7 @@ class Plan:
     human: HumanPlan = NO_EFFECTS
     posture: bool = True
     start_s: float = 0.0
+    workforce: int | None = None
 
     @property
     def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:
@@ -113,6 +115,8 @@ class Plan:
 
     def workforce_of(self, replication: int) -> int:
         """The number that keys who the workers of a replication are: the same in all where staffing is fixed."""
+        if self.workforce is not None:
+            return self.workforce
         return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
 
     @property

@@ -7,18 +7,19 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from opsim.collecting import without_collecting
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
+from opsim.scenario.changes import changes_node
 from opsim.scenario.checks import check_problems
 from opsim.scenario.include import with_includes
 from opsim.scenario.like import without_likes
 from opsim.scenario.overrides import applied
 from opsim.scenario.plain_words import schema_problems
-from opsim.scenario.positions import Node, Place, Source, problem, written_paths
+from opsim.scenario.positions import Node, problem, written_paths
 from opsim.scenario.schema import Scenario
 from opsim.scenario.skill_levels import with_ratings
 from opsim.scenario.variants import variants
@@ -26,6 +27,8 @@ from opsim.scenario.workforce import with_workforce, without_workforce
 from opsim.scenario.yaml_nodes import Budget, read_tree
 from opsim.scenario.yaml_text import read_bytes
 from opsim.shipped import find_scenario
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,7 @@ class Loaded:
 
 
 def read_scenarios(
-    path: str | Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
+    path: str | Path, names: Sequence[str] | None = None, changes: Mapping[str, Any] | None = None
 ) -> dict[str, Loaded]:
     """The variants of a scenario file by name, in the file's order; with ``names`` those only, in that order.
 
@@ -59,41 +62,58 @@ def read_scenarios(
 
 @without_collecting()
 def scenarios_in(
-    raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, str | int] | None = None
+    raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, Any] | None = None
 ) -> dict[str, Loaded]:
     """As ``read_scenarios``, from the bytes of a file; ``file`` names it and places the files it mentions."""
-    budget = Budget()
-    root, problems = read_tree(raw, str(file), budget)
-    if not isinstance(root.value, dict):
-        found = f"expected a scenario, found {shown(root.value)}"
-        raise ScenarioError([*problems, problem(root.place, "", found, "a scenario begins with 'opsim: 1'")])
-    root, more = with_includes(root, file, budget)
-    problems += more
-    base, trees, more = variants(root, budget)
-    problems += more
+    base, trees, problems = _trees(raw, file)
     loaded: dict[str, Loaded] = {}
     for variant, tree in trees.items():
-        tree, wrong = applied(tree, "changes", _as_override(changes or {}))
+        tree, wrong = applied(tree, "changes", changes_node(changes or {}))
         problems += wrong
         scenario, tree, found_here = _checked(tree, base, file.parent)
         problems += found_here
         if scenario is not None:
-            given = frozenset(written_paths(tree))
-            resolved = without_workforce(tree).plain()
-            loaded[variant] = Loaded(scenario, variant, file, file.parent, given, resolved)
+            loaded[variant] = _loaded(scenario, tree, file, variant)
     if problems:
         raise ScenarioError(sorted(_unheard(problems)))
     return loaded if names is None else _chosen(loaded, names, file)
 
 
-def _as_override(changes: Mapping[str, str | int]) -> Node:
-    """Changes as a block of their own, a line each, so that what is wrong with them has a place too."""
-    source = Source("changes", tuple(f"{path}: {value}" for path, value in changes.items()))
-    nodes = {
-        path: Node(value, Place(source, line, len(path) + 2), Place(source, line, 0))
-        for line, (path, value) in enumerate(changes.items())
-    }
-    return Node(nodes, Place(source, 0, 0))
+def variant_of(file: Path, variant: str | None = None) -> tuple[str, Node, Node]:
+    """(name, tree, tree without overrides) of one variant of a file, by default the first; nothing in it is checked.
+
+    Raises ScenarioError with what is wrong with the file's text and its variants.
+    """
+    base, trees, problems = _trees(read_bytes(file), file)
+    if problems:
+        raise ScenarioError(sorted(problems))
+    name = next(iter(trees)) if variant is None else variant
+    return name, _chosen(trees, [name], file)[name], base
+
+
+def loaded_of(tree: Node, base: Node, file: Path, variant: str) -> Loaded:
+    """The tree of a variant, checked. Raises ScenarioError with all that is wrong with it."""
+    scenario, tree, problems = _checked(tree, base, file.parent)
+    if scenario is None or problems:
+        raise ScenarioError(sorted(_unheard(problems)))
+    return _loaded(scenario, tree, file, variant)
+
+
+def _loaded(scenario: Scenario, tree: Node, file: Path, variant: str) -> Loaded:
+    resolved = without_workforce(tree).plain()
+    return Loaded(scenario, variant, file, file.parent, frozenset(written_paths(tree)), resolved)
+
+
+def _trees(raw: bytes, file: Path) -> tuple[Node, dict[str, Node], list[Problem]]:
+    """The tree without overrides, that of every variant, and what is wrong with the file as a text."""
+    budget = Budget()
+    root, problems = read_tree(raw, str(file), budget)
+    if not isinstance(root.value, dict):
+        found = f"expected a scenario, found {shown(root.value)}"
+        raise ScenarioError([*problems, problem(root.place, "", found, "a scenario begins with 'opsim: 1'")])
+    root, of_includes = with_includes(root, file, budget)
+    base, trees, of_variants = variants(root, budget)
+    return base, trees, [*problems, *of_includes, *of_variants]
 
 
 def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Node, list[Problem]]:
@@ -123,7 +143,7 @@ def _unheard(problems: Iterable[Problem]) -> Iterator[Problem]:
             yield one
 
 
-def _chosen(loaded: dict[str, Loaded], names: Sequence[str], file: Path) -> dict[str, Loaded]:
+def _chosen(loaded: dict[str, T], names: Sequence[str], file: Path) -> dict[str, T]:
     unknown = [name for name in names if name not in loaded]
     if unknown:
         raise ScenarioError(

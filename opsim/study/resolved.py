@@ -10,6 +10,8 @@ IN_NOTHING = (("name",), ("run", "seed"), ("run", "replications"))
 IN_FIGURES = (("outputs",), ("frontier",), ("run", "posture"), ("run", "warm_up"))
 """What two runs may differ in and still have the same rows, without and with other figures; the manifest names the seed
 by itself."""
+STUDIES = "studies"
+"""What is asked of a scenario, which decides nothing of it."""
 SCORES, LOADS = "ergonomics", ("load", "loaded", "handling")
 """How postures are scored, and what a task says of hands and bodies: these decide rows only where something asks."""
 
@@ -34,7 +36,8 @@ def decides_rows(resolved: dict[str, Any], asked: frozenset[str] | None = None) 
     asked : what of SCORES and LOADS they depend on; None: as ``asked_by`` finds
     """
     asked = asked_by(resolved) if asked is None else asked
-    leaves = ((path, value) for path, value in _leaves(resolved, ()) if path not in IN_NOTHING)
+    floor = {section: block for section, block in resolved.items() if section != STUDIES}
+    leaves = ((path, value) for path, value in _leaves(floor, ()) if path not in IN_NOTHING)
     return {".".join(path): value for path, value in leaves if not _in_figures_only(path, asked)}
 
 

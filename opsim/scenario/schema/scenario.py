@@ -27,6 +27,7 @@ from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.sequence import Flow
 from opsim.scenario.schema.shifts import Shift
 from opsim.scenario.schema.skills import SkillLevels
+from opsim.scenario.schema.studies import Studies
 from opsim.scenario.schema.task_kinds import Task
 from opsim.scenario.schema.tools import Tool
 from opsim.scenario.schema.transporters import Transporter
@@ -182,6 +183,9 @@ class Scenario(Block):
         None,
         description="two figures over all variants, one against the other: a KPI, KPI/subject or KPI/subject/part",
         examples=["[throughput_per_h, trunk_beyond_60_min_per_h]"],
+    )
+    studies: Studies | None = Field(
+        None, description="what is asked of it beside running it: opsim sweep, select, labour, layout"
     )
 
 
