@@ -1,0 +1,110 @@
+"""Designs: where to look in a room of factors. Plain functions on arrays, no scenario needed.
+
+A design is (P, F): a row a point, a column a factor. Grids have numbers of levels, the others shares from 0 to 1 of
+each factor's range.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+MORRIS_LEVELS = 4
+
+
+class Missing(ValueError):
+    """A package that this needs is not installed."""
+
+
+def grid(levels: Sequence[int]) -> np.ndarray:
+    """Every combination of so many levels of each factor (full factorial): (P, F) level numbers, the last one fastest.
+
+    Source: Montgomery, Design and Analysis of Experiments, 8th ed., chapter 5.
+    """
+    columns = np.meshgrid(*(np.arange(n) for n in levels), indexing="ij")
+    return np.stack([column.ravel() for column in columns], axis=1)
+
+
+def one_at_a_time(levels: Sequence[int]) -> np.ndarray:
+    """The base, then each level of each factor with the others at the base: (P, F) level numbers, -1 the base."""
+    rows = [[-1] * len(levels)]
+    for factor, n in enumerate(levels):
+        rows += [[level if other == factor else -1 for other in range(len(levels))] for level in range(n)]
+    return np.array(rows, dtype=int)
+
+
+def latin_hypercube(n: int, factors: int, rng: np.random.Generator) -> np.ndarray:
+    """``n`` points, (n, factors) shares: each of n equal parts of each factor's range holds one of them.
+
+    Source: McKay, Beckman & Conover 1979, Technometrics 21:239-245; computed by scipy.stats.qmc.
+    """
+    from scipy.stats import qmc
+
+    return np.asarray(qmc.LatinHypercube(factors, rng=rng).random(n))
+
+
+def sobol(n: int, factors: int, rng: np.random.Generator) -> np.ndarray:
+    """The first ``n`` points of a scrambled Sobol sequence, (n, factors) shares; evenest where n is a power of two.
+
+    Source: Owen 1998, J. Complexity 14:466-489; computed by scipy.stats.qmc.
+    """
+    from scipy.stats import qmc
+
+    with _no_word_of_powers():
+        return np.asarray(qmc.Sobol(factors, scramble=True, rng=rng).random(n))
+
+
+def saltelli(n: int, factors: int, rng: np.random.Generator) -> np.ndarray:
+    """The points from which Sobol indices are computed, (n * (factors + 2), factors) shares.
+
+    n : base points, best a power of two. Raises Missing where SALib is not installed.
+    Source: Saltelli et al. 2010, Comput. Phys. Commun. 181:259-270; computed by SALib.
+    """
+    sample = _salib("SALib.sample.sobol")
+    with _no_word_of_powers():
+        found = sample.sample(_room(factors), n, calc_second_order=False, seed=rng)
+    return np.asarray(found, dtype=float)
+
+
+def morris(n: int, factors: int, rng: np.random.Generator) -> np.ndarray:
+    """``n`` paths on which one factor moves at a time, (n * (factors + 1), factors) shares on four levels.
+
+    Raises Missing where SALib is not installed.
+    Source: Morris 1991, Technometrics 33:161-174; computed by SALib.
+    """
+    sample = _salib("SALib.sample.morris")
+    return np.asarray(sample.sample(_room(factors), n, num_levels=MORRIS_LEVELS, seed=rng), dtype=float)
+
+
+def power_of_two(n: int) -> int:
+    """The least power of two that is not below n."""
+    return 1 << max(0, n - 1).bit_length()
+
+
+def _room(factors: int) -> dict[str, Any]:
+    """A unit cube, as SALib calls it."""
+    return {"num_vars": factors, "names": [f"x{i}" for i in range(factors)], "bounds": [[0.0, 1.0]] * factors}
+
+
+def _salib(module: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(module)
+    except ImportError:
+        raise Missing(
+            "the designs sobol_indices and morris are computed by SALib, which is not installed; "
+            "install it with: pip install 'opsim[sensitivity]'"
+        ) from None
+
+
+class _no_word_of_powers(warnings.catch_warnings):
+    """scipy warns of numbers that are no power of two; we say it in our words."""
+
+    def __enter__(self) -> Any:
+        caught = super().__enter__()
+        warnings.simplefilter("ignore", UserWarning)
+        return caught

@@ -1,0 +1,135 @@
+"""A factor of a sweep: a dotted path with the values that it takes, as they are written in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from opsim.scenario.changes import flow_text
+from opsim.scenario.schema.studies.between import between, number_of, steps
+from opsim.scenario.schema.studies.factors import Range
+from opsim.units import UNITS
+
+AS_IT_IS = "as it is"
+"""What a factor's level is called where a point leaves it as the scenario has it."""
+
+
+class Unchanged:
+    """The value of a factor that a point leaves as the scenario has it."""
+
+    def __repr__(self) -> str:
+        return AS_IT_IS
+
+
+UNCHANGED = Unchanged()
+
+
+@dataclass(frozen=True)
+class Factor:
+    """``values`` : those that it may take, or both ends of a range; ``levels`` of a range in a grid, else None."""
+
+    path: str
+    values: tuple[Any, ...]
+    is_range: bool = False
+    levels: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The last two parts of its path, which say enough in a picture: ``saw.buffer``."""
+        return ".".join(self.path.split(".")[-2:])
+
+    @property
+    def ends(self) -> tuple[Any, ...]:
+        """The values that are tried one at a time, and checked before the first run."""
+        return self.values
+
+    def at(self, share: float) -> Any:
+        """The value at a share from 0 to 1 of its range, or of its list, each with the same part of the way."""
+        if self.is_range:
+            return between(self.values[0], self.values[1], share)
+        return self.values[min(len(self.values) - 1, int(share * len(self.values)))]
+
+    def grid_values(self) -> list[Any]:
+        """The values that it takes in a grid."""
+        if self.is_range:
+            return steps(self.values[0], self.values[1], self.levels or 2)
+        return list(self.values)
+
+    @cached_property
+    def unit(self) -> str:
+        """Of its numbers: that of the first value."""
+        known = [found for value in self.values if value is not UNCHANGED and (found := number_of(value))]
+        return known[0][1] if known else ""
+
+    @cached_property
+    def is_number(self) -> bool:
+        """Whether its values have an order: all of them are numbers, or quantities of one kind."""
+        said = [value for value in self.values if value is not UNCHANGED]
+        return bool(said) and len(said) == len(self.values) and all(self._number(value) is not None for value in said)
+
+    def number(self, value: Any) -> float:
+        """A value in ``unit``; of values without an order, and of lists between two, which one or how far it is."""
+        if self.is_number:
+            found = self._number(value)
+            assert found is not None
+            return found
+        if self.is_range:
+            return _share_of_lists(value, *self.values)
+        return float([flow_text(one) for one in self.values].index(flow_text(value)))
+
+    @property
+    def categories(self) -> int:
+        """How many values it has where they have no order, else 0."""
+        return 0 if self.is_number or self.is_range else len(self.values)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the largest of its numbers."""
+        numbers = [self.number(value) for value in self.values]
+        return min(numbers), max(numbers)
+
+    def words(self, value: Any) -> str:
+        """A value as it is written."""
+        return AS_IT_IS if value is UNCHANGED else flow_text(value)
+
+    def _number(self, value: Any) -> float | None:
+        """In the factor's unit; None where it is no number of the same kind."""
+        found = number_of(value)
+        if found is None or found[1] == self.unit:
+            return None if found is None else found[0]
+        sizes = next((units for units in UNITS.values() if self.unit in units), {})
+        if found[1] not in sizes:
+            return None
+        return float(found[0] * float(sizes[found[1]] / sizes[self.unit]))
+
+
+def factors_of(vary: Mapping[str, Range | Sequence[Any]], levels: int | None = None) -> tuple[Factor, ...]:
+    """The factors of a block ``vary``; values given twice count once. levels : of ranges that say none themselves"""
+    return tuple(
+        Factor(path, (of.low, of.high), True, of.levels or levels) if isinstance(of, Range) else _listed(path, of)
+        for path, of in vary.items()
+    )
+
+
+def factors_of_points(points: Sequence[Mapping[str, Any]]) -> tuple[Factor, ...]:
+    """The factors of points given one by one, with all values that they take there."""
+    paths = dict.fromkeys(path for point in points for path in point)
+    return tuple(_listed(path, [point.get(path, UNCHANGED) for point in points]) for path in paths)
+
+
+def _listed(path: str, values: Sequence[Any]) -> Factor:
+    unique = {repr(UNCHANGED) if value is UNCHANGED else "=" + flow_text(value): value for value in values}
+    return Factor(path, tuple(unique.values()))
+
+
+def _share_of_lists(value: Any, low: Any, high: Any) -> float:
+    """How far a list is from one to another: by the first of their numbers that differs."""
+    for one, first, last in zip(value, low, high):
+        if first != last:
+            if isinstance(first, list):
+                return _share_of_lists(one, first, last)
+            a, b, c = (found[0] for end in (one, first, last) if (found := number_of(end)))
+            return (a - b) / (c - b)
+    return 0.0

@@ -1,0 +1,179 @@
+"""A fitted response: a second-order polynomial of the factors, with its error and a word on whether to trust it.
+
+Why not weighted by the scatter of each point: variances of a few replications are too rough to be weights, and common
+random numbers make the points' errors go together. Least squares of each replication by itself is right in both cases:
+n fits, as alike as the replications are, and Student's interval of their mean.
+Source: Kleijnen, Design and Analysis of Simulation Experiments, 2nd ed. 2015, sections 3.4 and 3.5 (common random
+numbers); Montgomery, Design and Analysis of Experiments, 8th ed., sections 10.7 (PRESS) and 10.8 (lack of fit).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from opsim.study.interval import CONFIDENCE
+from opsim.study.sweep.fit_errors import lack_of_fit, leaves_one_out, press_of, pure_error, residuals, t_of
+from opsim.study.sweep.terms import Part, Room, columns, offers
+
+TRUSTED_R2, SHARP = 0.8, 2.0
+"""Of prediction: below, a fit says too little. A misfit is one where points are missed by so many times their noise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """Of a figure at a point: ``low`` and ``high`` hold the true mean, as far as the fit is as good between the points
+    as at those that were left out."""
+
+    mean: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """A fitted response of one figure, on factors scaled to -1 ... 1.
+
+    kind, terms     : linear, ... and what it consists of; the first term is the constant
+    coefficients    : (C,); per_replication (C, n), empty where there is one replication only
+    half_widths     : (C,) of their 95 % intervals
+    loo_rmse        : root mean square by which a point is missed by the fit without it (leave one out)
+    noise           : standard error of a point's mean, apart from luck common to all points (nan where n is 1)
+    r2, r2_predicted: share of the points' variation that the fit explains; the same for points left out
+    lack_of_fit_p   : of the F test against pure error: below 0.05, noise alone does not explain the misses
+    """
+
+    room: Room
+    kind: str
+    terms: tuple[tuple[Part, ...], ...]
+    coefficients: np.ndarray
+    per_replication: np.ndarray
+    half_widths: np.ndarray
+    n_points: int
+    loo_rmse: float
+    noise: float
+    r2: float
+    r2_predicted: float
+    lack_of_fit_p: float
+
+    @property
+    def spare(self) -> int:
+        """Points beyond those that the terms use up."""
+        return self.n_points - len(self.terms)
+
+    @property
+    def trusted(self) -> bool:
+        """Whether it may be read between the points."""
+        return self.r2_predicted >= TRUSTED_R2 and not (self.bent and self.r2_predicted < 0.95)
+
+    @property
+    def bent(self) -> bool:
+        """Whether it misses the points clearly by more than their noise."""
+        return bool(self.lack_of_fit_p < 1 - CONFIDENCE and self.loo_rmse > SHARP * self.noise)
+
+    def means(self, points: np.ndarray | Sequence[Sequence[float]]) -> np.ndarray:
+        """(P,) of points (P, F) in the factors' own units."""
+        return columns(self.terms, self.room.scaled(self._inside(points)), self.room) @ self.coefficients
+
+    def at(self, point: Sequence[float]) -> Prediction:
+        """At one point, in the factors' own units. Raises ValueError outside the room that was looked at."""
+        row = columns(self.terms, self.room.scaled(self._inside([point])), self.room)[0]
+        half = np.hypot(self.half_of(row), t_of(self.spare) * self.loo_rmse)
+        mean = float(row @ self.coefficients)
+        return Prediction(mean, mean - float(half), mean + float(half))
+
+    def half_of(self, row: np.ndarray) -> float:
+        """Half-width of the 95 % interval of a sum of coefficients, as far as replications differ."""
+        if self.per_replication.size == 0:
+            return 0.0
+        n = self.per_replication.shape[1]
+        return float(t_of(n - 1) * (row @ self.per_replication).std(ddof=1) / np.sqrt(n))
+
+    def _inside(self, points: np.ndarray | Sequence[Sequence[float]]) -> np.ndarray:
+        found = np.asarray(points, dtype=float)
+        slack = 1e-9 * self.room.half
+        outside = (found < self.room.low - slack) | (found > self.room.high + slack)
+        if outside.any():
+            row, factor = np.argwhere(outside)[0]
+            raise ValueError(
+                f"factor {factor} at {found[row, factor]:g} lies outside of what was looked at, "
+                f"{self.room.low[factor]:g} to {self.room.high[factor]:g}"
+            )
+        return found
+
+
+def fit_response(
+    points: np.ndarray | Sequence[Sequence[float]],
+    values: np.ndarray | Sequence[float],
+    *,
+    low: Sequence[float] | None = None,
+    high: Sequence[float] | None = None,
+    categories: Sequence[int] | None = None,
+    kind: str | None = None,
+) -> Response:
+    """The response that misses points left out by least: linear, with squares, with interactions, or quadratic (both).
+
+    points     : (P, F) in the factors' own units; a row may be there more than once
+    values     : (P, n) of n replications with common random numbers, or (P,)
+    low, high  : (F,) ends of each factor; by default those of the points
+    categories : (F,) for a factor whose values 0, 1, 2, ... have no order, how many there are; 0 for numbers
+    kind       : "linear", "linear with squares", "linear with interactions" or "quadratic", instead of the best one
+    Points and replications without a value (nan) are left out.
+    Raises ValueError where there are too few points for a line.
+    """
+    x = np.asarray(points, dtype=float)
+    y = np.asarray(values, dtype=float).reshape(len(x), -1)
+    x, y = _known(x, y)
+    room = Room(
+        np.asarray(x.min(axis=0, initial=np.inf) if low is None else low, dtype=float),
+        np.asarray(x.max(axis=0, initial=-np.inf) if high is None else high, dtype=float),
+        tuple(categories or [0] * x.shape[1]),
+    )
+    scaled = room.scaled(x)
+    found = [(kind, terms, columns(terms, scaled, room)) for kind, terms in offers(room, x)]
+    possible = [one for one in found if kind in (None, one[0]) and leaves_one_out(one[2])]
+    if not possible:
+        raise ValueError(
+            f"{len(np.unique(x, axis=0))} points are too few to fit a {kind or 'response'} of {x.shape[1]} factors"
+        )
+    best = min(possible, key=lambda one: (round(press_of(one[2], y.mean(axis=1)), 12), len(one[1])))
+    return _fitted(room, *best, y)
+
+
+def _known(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    rows = ~np.isnan(y).all(axis=1)
+    y = y[rows]
+    y = y[:, ~np.isnan(y).any(axis=0)]
+    if y.size == 0:
+        raise ValueError("there is no replication with a value at every point, so no response is fitted")
+    return x[rows], y
+
+
+def _fitted(room: Room, kind: str, terms: list[tuple[Part, ...]], design: np.ndarray, y: np.ndarray) -> Response:
+    means, n = y.mean(axis=1), y.shape[1]
+    each = np.linalg.lstsq(design, y, rcond=None)[0]
+    misses, around = residuals(design, means), means - means.mean()
+    total, press = float(around @ around), press_of(design, means)
+    spare = len(means) - len(terms)
+    if n > 1:
+        halves = t_of(n - 1) * each.std(axis=1, ddof=1) / np.sqrt(n)
+    else:
+        spread = np.diag(np.linalg.inv(design.T @ design)) * float(misses @ misses) / spare
+        halves = t_of(spare) * np.sqrt(spread)
+    flat = total <= (1e-12 * np.abs(means).max(initial=0)) ** 2 * len(means)
+    return Response(
+        room=room,
+        kind=kind,
+        terms=tuple(terms),
+        coefficients=each.mean(axis=1),
+        per_replication=each if n > 1 else np.empty((len(terms), 0)),
+        half_widths=halves,
+        n_points=len(means),
+        loo_rmse=float(np.sqrt(press / len(means))),
+        noise=float(np.sqrt(pure_error(y) / n)),
+        r2=1.0 if flat else 1 - float(misses @ misses) / total,
+        r2_predicted=1.0 if flat else 1 - press / total,
+        lack_of_fit_p=lack_of_fit(misses, y, spare),
+    )

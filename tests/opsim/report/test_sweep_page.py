@@ -1,0 +1,92 @@
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from opsim.report.study_page import study_html
+from opsim.report.sweep_map import colour
+from opsim.report.sweep_page import MOST_ROWS, sweep_page
+from opsim.report.sweep_tornado import tornado_svg
+from opsim.report.sweep_words import fit_sentences, sentences_of
+from opsim.scenario.schema.studies.sweep import Sweep
+from opsim.study.sweep.found import found_of
+from opsim.study.sweep.points import points_of
+
+KEY = ("throughput_per_h", "", "", "1/h")
+VARY = {"release.every": {"from": "40 s", "to": "60 s", "levels": 3}, "stations.<b>.buffer": [1, 2, 4]}
+
+
+def made(figure, noise=0.05, replications=6, **said):
+    """(points, found) of a figure that is a function of the factors' numbers."""
+    points = points_of(Sweep.model_validate({"vary": VARY, **said}), 3)
+    rng = np.random.default_rng(2)
+    luck = rng.normal(0, 1, (1, replications)) + rng.normal(0, noise, (len(points.values), replications))
+    values = np.array([figure(*row) for row in points.numbers()])[:, None] + luck * noise
+    return points, found_of(KEY, "more", points, values, 3)
+
+
+def test_the_factor_that_matters_most_comes_first_and_the_others_hardly():
+    points, found = made(lambda every, buffer: 100 - every + 0.02 * buffer)
+    said = sentences_of(found, points)[0]
+    assert said.startswith("Throughput (good units) goes up most with release.every: +20.00")
+    assert "from 60 s to 40 s. stations.<b>.buffer hardly matters for it" in said
+
+
+def test_most_is_not_said_where_what_is_unsure_may_be_more():
+    points = points_of(Sweep.model_validate({"vary": VARY}), 3)
+    every, buffer = points.numbers().T
+    values = buffer[:, None] + (every[:, None] - 50) * np.array([[3.0, -1, 2, -2]])
+    said = sentences_of(found_of(KEY, "more", points, values, 3), points)[0]
+    assert "goes up clearly with stations.<b>.buffer" in said and "Whether release.every does anything" in said
+
+
+@pytest.mark.parametrize(
+    "figure, noise, said",
+    [
+        (lambda every, buffer: 100 - every * buffer / 9, 0.05, "may be read between the points"),
+        (lambda every, buffer: 100.0, 5.0, "not to be trusted"),
+        (lambda every, buffer: 100 + 9 * np.sign(every - 55) + np.sin(every), 0.01, "Do not trust the fit"),
+    ],
+)
+def test_a_fit_says_whether_it_is_to_be_trusted(figure, noise, said):
+    vary = {**VARY, "release.every": {"from": "40 s", "to": "60 s", "levels": 9}}
+    assert said in fit_sentences(made(figure, noise, vary=vary)[1])[1]
+
+
+@pytest.mark.parametrize("design", ["grid", "latin_hypercube", "one_at_a_time"])
+def test_names_are_escaped_and_pictures_are_sound(design):
+    points, found = made(lambda every, buffer: 0 if np.isnan(every + buffer) else every - buffer, design=design)
+    page = study_html(sweep_page("<i>line</i>", points, [found], 6, 3))
+    assert "<b>" not in page and "<i>" not in page and "&lt;b&gt;" in page
+    for picture in page.split("<svg")[1:]:
+        ElementTree.fromstring("<svg" + picture.partition("</svg>")[0] + "</svg>")
+
+
+def test_of_many_points_only_the_first_are_shown():
+    points, found = made(lambda every, buffer: every, points=300, design="latin_hypercube", replications=2)
+    page = sweep_page("Line", points, [found], 2, 3)
+    table = page.sections[-1]
+    assert len(table.table.rows) == MOST_ROWS and "all of them are in figures.parquet" in table.sentences[0]
+
+
+def test_a_tornado_of_nothing_is_no_picture():
+    assert tornado_svg([], "1/h", 1.0, "the base") == ""
+
+
+def test_colours_go_from_pale_to_dark_and_unknown_is_grey():
+    assert colour(0, 0, 1)[0] == "#f7fbff" and colour(1, 0, 1) == ("#005c94", "#ffffff")
+    assert colour(float("nan"), 0, 1)[0] == "#e3e6ea" and colour(5, 5, 5)[0].startswith("#")
+
+
+def test_one_replication_says_that_it_says_nothing_of_chance():
+    points, found = made(lambda every, buffer: every, replications=1)
+    assert "one replication of each point says nothing of chance" in sentences_of(found, points)[0]
+    assert "by one replication" in sentences_of(found, points)[1]
+
+
+def test_a_study_with_a_point_without_value_still_stands():
+    points = points_of(Sweep.model_validate({"vary": VARY}), 3)
+    values = np.random.default_rng(0).normal(5, 1, (9, 4))
+    values[0] = np.nan
+    page = sweep_page("Line", points, [found_of(KEY, "more", points, values, 3)], 4, 3)
+    assert "nan" not in study_html(page).replace("tornado", "")

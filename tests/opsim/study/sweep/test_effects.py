@@ -1,0 +1,52 @@
+import numpy as np
+import pytest
+
+from opsim.study.interval import t_interval
+from opsim.study.sweep import grid, main_effects, tornado
+from opsim.study.sweep.effects import swing
+
+
+def test_a_tornado_has_the_largest_swing_on_top_and_pairs_its_replications(rng):
+    luck = rng.normal(0, 100, 8)
+    small, large = rng.normal(0, 0.1, 8), rng.normal(0, 0.1, 8)
+    found = tornado(
+        luck, {"little": {"lo": luck - 1, "hi": luck + small}, "much": {"lo": luck - 5, "hi": luck + 5 + large}}
+    )
+    assert [one.name for one in found] == ["much", "little"]
+    much = found[0]
+    assert [much.levels[k].name for k in (much.least, much.most)] == ["lo", "hi"] and much.clear
+    assert much.rise.mean == pytest.approx(10 + large.mean()) and much.rise.half_width < 0.2
+
+
+def test_the_base_counts_as_a_level_so_that_a_best_in_the_middle_is_seen(rng):
+    luck = rng.normal(0, 1, 8)
+    one = tornado(luck, {"speed": {"lo": luck - 5, "hi": luck - 4 - rng.normal(0, 0.1, 8)}}, {"speed": "60 s"})[0]
+    assert one.levels[one.most].name == "60 s"
+
+
+def test_the_interval_of_the_two_levels_furthest_apart_counts_that_they_were_picked(rng):
+    rows = {str(k): rng.normal(0, 1, 10) for k in range(3)}
+    one = swing("nothing", rows, rows["0"])
+    pair = rows[one.levels[one.most].name] - rows[one.levels[one.least].name]
+    alone = t_interval(pair, 1 - 0.05 / 3)
+    assert one.rise.half_width == pytest.approx(alone.half_width)
+
+
+@pytest.mark.slow
+def test_a_factor_that_does_nothing_is_called_clear_in_at_most_one_of_twenty_sweeps():
+    rng = np.random.default_rng(6)
+    clear = [swing("x", dict(zip("abcd", rng.normal(0, 1, (4, 6)))), np.zeros(6)).clear for _ in range(1000)]
+    assert np.mean(clear) < 0.05 + 3 * np.sqrt(0.05 * 0.95 / 1000)
+
+
+def test_main_effects_are_means_over_all_combinations_of_the_others():
+    design = grid([2, 3])
+    values = (10 * design[:, 0] + design[:, 1])[:, None] + np.zeros((1, 4))
+    a, b = main_effects(design, values, ["a", "b"], [["0", "1"], ["0", "1", "2"]])
+    assert (a.name, a.rise.mean, b.rise.mean) == ("a", 10, 2)
+    assert [level.mean.mean for level in b.levels] == [5, 6, 7] and b.levels[1].change.mean == 0
+
+
+def test_what_is_the_same_everywhere_is_no_effect():
+    one = swing("x", {"a": [1.0, 2.0], "b": [1.0, 2.0]}, [1.0, 2.0])
+    assert one.nothing and not one.clear

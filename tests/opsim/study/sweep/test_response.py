@@ -1,0 +1,123 @@
+import numpy as np
+import pytest
+
+from opsim.study.sweep import fit_response, grid
+from opsim.study.sweep.terms import columns
+
+# Montgomery, Design and Analysis of Experiments, 8th ed., table 11.6: a central composite design and its yields
+CODED = [(-1, -1), (-1, 1), (1, -1), (1, 1), *[(0, 0)] * 5, (1.414, 0), (-1.414, 0), (0, 1.414), (0, -1.414)]
+YIELDS = [76.5, 77.0, 78.0, 79.5, 79.9, 80.3, 80.0, 79.7, 79.8, 78.4, 75.6, 78.5, 77.0]
+THREE = grid([3, 3]).astype(float)
+
+
+def bowl(x):
+    return 5 + 2 * x[:, 0] - x[:, 1] + 3 * x[:, 0] ** 2 + 0.5 * x[:, 0] * x[:, 1]
+
+
+def test_the_second_order_model_of_montgomery():
+    fit = fit_response(CODED, YIELDS, low=[-1, -1], high=[1, 1], kind="quadratic")
+    by_term = dict(zip(fit.terms, fit.coefficients))
+    known = {(): 79.94, ((0, 1),): 0.99, ((1, 1),): 0.52, ((0, 2),): -1.38, ((1, 2),): -1.00, ((0, 1), (1, 1)): 0.25}
+    assert by_term == pytest.approx(known, abs=0.006)
+    assert fit.r2 == pytest.approx(0.9828, abs=0.0005) and fit.r2_predicted == pytest.approx(0.918, abs=0.002)
+    assert fit_response(CODED, YIELDS, low=[-1, -1], high=[1, 1]).loo_rmse < fit.loo_rmse
+
+
+def test_a_polynomial_is_found_again_and_says_so():
+    points = THREE * [10, 4] + [20, 1]
+    fit = fit_response(points, bowl(THREE))
+    assert fit.means(points) == pytest.approx(bowl(THREE))
+    assert fit.at([35, 7]).mean == pytest.approx(float(bowl(np.array([[1.5, 1.5]]))[0]))
+    assert fit.trusted and fit.loo_rmse < 1e-9
+
+
+def test_leave_one_out_is_what_fits_without_each_point_miss(rng):
+    y = bowl(THREE) + rng.normal(0, 1, 9)
+    fit = fit_response(THREE, y)
+    design = columns(fit.terms, fit.room.scaled(THREE), fit.room)
+    misses = []
+    for out in range(9):
+        rest = np.arange(9) != out
+        misses.append(y[out] - design[out] @ np.linalg.lstsq(design[rest], y[rest], rcond=None)[0])
+    assert fit.loo_rmse == pytest.approx(np.sqrt(np.mean(np.square(misses))))
+
+
+def test_intervals_hold_the_truth_with_common_random_numbers():
+    """95 % of 1,200 intervals of coefficients; the luck of a replication moves all points and tilts them."""
+    truth = np.array([5.0, 2.0, -1.0])
+    rng, held = np.random.default_rng(4), 0
+    corners = grid([2, 2]) * 2.0 - 1
+    points = np.vstack([corners, [[0, 0]]])
+    design = np.column_stack([np.ones(5), points])
+    for _ in range(400):
+        luck = rng.normal(0, 1, (1, 8)) + points[:, :1] * rng.normal(0, 0.3, (1, 8))
+        y = (design @ truth)[:, None] + luck + rng.normal(0, 0.5, (5, 8))
+        each = np.linalg.lstsq(design, y, rcond=None)[0]
+        fit = fit_response(points, y)
+        by_term = dict(zip(fit.terms, zip(fit.coefficients, fit.half_widths)))
+        for term, known, row in zip(((), ((0, 1),), ((1, 1),)), truth, each):
+            value, half = by_term[term]
+            assert fit.kind != "linear" or value == pytest.approx(row.mean())
+            held += abs(value - known) <= half
+    assert 0.93 < held / 1200 < 0.97
+
+
+def test_lack_of_fit_cries_wolf_as_rarely_as_it_promises_and_sees_a_wolf():
+    rng, n = np.random.default_rng(8), 300
+    points = np.linspace(-1, 1, 7)[:, None]
+    luck = [rng.normal(0, 1, (1, 6)) + rng.normal(0, 0.5, (7, 6)) for _ in range(n)]
+    straight = [fit_response(points, 3 * points + one) for one in luck]
+    steps = [fit_response(points, np.sin(6 * points) * 3 + one) for one in luck[:20]]
+    share = np.mean([fit.lack_of_fit_p < 0.05 for fit in straight])
+    assert share < 0.08  # choosing among the fits by what they miss can only lower it
+    assert all(fit.lack_of_fit_p < 1e-6 and not fit.trusted for fit in steps)
+
+
+@pytest.mark.parametrize("bend, least", [(0.0, 0.93), (0.3, 0.9)])
+def test_a_prediction_holds_the_truth_at_points_that_were_not_seen(bend, least):
+    """In 300 studies of 13 points; also where the truth is a little other than a parabola."""
+    rng, held = np.random.default_rng(12), 0
+    points = np.vstack([THREE - 1, [[-0.5, 0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, -0.5]]])
+    for _ in range(300):
+        new = rng.uniform(-1, 1, (1, 2))
+        truth = [bowl(x) + bend * np.sin(4 * x[:, 0]) for x in (points, new)]
+        luck = rng.normal(0, 1, (1, 6)) + rng.normal(0, 0.4, (13, 6))
+        fit = fit_response(points, truth[0][:, None] + luck).at(new[0])
+        held += fit.low <= truth[1][0] <= fit.high
+    assert held / 300 >= least
+
+
+def test_a_factor_without_order_is_fitted_by_its_means():
+    points = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2.0], [1, 2], [2, 2]])
+    values = np.array([1.0, 7, 4])[points[:, 0].astype(int)] + 2 * points[:, 1]
+    fit = fit_response(points, values, categories=[3, 0])
+    assert fit.means(points) == pytest.approx(values)
+    assert fit.coefficients[0] == pytest.approx(values.mean())
+
+
+def test_noise_leaves_out_luck_that_all_points_share(rng):
+    y = np.arange(4.0)[:, None] + rng.normal(0, 50, (1, 10))
+    assert fit_response(np.arange(4.0)[:, None], y).noise < 1e-9
+
+
+@pytest.mark.parametrize(
+    "values, said",
+    [
+        (np.ones((2, 3)), "2 points are too few"),
+        (np.full((2, 3), np.nan), "no replication with a value at every point"),
+    ],
+)
+def test_what_cannot_be_fitted_is_said(values, said):
+    with pytest.raises(ValueError, match=said):
+        fit_response([[0.0], [1.0]], values)
+
+
+def test_nothing_is_foretold_outside_of_what_was_looked_at():
+    fit = fit_response(THREE, bowl(THREE))
+    with pytest.raises(ValueError, match="outside of what was looked at, 0 to 2"):
+        fit.at([1, 2.5])
+
+
+def test_a_flat_figure_is_fitted_without_fear():
+    fit = fit_response(THREE, np.full((9, 4), 3.0))
+    assert fit.r2_predicted == 1 and fit.lack_of_fit_p == 1 and fit.trusted
