@@ -1,5 +1,6 @@
 """BLAS on one thread, so that results do not depend on how many cores a machine has."""
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -24,3 +25,12 @@ def one_blas_thread() -> Iterator[None]:
             yield
     finally:
         _held.reset(token)
+
+
+def lean() -> None:
+    """BLAS is loaded later with one thread, where it is not loaded yet: a process without threads can be forked.
+
+    For verbs that only run scenarios; what is fitted to recordings is sooner done on several threads.
+    """
+    for library in ("OPENBLAS", "MKL", "OMP"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")

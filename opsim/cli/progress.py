@@ -9,9 +9,12 @@ from contextlib import contextmanager
 
 import click
 
+from opsim.forking import Ticking
+
 Report = Callable[..., None]
 """``report(done, total, label="")``."""
 LINE_EVERY_S = 5.0
+TICK_S = 0.1
 
 
 @contextmanager
@@ -44,13 +47,18 @@ def _bar(what: str) -> Iterator[Report]:
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
         task = bar.add_task(what, total=None)
+        clock = Ticking(bar.refresh, TICK_S)  # not rich's own thread, beside which a fork would not be safe
+        clock.start()
 
         def report(done: int, total: int, label: str = "") -> None:
             bar.update(task, completed=done, total=total, description=_titled(what, label))
 
-        yield report
+        try:
+            yield report
+        finally:
+            clock.stop()
 
 
 class _Lines:

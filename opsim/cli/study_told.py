@@ -30,3 +30,5 @@ def _print_section(section: Any, print_table: Any, printable: Any) -> None:
         print_table(section.title, section.table.columns, section.table.rows, words=section.table.words)
     for sentence in section.sentences:
         click.echo(printable(sentence))
+    for line in section.code.splitlines():
+        click.echo(printable(line))

@@ -1,39 +1,23 @@
 """Replications of a Plan, here or on several processes: the same rows either way."""
 
-import os
 import time
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from opsim.kpi import Figure, figures, samples
-from opsim.kpi.locked import Locked, locked
+from opsim.kpi import figures, samples
+from opsim.kpi.locked import locked
 from opsim.log import EventLog, names_of
 from opsim.plan import Plan
-from opsim.study.pool import pooled
+from opsim.study.pool import cores, pays, pooled
+from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned
 
 Progress = Callable[[int, int], None]
 
-WORTH_A_POOL_S = 4.0
-"""Processes cost about two seconds to start: below this much work left, one process is sooner done."""
 LOADING_S = 3.0
 """The first replication may also load compiled code for so long: if it took less, a second one is timed too."""
-MOST_SAMPLES = 20_000
-"""Values kept of each sample for histograms; more are thinned evenly."""
-
-
-@dataclass(frozen=True, slots=True)
-class Replicated:
-    """What one replication leaves in memory; its rows are in its events file."""
-
-    replication: int
-    figures: list[Figure]
-    samples: dict[tuple[str, str], np.ndarray]
-    locked: Locked | None = None
 
 
 def events_file(folder: Path, replication: int) -> Path:
@@ -55,23 +39,25 @@ def replicate(
     processes: int | None = None,
     progress: Progress | None = None,
     outputs: Sequence[str] = (),
+    meanwhile: Callable[[], None] | None = None,
 ) -> list[Replicated]:
     """Run replications first .. n-1; each one's events file is whole as soon as it is there, and is not run again.
 
     made_from : names the run; an events file of another one, or one that cannot be read, is made anew
     processes : None takes one, and all cores where the work left is worth it
     outputs   : figures that are asked for, since some are made only then
+    meanwhile : what is best done once while other processes compute
     Raises BrokenLog where a log contradicts itself, ProcessLost where a process is killed, OSError where a file cannot
     be written. Whatever stops it, Ctrl-C too, what is finished is kept.
     """
-    done: list[Replicated] = []
-    runner = partial(_runner, make_plan, folder, made_from, tuple(outputs))
-    with closing(_results(runner, range(first, replications), processes)) as results:
+    done = Together()
+    runner = Once(partial(_runner, make_plan, folder, made_from, tuple(outputs)))
+    with closing(_results(runner, range(first, replications), processes, meanwhile)) as results:
         for result in results:
-            done.append(result)
+            done.add(result)
             if progress is not None:
                 progress(first + len(done), replications)
-    return sorted(done, key=lambda result: result.replication)
+    return done.in_order()
 
 
 def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "", outputs: Sequence[str] = ()) -> Replicated:
@@ -86,8 +72,8 @@ def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "", out
         log = run_plan(plan, replication)
         audit(log, plan)
         write_events(log, path, made_from)
-    kept = {key: _thinned(values) for key, values in samples(log, plan).items()}
-    return Replicated(replication, figures(log, plan, outputs), kept, locked(log, plan))
+    kept = {key: thinned(values, MOST_SAMPLES) for key, values in samples(log, plan).items()}
+    return Replicated(replication, Figures.of(figures(log, plan, outputs)), kept, locked(log, plan))
 
 
 def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> EventLog | None:
@@ -104,32 +90,51 @@ def _finished(path: Path, plan: Plan, replication: int, made_from: str) -> Event
 
 
 def _results(
-    runner: Callable[[], Callable[[int], Replicated]], replications: Sequence[int], processes: int | None
+    runner: Callable[[], Callable[[int], Replicated]],
+    replications: Sequence[int],
+    processes: int | None,
+    meanwhile: Callable[[], None] | None = None,
 ) -> Generator[Replicated, None, None]:
-    run = runner()
     left = list(replications)
-    took_s: list[float] = []
-    while processes is None and left:
-        started = time.perf_counter()
-        yield run(left.pop(0))
-        took_s.append(time.perf_counter() - started)
-        if min(took_s) * len(left) <= WORTH_A_POOL_S:
-            processes = 1
-        elif len(took_s) == 2 or took_s[0] > LOADING_S:
-            processes = os.cpu_count() or 1
+    if processes is None:
+        run, took_s = runner(), []
+        while left and processes is None:
+            started = time.perf_counter()
+            yield run(left.pop(0))
+            took_s.append(time.perf_counter() - started)
+            processes = _that_pay(took_s, len(left))
     processes = min(processes or 1, len(left))
     if processes > 1:
-        yield from pooled(runner, left, processes)
-    else:
-        yield from (run(replication) for replication in left)
+        yield from pooled(runner, left, processes, meanwhile)
+    elif left:
+        yield from map(runner(), left)
+
+
+def _that_pay(took_s: Sequence[float], left: int) -> int | None:
+    """How many processes pay for so many replications left, by what the first ones took; None: not known yet."""
+    if not pays(min(took_s) * left):
+        return 1
+    return cores() if len(took_s) == 2 or took_s[0] > LOADING_S else None
+
+
+class Once:
+    """Makes something when it is first wanted: a forked process has it then, a spawned one makes it anew."""
+
+    def __init__(self, make: Callable[[], Any]) -> None:
+        self._make, self._made = make, None
+
+    def __call__(self) -> Any:
+        if self._made is None:
+            self._made = self._make()
+        return self._made
+
+    def __reduce__(self) -> tuple[type["Once"], tuple[Callable[[], Any]]]:
+        return Once, (self._make,)
 
 
 def _runner(make_plan: MakePlan, folder: Path, made_from: str, outputs: tuple[str, ...]) -> Callable[[int], Replicated]:
+    from opsim import laws, log_store  # noqa: F401
+    from opsim.engine import simpy_engine  # noqa: F401
+
     plan = make_plan()
     return lambda replication: run_one(plan, replication, folder, made_from, outputs)
-
-
-def _thinned(values: np.ndarray) -> np.ndarray:
-    if values.size <= MOST_SAMPLES:
-        return values
-    return np.sort(values)[np.linspace(0, values.size - 1, MOST_SAMPLES).astype(int)]

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
-from pathlib import Path
+from contextlib import closing
+from dataclasses import replace
 
 import numpy as np
 
+from opsim.problems import Problem, ScenarioError
 from opsim.results import Key
-from opsim.study.jobs.evaluate import evaluate
-from opsim.study.jobs.job import Job
+from opsim.study.jobs.decides import decided_by
+from opsim.study.jobs.evaluate import loaded_of
+from opsim.study.jobs.far_away import Work, by_executor
+from opsim.study.jobs.in_memory import InMemory
+from opsim.study.jobs.job import Job, Point
+from opsim.study.jobs.journal import Address, Journal
+from opsim.study.jobs.near import Done, OnThisMachine
+from opsim.study.jobs.shard import Missing, Shard, ShardDone
 from opsim.study.jobs.source import Source
 
 Progress = Callable[[int, int], None]
+SAID_EVERY_S = 0.2
 
 
 class Answers:
@@ -24,37 +34,137 @@ class Answers:
     def __init__(
         self,
         source: Source,
-        folder: Path | None = None,
+        kept: Journal | InMemory | None = None,
         *,
         processes: int | None = None,
         executor: Executor | None = None,
         progress: Progress | None = None,
+        shard: Shard | None = None,
+        compute: bool = True,
+        keep: Sequence[str] | None = None,
     ):
-        """folder : where the journal is; None keeps answers in memory only
+        """kept : where answers are and go; None: in memory only (see ``open_study`` for a folder)
 
         processes : here; None takes as many as pay. executor : instead, any that takes picklable functions
+        shard     : only its part of the first jobs asked for is computed, then ShardDone is raised
+        compute   : False raises Missing where an answer is not there
+        keep      : figures that are kept of each replication, where these are more than those of the source
         """
-        self.source, self.folder, self.progress = source, folder, progress
-        self._found: dict[tuple[str, int, int], dict[Key, float]] = {}
+        self.source, self.progress = source, progress
+        self._kept = InMemory() if kept is None else kept
+        self._computing = source if keep is None else replace(source, kpis=tuple(keep))
+        self._here = OnThisMachine(self._computing, processes)
+        self._executor, self._shard, self._compute = executor, shard, compute
+        self._decided: dict[Point, str] = {}
+        self._asked: dict[Job, None] = {}
+        self._done, self._said_s = 0, 0.0
+
+    @property
+    def asked(self) -> Sequence[Job]:
+        """Every job asked for so far, in the order of the first asking."""
+        return list(self._asked)
+
+    def addresses(self) -> Iterator[Address]:
+        """Where the answers to every job asked for are kept."""
+        return map(self._address, self._asked)
+
+    def check(self, points: Iterable[Point]) -> None:
+        """Raise ScenarioError with everything that is wrong with the changes of any of some points."""
+        wrong: list[Problem] = []
+        for point in dict.fromkeys(points):
+            try:
+                loaded_of(self.source, point)
+            except ScenarioError as error:
+                wrong += error.problems
+        if wrong:
+            raise ScenarioError(dict.fromkeys(wrong))
 
     def ensure(self, jobs: Sequence[Job]) -> None:
         """Compute what is missing of some jobs, point by point in their order. Whatever stops it, what is finished is
-        kept.
+        kept. Raises what computing raises, OSError where an answer cannot be kept.
         """
-        missing = [job for job in dict.fromkeys(jobs) if job.key not in self._found]
-        for done, job in enumerate(missing, 1):
-            self._found[job.key] = {figure[:4]: figure.value for figure in evaluate(self.source, job)}
-            if self.progress is not None:
-                self.progress(done, len(missing))
+        jobs = list(dict.fromkeys(jobs))
+        self._asked.update(dict.fromkeys(jobs))
+        if not self._compute:
+            self._refuse_missing(jobs)
+        elif self._shard is None:
+            self._find(jobs)
+        else:
+            mine = self._shard.takes(jobs)
+            self._find(mine)
+            raise ShardDone(len(mine), len(jobs), sum(self._address(job) not in self._kept for job in jobs))
 
     def values(self, jobs: Sequence[Job], keys: Sequence[Key]) -> np.ndarray:
         """(J, K) figures of jobs, computed where they are missing; nan where a job has no such figure."""
         self.ensure(jobs)
-        return np.array([[self._found[job.key].get(key, np.nan) for key in keys] for job in jobs], dtype=float).reshape(
-            len(jobs), len(keys)
-        )
+        found = np.full((len(jobs), len(keys)), np.nan)
+        columns: dict[int, list[tuple[int, int]]] = {}
+        for row, job in enumerate(jobs):
+            address = self._address(job)
+            of = self._kept.keys(address)
+            if id(of) not in columns:
+                at = {key: place for place, key in enumerate(of)}
+                columns[id(of)] = [(column, at[key]) for column, key in enumerate(keys) if key in at]
+            numbers = self._kept.values(address)
+            for column, place in columns[id(of)]:
+                found[row, column] = numbers[place]
+        return found
+
+    def has(self, jobs: Sequence[Job], keys: Sequence[Key]) -> np.ndarray:
+        """(J, K) whether a job has such a figure, be it nan; of jobs that are there."""
+        sets: dict[int, list[bool]] = {}
+        rows = []
+        for of in (self._kept.keys(self._address(job)) for job in jobs):
+            if id(of) not in sets:
+                there = set(of)
+                sets[id(of)] = [key in there for key in keys]
+            rows.append(sets[id(of)])
+        return np.array(rows, dtype=bool).reshape(len(jobs), len(keys))
 
     def keys(self, jobs: Sequence[Job]) -> list[Key]:
-        """(kpi, subject, part, unit) of every figure that some of the jobs have, in the order of the first ones."""
+        """(kpi, subject, part, unit) of every figure that some of the jobs have: by kpi as asked for, then by name."""
         self.ensure(jobs)
-        return list(dict.fromkeys(key for job in jobs for key in self._found[job.key]))
+        sets = {id(of): of for of in (self._kept.keys(self._address(job)) for job in jobs)}
+        place = {kpi: number for number, kpi in enumerate(self.source.kpis)}
+        found = {key for of in sets.values() for key in of if key[0] in place}
+        return sorted(found, key=lambda key: (place[key[0]], key))
+
+    def close(self) -> None:
+        """End what was begun for computing: processes of this machine."""
+        self._here.close()
+
+    def _find(self, jobs: Sequence[Job]) -> None:
+        missing = [(job, self._decided_by(job.point)) for job in jobs if self._address(job) not in self._kept]
+        if not missing:
+            return
+        total = self._done + len(missing)
+        with closing(self._results(missing)) as results:
+            for (job, decided), answer in results:
+                self._kept.add((decided, *job.key[1:]), answer)
+                self._done += 1
+                self._say(total)
+
+    def _results(self, missing: Sequence[Work]) -> Generator[Done, None, None]:
+        if self._executor is not None:
+            return by_executor(self._executor, self._computing, missing)
+        return self._here.results(missing)
+
+    def _refuse_missing(self, jobs: Sequence[Job]) -> None:
+        places = [place for place, job in enumerate(jobs) if self._address(job) not in self._kept]
+        if places:
+            raise Missing(places, len(jobs))
+
+    def _say(self, total: int) -> None:
+        """Tell how far it is, seldom enough that many small batches are not many lines."""
+        now = time.monotonic()
+        if self.progress is not None and (now - self._said_s >= SAID_EVERY_S or self._done == total):
+            self.progress(self._done, total)
+            self._said_s = now
+
+    def _address(self, job: Job) -> Address:
+        return self._decided_by(job.point), job.key[1], job.key[2]
+
+    def _decided_by(self, point: Point) -> str:
+        if point not in self._decided:
+            self._decided[point] = decided_by(self.source, point)
+        return self._decided[point]

@@ -42,7 +42,7 @@ def loaded_of(source: Source, point: Point) -> Loaded:
 
 def plan_of(source: Source, point: Point) -> Plan:
     """The Plan of a point. Raises as ``loaded_of``, ValueError where a library cannot be had."""
-    changes = json.dumps({**source.changes, **point.changes}, sort_keys=True)
+    changes = json.dumps(dict(sorted({**source.changes, **point.changes}.items())))
     return _plan(source.file, source.seed, point.variant, changes, point.name)
 
 

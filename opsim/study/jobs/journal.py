@@ -1,0 +1,146 @@
+"""Answers kept in files as they come: whatever ends the process, what is written stays and is read again.
+
+A line an answer, ``[point, replication, workforce, set, values, check]``, and before the first answer of a kind a line
+with its figures, ``[set, [[kpi, subject, part, unit], ...], check]``. In memory there is only where each answer stands.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from hashlib import blake2b
+from pathlib import Path
+from typing import IO
+
+from opsim.results import Key
+from opsim.study.jobs.answer import Answer, keys_in
+from opsim.study.jobs.appended import Appended
+from opsim.study.jobs.lines import Damaged, from_line, number, plain_number, to_line
+
+Address = tuple[str, int, int]
+"""(what decides the answers of a point, replication, workforce or -1)"""
+
+
+class Journal:
+    """The answers in any number of files, to one of which this process may add.
+
+    damaged : lines that cannot be read, as ``file:line``; their answers count as not there
+    twice   : where another answer to the same job stands than in an earlier file
+    """
+
+    def __init__(self, files: Iterable[Path] = (), own: Path | None = None):
+        """files : read as they are now. own : made or cut behind its last whole line, and gone on with. Raises OSError.
+
+        NOTE: nobody else may write to ``own``; see opsim/study/lock.py.
+        """
+        self.damaged: list[str] = []
+        self.twice: list[str] = []
+        self._places: dict[str, dict[tuple[int, int], tuple[int, int, list[Key]]]] = {}
+        self._files: list[IO[bytes]] = []
+        self._sets: dict[str, list[Key]] = {}
+        self._said: set[str] = set()
+        self._own: Appended | None = None
+        try:
+            for path in files:
+                self._read_file(path)
+            if own is not None:
+                own.parent.mkdir(parents=True, exist_ok=True)
+                own.touch()
+                self._own = Appended(own, self._read_file(own))
+                self._said = self._in_file
+                self._files.append(own.open("rb"))  # anew: what was read ahead may just have been cut off
+                self._files.pop(-2).close()
+        except BaseException:
+            self.close()
+            raise
+
+    def __contains__(self, address: Address) -> bool:
+        return address[1:] in self._places.get(address[0], ())
+
+    def __iter__(self) -> Iterator[Address]:
+        return ((point, *rest) for point, places in self._places.items() for rest in places)
+
+    def __len__(self) -> int:
+        return sum(map(len, self._places.values()))
+
+    def add(self, address: Address, answer: Answer) -> None:
+        """Keep an answer: it is in the file when this returns. Raises OSError; the file is then as it was before."""
+        if self._own is None:
+            raise ValueError("a journal without a file of its own")
+        name = blake2b(answer.figures.encode(), digest_size=6).hexdigest()
+        if name not in self._said:
+            self._sets.setdefault(name, keys_in(answer.figures))
+            self._own.add(to_line([name, json.loads(answer.figures)]))
+            self._said.add(name)
+        at = self._own.add(to_line([*address, name, [plain_number(value) for value in answer.values]]))
+        self._places.setdefault(address[0], {})[address[1:]] = len(self._files) - 1, at, self._sets[name]
+
+    def keys(self, address: Address) -> list[Key]:
+        """The figures of an answer that is there; one list for all that have the same, not to be changed."""
+        return self._places[address[0]][address[1:]][2]
+
+    def values(self, address: Address) -> list[float]:
+        """The numbers of an answer that is there, in the order of its keys. Raises OSError."""
+        file, at, _ = self._places[address[0]][address[1:]]
+        self._files[file].seek(at)
+        return [number(value) for value in from_line(self._files[file].readline())[4]]
+
+    def close(self) -> None:
+        """All answers on the disk, and the files let go."""
+        if self._own is not None:
+            self._own.close()
+            self._own = None
+        for file in self._files:
+            file.close()
+        self._files.clear()
+
+    def _read_file(self, path: Path) -> int:
+        """Learn where the answers of a file stand; the offset behind its last whole line."""
+        file = path.open("rb")
+        self._files.append(file)
+        self._in_file: set[str] = set()
+        offset, unknown = 0, []
+        for line_number, line in enumerate(iter(file.readline, b""), 1):
+            if not line.endswith(b"\n"):
+                break  # torn: who wrote it was killed, or is at it now
+            if (of_unknown := self._learn(line, f"{path}:{line_number}", offset)) is not None:
+                unknown.append(of_unknown)
+            offset += len(line)
+        for place, name, address, at in unknown:
+            self._place(place, name, address, at)
+        return offset
+
+    def _learn(self, line: bytes, place: str, at: int) -> tuple[str, str, Address, int] | None:
+        """Learn from one line; returned is an answer whose figures did not come before it."""
+        try:
+            said = from_line(line)
+            if len(said) == 2:
+                self._sets.setdefault(said[0], keys_in(json.dumps(said[1])))
+                self._in_file.add(said[0])
+                return None
+            point, replication, workforce, name, _ = said
+        except (Damaged, ValueError):
+            self.damaged.append(place)
+            return None
+        if name not in self._sets:
+            return place, name, (point, replication, workforce), at
+        self._place(place, name, (point, replication, workforce), at)
+        return None
+
+    def _place(self, place: str, name: str, address: Address, at: int) -> None:
+        if name not in self._sets:
+            self.damaged.append(place)
+            return
+        before = self._raw(address) if address in self else None
+        self._places.setdefault(address[0], {})[address[1:]] = len(self._files) - 1, at, self._sets[name]
+        if before is not None and before != self._raw(address):
+            self.twice.append(place)
+
+    def _raw(self, address: Address) -> tuple[list[Key], list[float | str | None]]:
+        """An answer as it is written, to be compared."""
+        file, at, keys = self._places[address[0]][address[1:]]
+        here = self._files[file].tell()
+        self._files[file].seek(at)
+        values = from_line(self._files[file].readline())[4]
+        self._files[file].seek(here)
+        return keys, values

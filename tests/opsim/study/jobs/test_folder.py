@@ -1,0 +1,123 @@
+from contextlib import ExitStack
+from dataclasses import replace
+
+import pytest
+
+from opsim.scenario.varied import Varied
+from opsim.study.jobs import Job, Point, Source
+from opsim.study.jobs.folder import OtherStudy, open_study
+from opsim.study.jobs.header import header_of, read_header
+from opsim.study.jobs.shard import Shard
+from opsim.study.lock import Busy
+from tests.opsim.cli.calls import LINE, line
+
+POINT = Point("one", {"stations.saw.buffer": 1}, "base")
+
+
+@pytest.fixture
+def source(tmp_path):
+    return Source(str(line(tmp_path, LINE)), ("throughput_per_h", "station_states"))
+
+
+def opened(folder, source, asked=None, kind="sweep", **how):
+    resolved = Varied.read(source.file).with_changes(source.changes).resolved
+    return open_study(folder, header_of(kind, source, "base", asked or {"vary": 1}), resolved, **how)
+
+
+def answered(folder, source, n=2, **how):
+    with opened(folder, source, **how) as study:
+        study.answers().ensure([Job(POINT, k) for k in range(n)])
+        return len(study.journal)
+
+
+def test_more_may_be_asked_of_a_study_and_it_goes_on(tmp_path, source):
+    answered(tmp_path / "s", source)
+    (tmp_path / "s" / "summary.json").write_text("{}")
+    assert answered(tmp_path / "s", replace(source, kpis=("throughput_per_h",)), 1, asked={"vary": 2}) == 2
+    assert not (tmp_path / "s" / "summary.json").exists()
+    assert read_header(tmp_path / "s").asked == {"vary": 2}
+    assert set(read_header(tmp_path / "s").source.kpis) == set(source.kpis)
+
+
+def test_results_stay_where_nothing_else_is_asked(tmp_path, source):
+    answered(tmp_path / "s", source)
+    (tmp_path / "s" / "summary.json").write_text("{}")
+    answered(tmp_path / "s", source)
+    assert (tmp_path / "s" / "summary.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"seed": 9}, "seed 3, now 9"),
+        ({"changes": {"run.horizon": "30 min"}}, r"run\.horizon 20 min, now 30 min"),
+        ({"kpis": ("throughput_per_h", "walked_m")}, "walked_m was not kept"),
+    ],
+)
+def test_another_study_is_refused_with_what_differs_and_nothing_is_touched(tmp_path, source, change, says):
+    answered(tmp_path / "s", source)
+    before = {path: path.read_bytes() for path in (tmp_path / "s").rglob("*") if path.is_file()}
+    with pytest.raises(OtherStudy, match=says), opened(tmp_path / "s", replace(source, **change)):
+        pass
+    assert {path: path.read_bytes() for path in (tmp_path / "s").rglob("*") if path.is_file()} == before
+    assert answered(tmp_path / "s", replace(source, **change), 1, overwrite=True) == 1
+
+
+def test_a_study_of_another_kind_scenario_or_version_is_refused(tmp_path, source, monkeypatch):
+    answered(tmp_path / "s", source)
+    with pytest.raises(OtherStudy, match="a sweep study, now labour"), opened(tmp_path / "s", source, kind="labour"):
+        pass
+    line(tmp_path, LINE.replace("fixed: 25 s", "fixed: 26 s"))
+    clear()
+    with pytest.raises(OtherStudy, match="25 s, now 26 s"), opened(tmp_path / "s", source):
+        pass
+    line(tmp_path, LINE)
+    monkeypatch.setattr("opsim.study.manifest.__version__", "9.9")
+    clear()
+    with pytest.raises(OtherStudy, match=r"opsim 0.*, now 9\.9"), opened(tmp_path / "s", source):
+        pass
+    clear()
+
+
+def clear():
+    from opsim.study.jobs import decides, evaluate
+
+    decides._made_from.cache_clear()
+    evaluate._variant.cache_clear()
+
+
+@pytest.mark.parametrize("made", ["manifest.json", "base/manifest.json", "summary.json"])
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_results_of_a_run_are_never_mixed_with_a_study_nor_removed_for_it(tmp_path, source, made, overwrite):
+    (tmp_path / "s" / made).parent.mkdir(parents=True)
+    (tmp_path / "s" / made).write_text("{}")
+    with pytest.raises(OtherStudy, match="opsim run"), opened(tmp_path / "s", source, overwrite=overwrite):
+        pass
+    assert (tmp_path / "s" / made).read_text() == "{}" and not (tmp_path / "s" / "answers").exists()
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"opsim_study": 99}', "null", "{"])
+def test_a_header_that_cannot_be_read_is_refused_in_words(tmp_path, source, text):
+    (tmp_path / "s").mkdir()
+    (tmp_path / "s" / "study.json").write_text(text)
+    with pytest.raises(OtherStudy, match=r"study\.json"), opened(tmp_path / "s", source):
+        pass
+
+
+def test_a_folder_has_one_writer_and_a_shard_its_own_journal(tmp_path, source):
+    with ExitStack() as both:
+        both.enter_context(opened(tmp_path / "s", source, shard=Shard(1, 2)))
+        both.enter_context(opened(tmp_path / "s", source, shard=Shard(2, 2)))
+        with pytest.raises(Busy, match=r"shard_2_of_2\.jsonl now"):
+            both.enter_context(opened(tmp_path / "s", source, shard=Shard(2, 2)))
+        with pytest.raises(Busy, match="another run writes"):
+            both.enter_context(opened(tmp_path / "s", source, overwrite=True))
+    assert answered(tmp_path / "s", source) == 2
+
+
+def test_what_is_no_folder_is_refused(tmp_path, source):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OtherStudy, match="is a file"), opened(tmp_path / "file", source):
+        pass
+    with pytest.raises(OSError), opened(tmp_path / "file" / "below", source):
+        pass
