@@ -76,6 +76,8 @@ def _without_null(node: Schema) -> Schema:
     if "anyOf" in node:
         rest = {key: value for key, value in node.items() if key != "anyOf"}
         node = {**ways[0], **rest} if len(ways) == 1 else {**rest, "anyOf": ways}
+    if isinstance(node.get("default"), dict):
+        node = {**node, "default": {key: value for key, value in node["default"].items() if value is not None}}
     return {key: value for key, value in node.items() if not (key == "default" and value in (None, {}))}
 
 
@@ -107,6 +109,8 @@ def _sharpen(properties: Schema, definitions: Schema) -> None:
     for named in [properties[name] for name in (*SECTIONS, "libraries", "skill_levels")] + [layout["places"]]:
         named["propertyNames"] = {"pattern": NAME_PATTERN, "maxLength": 100}
     properties["outputs"]["items"] = {"enum": list(KPIS)}
+    bought = definitions["Labour"]["properties"]["buy_back"]
+    bought["anyOf"] = [{"$ref": bought.pop("$ref")}, {"enum": ["off"]}, {"type": "boolean"}]
 
 
 def _needed(entry: Schema, definitions: Schema) -> Schema:

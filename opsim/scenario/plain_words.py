@@ -18,7 +18,7 @@ from opsim.scenario.schema.skills import RATING, SKILL, Skill
 from opsim.scenario.yaml_nodes import scalar
 
 _FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS, *MODEL_TAGS)
-_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", *_FORMS)
+_MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", "<range>", "<values>", *_FORMS)
 _TYPES = {
     "string_type": "text",
     "int_type": "a whole number",

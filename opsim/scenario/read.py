@@ -68,7 +68,7 @@ def scenarios_in(
     base, trees, problems = _trees(raw, file)
     loaded: dict[str, Loaded] = {}
     for variant, tree in trees.items():
-        tree, wrong = applied(tree, "changes", changes_node(changes or {}))
+        tree, wrong = applied(tree, changes_node(changes or {}))
         problems += wrong
         scenario, tree, found_here = _checked(tree, base, file.parent)
         problems += found_here
@@ -79,16 +79,16 @@ def scenarios_in(
     return loaded if names is None else _chosen(loaded, names, file)
 
 
-def variant_of(file: Path, variant: str | None = None) -> tuple[str, Node, Node]:
-    """(name, tree, tree without overrides) of one variant of a file, by default the first; nothing in it is checked.
+def variant_trees(file: Path, variant: str | None = None) -> tuple[str, dict[str, Node], Node]:
+    """(name of the variant, by default the first; the trees of all; the tree without overrides); nothing in them is
+    checked.
 
     Raises ScenarioError with what is wrong with the file's text and its variants.
     """
     base, trees, problems = _trees(read_bytes(file), file)
     if problems:
         raise ScenarioError(sorted(problems))
-    name = next(iter(trees)) if variant is None else variant
-    return name, _chosen(trees, [name], file)[name], base
+    return next(iter(trees if variant is None else _chosen(trees, [variant], file))), trees, base
 
 
 def loaded_of(tree: Node, base: Node, file: Path, variant: str) -> Loaded:

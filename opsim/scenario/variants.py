@@ -37,13 +37,13 @@ def variants(root: Node, budget: Budget | None = None) -> tuple[Node, dict[str, 
         used.update(names)
         trees[variant] = base
         for name in names:
-            trees[variant], more = applied(trees[variant], name, overrides[name])
+            trees[variant], more = applied(trees[variant], overrides[name], ("overrides", name))
             wrong += more
         problems += wrong
         if len(problems) > MOST_FOUND:
             raise ScenarioError(sorted(problems))
     for name in overrides.keys() - used:
-        problems += applied(base, name, overrides[name])[1]
+        problems += applied(base, overrides[name], ("overrides", name))[1]
     return base, trees or {BASE: base}, problems
 
 

@@ -34,6 +34,8 @@ def _on_or_off(value: object) -> bool:
 
 _SWITCH = {"on": True, "off": False}
 _ON_OFF = {"anyOf": [{"enum": ["on", "off"]}, {"type": "boolean"}]}
+OnOff = Annotated[bool, BeforeValidator(_on_or_off), WithJsonSchema(_ON_OFF)]
+"""Written on or off."""
 
 
 class Run(Block):
@@ -63,7 +65,7 @@ class Run(Block):
         "each with the body of another performance of the same worker",
     )
 
-    posture: Annotated[bool, BeforeValidator(_on_or_off), WithJsonSchema(_ON_OFF)] = Field(
+    posture: OnOff = Field(
         True,
         description="off: nobody looks at postures, and there is no figure of them; what happens stays as it is",
         examples=["off"],

@@ -28,6 +28,7 @@ from opsim.scenario.schema.sequence import Flow
 from opsim.scenario.schema.shifts import Shift
 from opsim.scenario.schema.skills import SkillLevels
 from opsim.scenario.schema.studies import Studies
+from opsim.scenario.schema.studies.figures import WayFigureText
 from opsim.scenario.schema.task_kinds import Task
 from opsim.scenario.schema.tools import Tool
 from opsim.scenario.schema.transporters import Transporter
@@ -41,19 +42,6 @@ def _known_output(value: object) -> object:
     return value
 
 
-def _known_figure(value: object) -> object:
-    """A KPI, with the subject and the part that are meant, and which way is better where that is not known."""
-    if not isinstance(value, str):
-        raise plain_error(f"expected a figure, found {shown(value)}", "such as throughput_per_h")
-    asked = read_asked(value)
-    if asked.kpi not in KPIS:
-        raise plain_error(f"unknown figure {shown(asked.kpi)}", did_you_mean(asked.kpi, KPIS))
-    if not asked.better:
-        hint = f"write 'more {asked.name}' or 'less {asked.name}'"
-        raise plain_error(f"nothing says whether more or less of {asked.name} is better", hint)
-    return value
-
-
 def _two(figures: list[str]) -> list[str]:
     if len(figures) != 2:
         found = f"expected two figures, found {len(figures) or 'none'}"
@@ -63,7 +51,7 @@ def _two(figures: list[str]) -> list[str]:
     return figures
 
 
-Frontier = Annotated[list[Annotated[str, BeforeValidator(_known_figure)]], AfterValidator(_two)]
+Frontier = Annotated[list[WayFigureText], AfterValidator(_two)]
 
 
 def _nothing(value: object) -> object:

@@ -95,9 +95,9 @@ def test_chosen_variants_come_in_the_order_asked_for():
         ("'layout.places.bench[0]': 1 m", "a list is replaced whole"),
         ("layout.places.bench.x: 1 m", "layout.places.bench is a list"),
         ("run.seed.x: 1", "run.seed is 7; nothing lies inside it"),
-        ("workers..walk: 1 m/s", "'' cannot be a part of a path"),
-        ("workers.an.walk: 1 m/s", "did you mean 'ana'?"),
-        ("run.sed: 8", "did you mean 'seed'?"),
+        ("workers..walk: 1 m/s", "a part of this path is empty"),
+        ("workers.an.walk: 1 m/s", "did you mean workers.ana.walk?"),
+        ("run.sed: 8", "did you mean run.seed?"),
         ("stations.pak: {at: bench, tasks: [lift]}", "adds a station 'pak' that nothing uses"),
     ],
 )
@@ -110,7 +110,7 @@ def test_a_path_that_leads_nowhere_is_said_at_its_line(override, said):
 
 def test_an_override_that_no_scenario_uses_is_checked_too():
     text = GOOD.replace("near: [near]", "near: []").replace("layout.places", "layuot.places")
-    with pytest.raises(ScenarioError, match="did you mean 'layout'"):
+    with pytest.raises(ScenarioError, match=r"did you mean layout\.places\.bench\?"):
         scenarios_in(text.encode(), Path("line.yaml"))
 
 
