@@ -1,0 +1,88 @@
+"""The page and the screen of a labour study."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from opsim.report.labour_curves import bought_svg, day_svg
+from opsim.report.labour_pictures import budget_svg, parts_svg
+from opsim.report.labour_tables import (
+    alone_table,
+    bought_table,
+    budget_table,
+    day_table,
+    levels_table,
+    off_table,
+    variance_table,
+)
+from opsim.report.labour_words import answer, bought_reading, reading
+from opsim.report.study_page import Section, StudyPage
+
+WORKERS, SKILLS = "workers", "skills"
+
+
+def labour_page(found: Any, title: str) -> StudyPage:
+    """found : a LabourFound; title : the scenario's name."""
+    sections = [*_variance(found), *_budget(found), *_bought(found), *_day(found)]
+    return StudyPage(title, "labour", answer(found), sections, reading(found))
+
+
+def _variance(found: Any) -> list[Section]:
+    parts = next(iter(found.parts.values()))
+    first = _only(found, 1)
+    return [
+        Section("What moves the output", table=variance_table(first), on_screen=True),
+        Section(
+            "Of the variance, how much is whose",
+            picture=parts_svg(found.parts),
+            table=variance_table(found) if len(found.parts) > 1 else None,
+            sentences=_truncated(parts),
+        ),
+    ]
+
+
+def _only(found: Any, n: int) -> Any:
+    return replace(found, parts=dict(list(found.parts.items())[:n]))
+
+
+def _truncated(parts: Any) -> list[str]:
+    return [
+        f"The estimate of the part '{part.name}' was below 0 ({part.estimate:.3g}) and is told as 0: no sign of it."
+        for part in parts.parts
+        if part.truncated
+    ]
+
+
+def _budget(found: Any) -> list[Section]:
+    if not found.budget:
+        return []
+    title = "What each source of variability costs: switched off, minus as it is"
+    made = [
+        Section(title, table=budget_table(found), on_screen=True),
+        Section("From the output as it is to that with all of them off", picture=budget_svg(found.budget[0])),
+        Section("Without and with them", table=levels_table(found)),
+        Section("What it is to switch a source off", table=off_table(found)),
+    ]
+    if any(one.alone for one in found.budget):
+        made.insert(2, Section("Each source alone: what it changes where it is the only one", table=alone_table(found)))
+    return made
+
+
+def _bought(found: Any) -> list[Section]:
+    """The screen has the best way of each kind, the page every way."""
+    if found.bought is None:
+        return []
+    best = tuple(curve for kind in (WORKERS, SKILLS) if (curve := found.bought.best(kind)) is not None)
+    few = replace(found, bought=replace(found.bought, curves=best))
+    all_of_them = bought_table(found) if len(found.bought.curves) > len(best) else None
+    return [
+        Section("What buys the loss back", table=bought_table(few), on_screen=True),
+        Section("Every way that was tried", bought_reading(found), all_of_them, bought_svg(found.bought)),
+    ]
+
+
+def _day(found: Any) -> list[Section]:
+    return [
+        Section("How days come out", picture=day_svg(found.day), table=day_table(found)),
+    ]

@@ -1,0 +1,88 @@
+"""How a day comes out, over workforces and runs: quantiles, and the chance that it reaches a target.
+
+Values of one workforce go together, and in a crossed design those of one day; so W x R values say less than as many
+independent ones. They count as W R / (1 + (R - 1) s_W + (W - 1) s_D), where s_W and s_D are the shares of the variance
+that lie between workforces and between days: the design effect of cluster samples (Kish 1965, section 5.4). Whether a
+target is met follows the value, and goes together in a group at most as much as the value does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from opsim.study.interval import CONFIDENCE
+from opsim.study.labour.parts import DAY, NESTED, STAFFING, variance_parts
+
+
+@dataclass(frozen=True, slots=True)
+class Chance:
+    """A chance and its interval; ``count`` of the values met it, which say as much as ``counts_as`` independent."""
+
+    estimate: float
+    low: float
+    high: float
+    count: int
+    n: int
+    counts_as: float
+
+
+@dataclass(frozen=True, slots=True)
+class DayQuantile:
+    """A quantile and its interval; infinite where the values are too few to bound it."""
+
+    q: float
+    estimate: float
+    low: float
+    high: float
+
+
+def counts_as(values: np.ndarray, design: str) -> float:
+    """So many independent values say as much as this (W, R) table; at least the independent ones that are in it."""
+    n_rows, n_columns = values.shape
+    least = n_rows if design == NESTED else min(n_rows, n_columns)
+    if np.ptp(values) == 0:
+        return float(least)
+    parts = variance_parts(values, design)
+    of_day = 0.0 if design == NESTED else parts.share(DAY)
+    effect = 1 + (n_columns - 1) * parts.share(STAFFING) + (n_rows - 1) * of_day
+    return float(min(max(values.size / effect, least), values.size))
+
+
+def chance(values: np.ndarray, met: np.ndarray, design: str, confidence: float = CONFIDENCE) -> Chance:
+    """The chance that a target is met: values and met (W, R).
+
+    Clopper-Pearson with so many values as the table counts for, as Korn & Graubard 1998 do in cluster samples (Survey
+    Methodology 24:193-201); exact where all values are independent.
+    """
+    n = counts_as(values, design)
+    share = float(np.mean(met))
+    low, high = clopper_pearson(share * n, n, confidence)
+    return Chance(share, low, high, int(np.count_nonzero(met)), met.size, n)
+
+
+def clopper_pearson(count: float, n: float, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """(low, high) of a chance after ``count`` of ``n``, which may be fractions.
+
+    Source: Clopper & Pearson 1934, Biometrika 26:404-413, by quantiles of the beta distribution.
+    """
+    from scipy.special import betaincinv
+
+    miss = (1 - confidence) / 2
+    low = 0.0 if count <= 0 else float(betaincinv(count, n - count + 1, miss))
+    high = 1.0 if count >= n else float(betaincinv(count + 1, n - count, 1 - miss))
+    return low, high
+
+
+def quantile(values: np.ndarray, q: float, design: str, confidence: float = CONFIDENCE) -> DayQuantile:
+    """The q-quantile of a (W, R) table: where the interval of the chance of less than it ends.
+
+    Source: Woodruff 1952, JASA 47:635-646.
+    """
+    n = counts_as(values, design)
+    low, high = clopper_pearson(q * n, n, confidence)
+    known = np.sort(values, axis=None)
+    least = -np.inf if low * known.size < 1 else float(np.quantile(known, low))
+    most = np.inf if (1 - high) * known.size < 1 else float(np.quantile(known, high))
+    return DayQuantile(q, float(np.quantile(known, q)), least, most)

@@ -1,0 +1,89 @@
+"""What a labour study says, from made numbers: the sentences an engineer reads first."""
+
+from types import SimpleNamespace as Made
+
+import numpy as np
+import pytest
+
+from opsim.kpi.target import read_target
+from opsim.report.labour_curves import bought_svg, day_svg
+from opsim.report.labour_page import labour_page
+from opsim.report.labour_pictures import budget_svg, parts_svg
+from opsim.report.labour_words import answer
+from opsim.report.study_page import study_html
+from opsim.study.interval import Interval
+from opsim.study.labour.budget import FigureBudget
+from opsim.study.labour.buy_back import BoughtBack, Curve, Step
+from opsim.study.labour.day_asked import DayAsked, day_found
+from opsim.study.labour.parts import variance_parts
+from opsim.study.labour.sources import VariabilitySource
+from opsim.study.labour.study import LabourFound
+
+KEY = ("throughput_per_h", "", "", "1/h")
+RNG = np.random.default_rng(7)
+RATES = 3.7 * RNG.normal(size=(40, 1)) + 0.5 * RNG.normal(size=(1, 4)) + 0.5 * RNG.normal(size=(40, 4))
+RATES = RATES - RATES.mean() + 61
+
+
+def of(mean, half=0.5):
+    return Interval(mean, half, half, 160)
+
+
+def curve(name, kind, *gained):
+    return Curve(name, kind, tuple(Step(n, of(g), of(g - 8.4)) for n, g in enumerate(gained, 1)))
+
+
+def found(rates=RATES, curves=(), loss=8.4, target="480 a day"):
+    parts = variance_parts(rates)
+    on = (VariabilitySource("between workers", "alike", True), VariabilitySource("<i>pace</i>", "none"))
+    numbers = {one.name: of(loss if one.keeps_mean else -1.0) for one in on}
+    budget = FigureBudget(KEY, of(61.0), of(68.9), numbers, of(0.5), of(7.9), {})
+    day = day_found(DayAsked(KEY[0], "", "", 8.0, 1, read_target(target)), KEY, rates, "crossed")
+    bought = BoughtBack(of(loss), of(61 + loss), tuple(curves)) if curves else None
+    return LabourFound("crossed", 40, 4, {KEY: parts}, day, on, (budget,), bought, ())
+
+
+def test_the_answer_says_who_when_what_it_costs_what_buys_it_back_and_the_target():
+    ways = (curve("more like ana", "workers", 5.0, 9.5), curve("skills more", "skills", 8.7, 9.9))
+    said = " ".join(answer(found(curves=ways)))
+    assert "Who is hired moves the output by ± 5 % (SD; 4.1 to 6.5 %)" in said and "the luck of the day by ± " in said
+    assert "Differences between people cost 8.4 ± 0.5 an hour: 61.0 come out, and 69.4 would" in said
+    assert "Two people more like ana or one skill more (two to be sure) buy it back." in said
+    assert "You reach 480 a day with a chance of" in said
+    assert "Days of 8 h: half of them come to" in said
+
+
+def test_what_falls_short_says_how_much_of_it():
+    said = " ".join(answer(found(curves=(curve("more like ana", "workers", 4.2, 4.2), curve("x", "skills", 0.1)))))
+    assert "One person more like ana buys back 50 % of it." in said
+    assert "One skill more buys nothing back that could be told from luck." in said
+
+
+def test_no_loss_is_said_and_nothing_is_bought_back():
+    said = answer(found(curves=(curve("more like ana", "workers", 1.0),), loss=0.2))
+    assert "What differences between people cost cannot be told from nothing: +0.2 ± 0.5 an hour." in said
+    assert not any("buy" in sentence for sentence in said)
+
+
+def test_people_who_make_no_difference_are_told_so():
+    rates = 61 + np.random.default_rng(1).normal(size=(40, 4))
+    assert variance_parts(rates)["staffing"].truncated
+    assert answer(found(rates))[0].startswith("There is no sign that it matters who is hired")
+
+
+def test_names_are_no_markup_anywhere():
+    page = study_html(labour_page(found(curves=(curve("more like <u>ana</u>", "workers", 9.0),)), "<b>Line</b>"))
+    assert not any(mark in page for mark in ("<i>", "<u>", "<b>"))
+
+
+@pytest.mark.parametrize("target", ["480 a day", "1 a day", "9000 a day", "throughput_per_h <= 60"])
+def test_pictures_stand_within_their_width(target):
+    made = found(curves=(curve("more like ana", "workers", 5.0, -9.5),), target=target)
+    for picture in (parts_svg(made.parts), budget_svg(made.budget[0]), bought_svg(made.bought), day_svg(made.day)):
+        assert picture.startswith("<svg") and "nan" not in picture
+        places = [float(piece.split('"')[0]) for piece in picture.split(' x="')[1:]]
+        assert all(0 <= place <= 460 for place in places)
+
+
+def test_days_that_are_all_alike_have_no_histogram():
+    assert day_svg(Made(values=np.full((3, 2), 4.0), asked=Made(target=None, a_day=True), quantiles=())) == ""

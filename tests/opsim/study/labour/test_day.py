@@ -1,0 +1,51 @@
+"""How days come out: exact where values are independent, careful where they go together."""
+
+import numpy as np
+import pytest
+from scipy.special import bdtr, ndtr
+
+from opsim.study.labour.day import chance, clopper_pearson, counts_as, quantile
+from tests.opsim.study.labour.test_parts import made
+
+
+def test_clopper_and_pearson_leave_half_of_the_rest_on_each_side():
+    low, high = clopper_pearson(7, 20)
+    assert 1 - bdtr(6, 20, low) == pytest.approx(0.025)
+    assert bdtr(7, 20, high) == pytest.approx(0.025)
+    assert clopper_pearson(0, 20)[0] == 0 and clopper_pearson(20, 20)[1] == 1
+
+
+def test_values_of_one_workforce_that_are_all_alike_count_once():
+    alike = np.repeat(np.random.default_rng(1).normal(size=(12, 1)), 5, axis=1)
+    assert counts_as(alike, "nested") == pytest.approx(12)
+
+
+def test_independent_values_count_each():
+    values = np.random.default_rng(2).normal(size=(30, 4))
+    assert 60 < counts_as(values, "crossed") <= 120
+
+
+def test_days_that_are_alike_for_all_count_as_the_days():
+    values = np.tile(np.arange(4.0), (30, 1)) + 1e-6 * np.random.default_rng(2).normal(size=(30, 4))
+    assert counts_as(values, "crossed") == pytest.approx(4, rel=1e-3)
+
+
+@pytest.mark.parametrize(("design", "staffing", "day", "at"), [
+    ("crossed", 1.0, 0.3, 1.0), ("crossed", 0.4, 1.0, 0.0), ("nested", 1.0, 0.3, 1.5),
+])  # fmt: skip
+def test_a_chance_is_held_at_least_as_often_as_is_said(design, staffing, day, at):
+    rng, n = np.random.default_rng(4), 300
+    spread = (staffing**2 + day**2 + 0.3**2) ** 0.5
+    hits = 0
+    for _ in range(n):
+        values = made(rng, (40, 4), staffing, day, 0.3, design)
+        found = chance(values, values <= 60 + at * spread, design)
+        hits += found.low <= ndtr(at) <= found.high
+    assert hits / n > 0.95 - 3 * (0.95 * 0.05 / n) ** 0.5
+
+
+def test_a_quantile_has_an_interval_or_says_that_there_are_too_few_runs():
+    values = np.random.default_rng(6).normal(size=(40, 5))
+    middle, tail = quantile(values, 0.5, "nested"), quantile(values[:6, :2], 0.05, "nested")
+    assert middle.low < 0 < middle.high and middle.low < middle.estimate < middle.high
+    assert tail.low == -np.inf
