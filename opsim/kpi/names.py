@@ -50,6 +50,9 @@ ENERGY, REST = ("energy_kcal_per_min",), ("rest_allowance_share",)
 EXPOSURE = (*SCORED, *REGION, *LIFTED, *HELD, *ENERGY, *REST)
 """What bodies went through in the whole shift: one pass over all postures, made only where one of these is asked."""
 
+TRIPS = ("trips_per_h",)
+"""Of every pair of places: made only where asked for, as there may be thousands of pairs."""
+
 KPIS = (
     *USUAL,
     "time_in_system_quantile_s",
@@ -105,6 +108,7 @@ KPIS = (
     "fatigue_mean",
     "fatigue_most",
     "rest_taken_min_per_h",
+    *TRIPS,
     *POSTURE,
     *EXPOSURE,
 )

@@ -18,7 +18,7 @@ from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, wo
 from opsim.kpi.human import learned
 from opsim.kpi.interruptions import interruptions
 from opsim.kpi.lines import lines
-from opsim.kpi.names import POSTURE
+from opsim.kpi.names import POSTURE, TRIPS
 from opsim.kpi.oee import oee
 from opsim.kpi.outages import outages
 from opsim.kpi.posture import trunk_flexion
@@ -29,6 +29,7 @@ from opsim.kpi.stops import stops
 from opsim.kpi.stores import conveyors, stores
 from opsim.kpi.takt import takt
 from opsim.kpi.tools import tools
+from opsim.kpi.trips import trips
 from opsim.kpi.vehicles import transporters
 from opsim.kpi.walking import walked
 from opsim.log import EventLog
@@ -67,13 +68,16 @@ _FUNCTIONS = (
 
 
 def figures(log: EventLog, plan: Plan, asked: Iterable[str] = ()) -> list[Figure]:
-    """Every figure this log has, in one fixed order; those that need postures only where one of them is asked for.
+    """Every figure this log has, in one fixed order; those that need postures, and trips, only where asked for.
 
     Where the plan looks at no postures (``posture: off``) these are left out, whoever asks.
     Raises ValueError where a task's postures cannot be had.
     """
-    wanted = set(asked) if plan.posture else set()
+    asked = set(asked)
+    wanted = asked if plan.posture else set()
     functions = _FUNCTIONS if wanted.isdisjoint(POSTURE) else (*_FUNCTIONS, trunk_flexion)
+    if not set(TRIPS).isdisjoint(asked):
+        functions = (*functions, trips)
     found = [*(figure for function in functions for figure in function(log, plan)), *exposure(log, plan, wanted)]
     return [figure._replace(value=float(figure.value)) for figure in found]
 

@@ -1,0 +1,262 @@
+"""Spaghetti diagrams: what stands where, to scale, and lines as thick as people go between; as SVG."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from itertools import combinations, pairwise
+from math import floor, hypot, log10
+
+from opsim.report.layout_lanes import Box, Lanes, Point
+from opsim.report.palette import ACCENT, INK, MUTED
+
+WIDE, MARGIN, HEAD, FOOT, LETTER, SIZE = 560.0, 62.0, 34.0, 58.0, 7.9, 15
+MOST_TALL, LEAST_TALL = 620.0, 90.0
+THICKEST, THINNEST, HALF_MARK = 15.0, 1.2, 13.0
+LABELLED = 5
+"""Lines that carry their number: the thickest."""
+DRIVEN = "#B34E00"
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Trips an hour between two places, both ways together; by vehicles or by people."""
+
+    start: str
+    end: str
+    trips_per_h: float
+    driven: bool = False
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A layout to draw.
+
+    title    : above it; places : x, y in metres; names : what stands at a place, in words
+    moved    : places whose stations are not where they were; others : places of what is no station
+    distance : ``rectilinear``, ``euclidean`` or ``paths``; ways : with paths, the places passed between two
+    """
+
+    title: str
+    places: Mapping[str, Point]
+    names: Mapping[str, str]
+    lines: Sequence[Line]
+    distance: str = "rectilinear"
+    moved: frozenset[str] = frozenset()
+    others: Mapping[str, str] = field(default_factory=dict)
+    ways: Mapping[tuple[str, str], Sequence[str]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _Scale:
+    """From metres to pixels, y upwards on the floor and downwards in the picture."""
+
+    left_m: float
+    top_m: float
+    px_per_m: float
+    tall: float
+
+    def at(self, point: Point) -> Point:
+        return MARGIN + (point[0] - self.left_m) * self.px_per_m, HEAD + 44 + (self.top_m - point[1]) * self.px_per_m
+
+
+def layout_pictures(drawings: Sequence[Drawing]) -> str:
+    """The drawings beside each other where there is room, all to one scale, with lines on one scale too."""
+    corners = [point for one in drawings for point in one.places.values()]
+    scale = _scale(corners)
+    most = max((line.trips_per_h for one in drawings for line in _drawn_lines(one)), default=1.0)
+    pictures = "".join(f"<div>{_svg(one, scale, most)}</div>" for one in drawings)
+    return f'<div class="panels">{pictures}</div>'
+
+
+def _scale(corners: Sequence[Point]) -> _Scale:
+    xs, ys = [x for x, _ in corners], [y for _, y in corners]
+    wide_m, tall_m = max(xs) - min(xs), max(ys) - min(ys)
+    room = WIDE - 2 * MARGIN
+    px = min(room / wide_m if wide_m else 1e9, (MOST_TALL - HEAD) / tall_m if tall_m else 1e9)
+    px = 1.0 if px > 1e8 else px
+    left_m = min(xs) - (room / px - wide_m) / 2
+    return _Scale(left_m, max(ys), px, max(LEAST_TALL, tall_m * px + 80) + HEAD + FOOT)
+
+
+def _svg(one: Drawing, scale: _Scale, most: float) -> str:
+    at = {place: scale.at(point) for place, point in one.places.items()}
+    room = _room(list(at.values()))
+    marks = {place: _mark_box(at[place], _short(_name(one, place), room)) for place in one.places}
+    lines = _drawn_lines(one)
+    ways = _ways(one, lines, at, list(marks.values()), most)
+    drawn = [
+        _text(one.title, 4, 20, INK, "start", ' font-weight="650" font-size="16"'),
+        *_lines(lines, ways, most),
+        *(part for place in one.places for part in _mark(one, place, at[place], marks[place], room)),
+        *_numbers(lines, ways, list(marks.values())),
+        *_foot(scale, most),
+    ]
+    said = "; ".join(f"{line.start} and {line.end}: {line.trips_per_h:.0f} trips an hour" for line in lines[:LABELLED])
+    label = escape(f"{one.title}. The most: {said}", quote=True)
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE:.0f} {scale.tall:.0f}" role="img" '
+        f'font-size="{SIZE}" style="width:100%;max-width:640px;height:auto" aria-label="{label}">{"".join(drawn)}</svg>'
+    )
+
+
+def _drawn_lines(one: Drawing) -> list[Line]:
+    """The thickest first; along paths, trips add up on every piece of a path."""
+    if one.distance != "paths":
+        return sorted(one.lines, key=lambda line: (-line.trips_per_h, line.start, line.end))
+    total: dict[tuple[str, str, bool], float] = {}
+    for line in one.lines:
+        passed = one.ways.get((line.start, line.end), (line.start, line.end))
+        for a, b in pairwise(passed):
+            key = (min(a, b), max(a, b), line.driven)
+            total[key] = total.get(key, 0.0) + line.trips_per_h
+    found = [Line(a, b, trips, driven) for (a, b, driven), trips in total.items()]
+    return sorted(found, key=lambda line: (-line.trips_per_h, line.start, line.end))
+
+
+def _ways(
+    one: Drawing, lines: Sequence[Line], at: Mapping[str, Point], marks: Sequence[Box], most: float
+) -> list[list[Point]]:
+    if one.distance != "rectilinear":
+        return [[at[line.start], at[line.end]] for line in lines]
+    lanes = Lanes(marks, _aisles(list(at.values())))
+    return [lanes.way(at[line.start], at[line.end], _width(line.trips_per_h, most)) for line in lines]
+
+
+def _lines(lines: Sequence[Line], ways: Sequence[list[Point]], most: float) -> Iterator[str]:
+    for line, corners in zip(lines, ways):
+        colour, dash = (DRIVEN, ' stroke-dasharray="9 6"') if line.driven else (ACCENT, "")
+        wide = _width(line.trips_per_h, most)
+        title = f"{line.start}, {line.end}: {line.trips_per_h:.1f} trips an hour"
+        opacity = 0.8 if line.driven else 0.35 + 0.3 * min(1.0, wide / 6)
+        yield (
+            f'<path d="{_rounded(corners)}" fill="none" stroke="{colour}" stroke-width="{wide:.1f}" '
+            f'stroke-opacity="{opacity:.2f}" stroke-linejoin="round"{dash}><title>{escape(title)}</title></path>'
+        )
+
+
+def _rounded(corners: Sequence[Point], most: float = 9.0) -> str:
+    """The ``d`` of a path through corners, each a little rounded."""
+    drawn = "M{:.1f} {:.1f}".format(*corners[0])
+    for a, b, c in zip(corners, corners[1:], corners[2:]):
+        before, after = (_towards(b, other, most) for other in (a, c))
+        drawn += "L{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}".format(*before, *b, *after)
+    return drawn + "L{:.1f} {:.1f}".format(*corners[-1])
+
+
+def _towards(start: Point, end: Point, most: float) -> Point:
+    """So far on the way, but at most half of it."""
+    long = hypot(end[0] - start[0], end[1] - start[1])
+    part = min(most / long, 0.5) if long else 0.0
+    return start[0] + (end[0] - start[0]) * part, start[1] + (end[1] - start[1]) * part
+
+
+def _numbers(lines: Sequence[Line], ways: Sequence[list[Point]], marks: Sequence[Box]) -> Iterator[str]:
+    """The trips an hour of the thickest lines, where the longest piece of each is free."""
+    taken: list[Box] = [*marks, *((left, bottom, right, bottom + 18) for left, _, right, bottom in marks)]
+    for line, corners in list(zip(lines, ways))[:LABELLED]:
+        words = f"{line.trips_per_h:.0f}"
+        half = LETTER * len(words) / 2 + 3
+        pieces = sorted(pairwise(corners), key=lambda ends: -hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]))
+        spots = [
+            (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t)
+            for a, b in pieces
+            for t in (0.5, 0.35, 0.65, 0.22, 0.78)
+        ]
+        boxes = [(x - half, y - 10, x + half, y + 10) for x, y in spots]
+        best = min(range(len(spots)), key=lambda n: (sum(_overlap(boxes[n], other) for other in taken), n))
+        taken.append(boxes[best])
+        x, y = spots[best]
+        yield _text(words, x, y + 5, INK, "middle", _HALO + ' font-weight="600" font-size="14"')
+
+
+_HALO = ' paint-order="stroke" stroke="#ffffff" stroke-width="4" stroke-linejoin="round"'
+
+
+def _mark(one: Drawing, place: str, at: Point, box: Box, room: float) -> Iterator[str]:
+    """A station as a box with its name (filled where it was moved), what else is there and free places more quietly."""
+    left, top, right, bottom = box
+    short = _short(_name(one, place), room)
+    station, moved = place in one.names, place in one.moved
+    fill, ink, edge = (
+        (INK, "#ffffff", INK) if moved else ("#ffffff", INK, INK) if station else ("#ffffff", MUTED, "#aab0b8")
+    )
+    dash = "" if station or place in one.others else ' stroke-dasharray="3 3"'
+    weight = 1.6 if station else 1.0
+    yield (
+        f"<g><title>{escape(f'{place}: {_name(one, place)}' if station else place)}</title>"
+        f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}" rx="4" '
+        f'fill="{fill}" stroke="{edge}" stroke-width="{weight}"{dash}/>'
+        f"{_text(short, at[0], at[1] + 5, ink, 'middle')}</g>"
+    )
+    if station:
+        yield _text(_short(place, room), at[0], bottom + 13, MUTED, "middle", f'{_HALO} font-size="12"')
+
+
+def _foot(scale: _Scale, most: float) -> Iterator[str]:
+    """A bar of so many metres, and how thick how many trips are."""
+    metres = _round_below((WIDE - 2 * MARGIN) / 3 / scale.px_per_m)
+    y, long = scale.tall - 22, metres * scale.px_per_m
+    bar = f"M20 {y - 5}V{y + 5}M20 {y}H{20 + long:.1f}M{20 + long:.1f} {y - 5}V{y + 5}"
+    yield f'<path d="{bar}" stroke="{INK}" fill="none"/>'
+    yield _text(f"{metres:g} m", 20 + long / 2, y + 18, MUTED, "middle", ' font-size="13"')
+    many = [_round_below(most), _round_below(most / 5)]
+    x = WIDE - 170.0
+    for trips in dict.fromkeys(many):
+        wide = _width(trips, most)
+        yield f'<path d="M{x:.0f} {y}h46" stroke="{ACCENT}" stroke-opacity="0.55" stroke-width="{wide:.1f}"/>'
+        yield _text(f"{trips:g} an hour", x + 23, y + 18, MUTED, "middle", ' font-size="13"')
+        x += 92
+
+
+def _name(one: Drawing, place: str) -> str:
+    return one.names.get(place) or one.others.get(place) or place
+
+
+def _mark_box(at: Point, short: str) -> Box:
+    half = max(18.0, LETTER * len(short) / 2 + 8)
+    return at[0] - half, at[1] - HALF_MARK, at[0] + half, at[1] + HALF_MARK
+
+
+def _room(points: Sequence[Point]) -> float:
+    """Pixels a name may be wide: as far as the nearest mark in about the same row."""
+    apart = [abs(a[0] - b[0]) for a, b in combinations(points, 2) if abs(a[1] - b[1]) < 2 * HALF_MARK and a != b]
+    return max(44.0, min([2 * MARGIN - 6, *(one - 8 for one in apart)]))
+
+
+def _short(name: str, room: float) -> str:
+    most = max(3, int((room - 16) / LETTER))
+    tail = most // 3  # the ends of names often tell them apart: station 11, station 12
+    return name if len(name) <= most else f"{name[: most - 1 - tail]}…{name[len(name) - tail :]}"
+
+
+def _aisles(points: Sequence[Point]) -> tuple[float, float]:
+    """Half of the least distance between columns, and between rows."""
+
+    def half(values: list[float]) -> float:
+        apart = [b - a for a, b in pairwise(sorted(set(values))) if b - a > 2 * HALF_MARK]
+        return min(apart, default=2 * 34.0) / 2
+
+    return half([round(x) for x, _ in points]), half([round(y) for _, y in points])
+
+
+def _width(trips: float, most: float) -> float:
+    return max(THINNEST, THICKEST * trips / most)
+
+
+def _round_below(value: float) -> float:
+    """The largest of 1, 2, 5, 10, ... that is not above."""
+    if value <= 0:
+        return 1.0
+    size = 10.0 ** floor(log10(value))
+    return next(size * nice for nice in (5, 2, 1) if size * nice <= value * (1 + 1e-9))
+
+
+def _overlap(a: Box, b: Box) -> float:
+    across, down = min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1])
+    return max(0.0, across) * max(0.0, down)
+
+
+def _text(words: str, x: float, y: float, colour: str, anchor: str, more: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" text-anchor="{anchor}"{more}>{escape(words)}</text>'

@@ -1,0 +1,165 @@
+"""What a layout study says in sentences: what to move, what it saves, how sure that is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from opsim.report.words import digits, half_digits, is_number, kpi_name, listing, scale_of
+from opsim.study.layout.judge import BEST, EACH, EXPOSURE, EXPOSURE_EACH, SHARE, WALKED, Against
+from opsim.study.layout.study import NOW, LayoutFound
+from opsim.study.layout.words import moved_stations, said
+
+SHIFT_H = 8.0
+NO_DIFFERENCE = "no clear difference"
+
+
+def answer(found: LayoutFound) -> list[str]:
+    """The most important first."""
+    return [*_headline(found), *_by_few(found), *_alike(found), *_caution(found)]
+
+
+def walking(one: Against) -> str:
+    """``31 ± 1 % less walking``."""
+    return f"{_percent(one)} walking" if one.clear else f"{NO_DIFFERENCE} in walking"
+
+
+def best(found: LayoutFound, one: Against) -> str:
+    """``6.1 ± 0.3 more an hour`` for the throughput, else the figure with its name."""
+    asked = found.asked.best
+    if asked.name == "walked_m":
+        return ""
+    if asked.kpi == "throughput_per_h":
+        return (
+            f"{_amount(one)} parts an hour ({_percent(one, plain=True)})"
+            if one.clear
+            else f"{NO_DIFFERENCE} in throughput"
+        )
+    factor, unit = scale_of(figure_unit(asked.kpi), one.now.mean)
+    name = kpi_name(asked.kpi)
+    return f"{name} {_amount(one, factor, unit)}" if one.clear else f"{NO_DIFFERENCE} in {name.lower()}"
+
+
+def exposure(found: LayoutFound, of: Any) -> str:
+    """What becomes of the second criterion, per part too where that says something else."""
+    asked, one, each = found.asked.exposure, of.get(EXPOSURE), of.get(EXPOSURE_EACH)
+    if asked is None or one is None:
+        return ""
+    name = exposure_name(found)
+    name = name[:1].lower() + name[1:] if name[1:2].islower() else name
+    if not one.clear:
+        return f"{name}: {NO_DIFFERENCE}"
+    per_part = "" if each is None else f" (per part {_percent(each) if each.clear else NO_DIFFERENCE})"
+    return f"{name}: {_percent(one)}{per_part}"
+
+
+def exposure_name(found: LayoutFound) -> str:
+    """The figure in words, and whose it is."""
+    asked = found.asked.exposure
+    assert asked is not None
+    return f"{kpi_name(asked.kpi)}, of {asked.subject or 'the worker who has most of it'}"
+
+
+def _figure(found: LayoutFound) -> str:
+    """By what the best is taken, in a sentence."""
+    kpi = found.asked.best.kpi
+    return "throughput" if kpi == "throughput_per_h" else kpi_name(kpi).lower()
+
+
+def _headline(found: LayoutFound) -> Iterator[str]:
+    taken = found.taken
+    if taken is None:
+        if not found.candidates:
+            yield "No layout of these places is shorter for today's trips: leave it as it is."
+            return
+        yield (
+            f"Leave it as it is: simulated, none of these {len(found.candidates)} layouts is clearly better by "
+            f"{_figure(found)} or as good with less walking."
+        )
+        return
+    of, do = found.fresh, said(found.asked.floor.at, taken)
+    parts = [walking(of[WALKED]) + _saved(of[WALKED]), best(found, of[BEST]), exposure(found, of)]
+    first = f"{do[0].upper()}{do[1:]}" if taken.proposed else f"{taken.name} ({do})" if do != taken.name else do
+    if not (of[WALKED].clear or of[BEST].clear):
+        yield "Leave it as it is: on fresh random numbers the best layout found shows no clear gain."
+        first = f"That was to {do}" if taken.proposed else f"That was {first}"
+    yield f"{first}: {', '.join(filter(None, parts[:2]))}{'; ' if parts[2] else ''}{parts[2]}."
+    each, share = of[EACH], of[SHARE]
+    yield (
+        f"That is {digits(each.then.mean, each.difference.half_width)} m walked a part in place of "
+        f"{digits(each.now.mean, each.difference.half_width)} m, and people walk "
+        f"{100 * share.then.mean:.0f} % of their time in place of {100 * share.now.mean:.0f} %."
+    )
+    yield (
+        f"Measured in {found.asked.replications} fresh replications that had no part in choosing it, beside the "
+        "present layout on the same random numbers (± is 95 %)."
+    )
+
+
+def _saved(one: Against) -> str:
+    """The metres of a shift."""
+    if not one.clear:
+        return ""
+    metres, half_m = abs(one.difference.mean) * SHIFT_H, one.difference.half_width * SHIFT_H
+    factor, unit = scale_of("m", metres)
+    return f" ({digits(metres * factor, half_m * factor or 0.01 * metres)} {unit} {_way(one)} in {SHIFT_H:.0f} hours)"
+
+
+def _by_few(found: LayoutFound) -> Iterator[str]:
+    """What can be had by moving fewer stations than the one taken does."""
+    if found.taken is None:
+        return
+    at = found.asked.floor.at
+    of_taken = len(moved_stations(at, found.taken))
+    fewer = [one for one in found.candidates if one.proposed and 0 < len(moved_stations(at, one)) < of_taken - 1]
+    few = []
+    for one in sorted(fewer, key=lambda one: len(moved_stations(at, one)))[:2]:
+        of = found.compared[one.name]
+        few.append(f"{said(at, one)}: {', '.join(filter(None, (walking(of[WALKED]), best(found, of[BEST]))))}")
+    if few:
+        yield f"If less may be moved, {'; '.join(few)}."
+
+
+def _alike(found: LayoutFound) -> Iterator[str]:
+    """Those that no test tells from the best."""
+    others = [name for name in found.alike if name != (NOW if found.taken is None else found.taken.name)]
+    if found.taken is not None and others:
+        names = ["the present layout" if name == NOW else f"'{name}'" if " " in name else name for name in others]
+        yield f"No test tells {listing(names)} from it by {_figure(found)}; of all these it has the least walking."
+
+
+def _caution(found: LayoutFound) -> Iterator[str]:
+    one = found.fresh.get(BEST)
+    if one is not None and not one.clear and found.asked.best.kpi == "throughput_per_h" and found.fresh[WALKED].clear:
+        yield "What is saved is walking: the output is limited by something else, such as what comes in."
+
+
+def _percent(one: Against, *, plain: bool = False) -> str:
+    mean, half = (100 * value for value in one.relative)
+    if not is_number(mean):
+        return _way(one)
+    text = (
+        f"{digits(abs(mean), half)} ± {half_digits(mean, half)} %" if is_number(half) and half else f"{abs(mean):.3g} %"
+    )
+    return text if plain else f"{text} {_way(one)}"
+
+
+def _amount(one: Against, factor: float = 1.0, unit: str = "") -> str:
+    mean, half = one.difference.mean * factor, one.difference.half_width * factor
+    text = f"{digits(abs(mean), half, one.now.mean * factor)} ± {half_digits(mean, half, one.now.mean * factor)}"
+    return f"{text} {unit}".strip() + f" {_way(one)}"
+
+
+def _way(one: Against) -> str:
+    return "more" if one.difference.mean > 0 else "less"
+
+
+def figure_unit(kpi: str) -> str:
+    """The unit that a figure's name ends in; "" where it says none."""
+    return next((unit for ending, unit in _ENDINGS.items() if kpi.endswith(ending)), "")
+
+
+_ENDINGS = {
+    **{"_min_per_h": "min/h", "_per_h": "1/h", "_per_calendar_h": "1/h", "_per_min": "1/min", "_share": "share"},
+    **{"_s": "s", "_m": "m", "_deg": "deg", "_h": "h"},
+}

@@ -1,0 +1,181 @@
+"""What stands where on a floor, what may be moved and where to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import isfinite
+from typing import Any
+
+from opsim.layout import Ways, ways
+from opsim.names import enumerated, natural_key
+from opsim.problems import did_you_mean, shown
+from opsim.scenario.read import Loaded
+
+
+class NoLayout(ValueError):
+    """A layout study that makes no sense, and why."""
+
+
+@dataclass(frozen=True)
+class Floor:
+    """A scenario's places and what stands on them.
+
+    at       : the place of each station, both in natural order of stations
+    inherits : stations whose place is that of the station they are like: it must be said where they stay
+    """
+
+    loaded: Loaded
+    at: Mapping[str, str]
+    inherits: frozenset[str] = frozenset()
+
+    @property
+    def scenario(self) -> Any:
+        return self.loaded.scenario
+
+    @cached_property
+    def ways(self) -> Ways:
+        """The shortest ways between all places."""
+        return ways(self.scenario.layout)
+
+    @property
+    def places(self) -> dict[str, tuple[float, float]]:
+        """x and y in metres of every place."""
+        return self.scenario.layout.places
+
+    @cached_property
+    def stations_at(self) -> dict[str, tuple[str, ...]]:
+        """By place, the stations there, in natural order."""
+        found: dict[str, list[str]] = {}
+        for station, place in self.at.items():
+            found.setdefault(place, []).append(station)
+        return {place: tuple(stations) for place, stations in found.items()}
+
+    @cached_property
+    def others_at(self) -> dict[str, list[str]]:
+        """By place, what is there beside stations, in words: it stays where it is."""
+        found: dict[str, list[str]] = {}
+        for place, words in _others(self.scenario):
+            found.setdefault(place, []).append(words)
+        return found
+
+    @cached_property
+    def tied(self) -> dict[str, str]:
+        """Stations that proposals leave where they are unless somebody names them, and why."""
+        found: dict[str, str] = {}
+        for name, line in self.scenario.lines.items():
+            found |= dict.fromkeys(line.stations, f"it is part of the line {name}")
+        for name, belt in self.scenario.conveyors.items():
+            for place in (belt.start, belt.end):
+                found |= dict.fromkeys(self.stations_at.get(place, ()), f"the belt {name} begins or ends there")
+        for place, words in self.others_at.items():
+            stores = [one for one in words if one.startswith("the store")]
+            for one in stores:
+                found |= dict.fromkeys(self.stations_at.get(place, ()), f"{one} is there")
+        return found
+
+    def with_stations(self, at: Mapping[str, str]) -> Floor:
+        """The same floor with its stations elsewhere."""
+        return Floor(self.loaded, dict(sorted(at.items(), key=lambda item: natural_key(item[0]))), self.inherits)
+
+
+def floor_of(loaded: Loaded, own_places: Mapping[str, bool] | None = None) -> Floor:
+    """The floor of a scenario. own_places : by station, whether the file says its place in the station's own block."""
+    at = {name: loaded.scenario.stations[name].at for name in sorted(loaded.scenario.stations, key=natural_key)}
+    inherits = frozenset(name for name, own in (own_places or {}).items() if not own)
+    return Floor(loaded, at, inherits)
+
+
+@dataclass(frozen=True, slots=True)
+class Movable:
+    """Places whose stations may move, each as one thing, and where to; places by name in natural order."""
+
+    things: tuple[str, ...]
+    allowed: tuple[str, ...]
+    exclusive: bool
+
+
+def movable(floor: Floor, fixed: Sequence[str] = (), places: Sequence[str] | None = None) -> Movable:
+    """What may be moved where. Raises NoLayout with everything that is wrong, each with the nearest word."""
+    wrong = [*_unknown(fixed, floor.at, "station", "fixed"), *_unknown(places or (), floor.places, "place", "places")]
+    if wrong:
+        raise NoLayout("\n".join(wrong))
+    stay = {floor.at[name] for name in (*fixed, *floor.tied)}
+    things = tuple(place for place in floor.stations_at if place not in stay)
+    if not things:
+        why = "; ".join(f"{name}: {reason}" for name, reason in list(floor.tied.items())[:3])
+        raise NoLayout(f"no station may be moved: all of them are fixed{f' ({why})' if why else ''}; free one of them")
+    allowed = _by_default(floor, things) if places is None else tuple(places)
+    wrong = [*_taken(floor, allowed, stay), *_unreached(floor, allowed, things)]
+    if len(things) > len(allowed):
+        wrong.append(
+            f"places: {len(things)} {'stations' if len(things) > 1 else 'station'} "
+            f"({enumerated([' and '.join(floor.stations_at[place]) for place in things])}) and only "
+            f"{len(allowed)} place{'s' if len(allowed) > 1 else ''} for them; name more places, or fix some stations"
+        )
+    if wrong:
+        raise NoLayout("\n".join(wrong))
+    return Movable(_natural(things), _natural(allowed), places is not None)
+
+
+def known_place(floor: Floor, place: str) -> str | None:
+    """What is wrong with the name of a place, or None."""
+    return next(_unknown([place], floor.places, "place", ""), None)
+
+
+def _unknown(names: Sequence[str], known: Mapping[str, Any], what: str, key: str) -> Iterator[str]:
+    where = f"{key}: " if key else ""
+    yield from (f"{where}no {what} {shown(name)}; {did_you_mean(name, known)}" for name in names if name not in known)
+
+
+def _natural(names: Sequence[str]) -> tuple[str, ...]:
+    return tuple(sorted(dict.fromkeys(names), key=natural_key))
+
+
+def _by_default(floor: Floor, things: Sequence[str]) -> tuple[str, ...]:
+    """Where the things stand, and what nobody uses; where people follow paths, a free place may be a mere crossing."""
+    if floor.scenario.layout.distance == "paths":
+        return tuple(things)
+    free = [place for place in floor.places if place not in floor.stations_at and place not in floor.others_at]
+    return (*things, *free)
+
+
+def _taken(floor: Floor, allowed: Sequence[str], stay: set[str]) -> Iterator[str]:
+    for place in allowed:
+        if place in stay:
+            yield f"places: {' and '.join(floor.stations_at[place])} stays at {place}: nothing else can stand there"
+        elif any(not words.startswith("the home") for words in floor.others_at.get(place, ())):
+            yield f"places: {floor.others_at[place][0]} is at {place}: no station can stand there"
+
+
+def _unreached(floor: Floor, allowed: Sequence[str], things: Sequence[str]) -> Iterator[str]:
+    """Places that no path leads to from where stations stand, or from which none leads back."""
+    rank = {name: number for number, name in enumerate(floor.ways.places)}
+    distance_m = floor.ways.distance_m
+    seen_from = next(iter(floor.stations_at))
+    for place in allowed:
+        there, back = distance_m[rank[seen_from]][rank[place]], distance_m[rank[place]][rank[seen_from]]
+        if not isfinite(there):
+            yield f"places: no path leads from {seen_from} to {place}; add one to layout.paths, or leave {place} out"
+        elif not isfinite(back):
+            yield f"places: no path leads from {place} back to {seen_from}; add one to layout.paths, or leave it out"
+
+
+def _others(scenario: Any) -> Iterator[tuple[str, str]]:
+    """(place, words) of what is not a station."""
+    for name, store in scenario.stores.items():
+        yield store.at, f"the store {name}"
+    for name, belt in scenario.conveyors.items():
+        yield belt.start, f"the beginning of the belt {name}"
+        yield belt.end, f"the end of the belt {name}"
+    for name, vehicle in scenario.transporters.items():
+        yield vehicle.at, f"the stand of {name}"
+    for name, shift in scenario.shifts.items():
+        for pause, one in {**shift.breaks, **getattr(shift, "meetings", {})}.items():
+            if one.place is not None:
+                yield one.place, f"the place of {pause} of the shift {name}"
+    people = {**scenario.workers, **({} if scenario.workforce is None else {"the workforce": scenario.workforce})}
+    for name, worker in people.items():
+        if worker.home is not None:
+            yield worker.home, f"the home of {name}"
