@@ -1,11 +1,19 @@
 """A results folder as one frozen thing."""
 
 import json
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 Key = tuple[str, str, str, str]
 """(kpi, subject, part, unit)"""
+Table = dict[Key, dict[int, float]]
+"""By figure, its value in each replication."""
+STUDY = "study.json"
+"""What the folder of a study has, and that of a run has not."""
+AT_ONCE = 200
+"""Files read by one query."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +27,8 @@ class Result:
     def load(cls, folder: Path) -> "Result":
         """Read a results folder. Raises OSError or ValueError where it is none."""
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        if isinstance(summary, dict) and "study" in summary:
+            raise ValueError(_not_a_run(folder, summary["study"]))
         if not isinstance(summary, dict) or not {"seed", "kpis", "replications"} <= summary.keys():
             raise ValueError(f"{folder / 'summary.json'}: not the summary of a run")
         return cls(folder, summary)
@@ -26,22 +36,62 @@ class Result:
     @property
     def events_files(self) -> list[Path]:
         """Parquet files of the rows, a replication each."""
-        return sorted((self.folder / "events").glob("replication_*.parquet"))[: self.summary["replications"]]
+        return events_in(self.folder)[: self.summary["replications"]]
 
-    def kpis(self) -> dict[Key, dict[int, float]]:
+    def kpis(self) -> Table:
         """Every figure by replication; nan where nothing was observed. Raises OSError where it cannot be read."""
-        from opsim.log_store import connect, plain_errors, quoted
+        from opsim.log_store import connect, plain_errors
 
-        path = self.folder / "kpis.parquet"
-        with plain_errors(path), connect() as connection:
-            rows = connection.execute(
-                "SELECT kpi, subject, part, unit, replication, coalesce(value, 'nan'::DOUBLE) "
-                f"FROM read_parquet({quoted(str(path))}) ORDER BY replication"
-            ).fetchall()
-        found: dict[Key, dict[int, float]] = {}
-        for *key, replication, value in rows:
-            found.setdefault(tuple(key), {})[replication] = value  # type: ignore[arg-type]
-        return found
+        with plain_errors(self.kpis_file), connect() as connection:
+            return _tables(connection, [self.kpis_file])[0]
+
+    @property
+    def kpis_file(self) -> Path:
+        """Every figure of every replication."""
+        return self.folder / "kpis.parquet"
+
+
+def figures_of(results: Sequence[Result], names: Collection[str]) -> list[Table]:
+    """As ``kpis`` of many results at once, those figures alone: a connection for each would take most of the time.
+
+    Raises OSError where one cannot be read.
+    """
+    import duckdb
+
+    from opsim.log_store import connect
+
+    found: list[Table] = []
+    with connect() as connection:
+        for first in range(0, len(results), AT_ONCE):
+            some = results[first : first + AT_ONCE]
+            try:
+                found += _tables(connection, [one.kpis_file for one in some], names)
+            except (duckdb.Error, KeyError):  # one by one: it is said which cannot be read, and names may hold a '*'
+                found += [{key: row for key, row in one.kpis().items() if key[0] in names} for one in some]
+    return found
+
+
+def _tables(connection: Any, files: Sequence[Path], names: Collection[str] | None = None) -> list[Table]:
+    """The figures in each file, in the order of the replications; names : those alone."""
+    from opsim.log_store import quoted
+
+    listed = ", ".join(quoted(str(path)) for path in files)
+    only = "" if names is None else f"WHERE kpi IN ({', '.join(quoted(name) for name in names)})"
+    rows = connection.execute(
+        "SELECT kpi, subject, part, unit, filename, replication, coalesce(value, 'nan'::DOUBLE) "
+        f"FROM read_parquet([{listed}], filename = true) {only} ORDER BY replication"
+    ).fetchall()
+    found: dict[str, Table] = {str(path): {} for path in files}
+    alone = found[str(files[0])] if len(files) == 1 else None
+    for *key, path, replication, value in rows:
+        table = found[path] if alone is None else alone
+        table.setdefault(tuple(key), {})[replication] = value  # type: ignore[arg-type]
+    return [found[str(path)] for path in files]
+
+
+def events_in(folder: Path) -> list[Path]:
+    """Events files of a results folder, by their replications; nothing where there are none."""
+    return sorted((folder / "events").glob("replication_*.parquet"), key=lambda path: (len(path.name), path.name))
 
 
 def variants_in(folder: Path) -> dict[str, Result]:
@@ -52,6 +102,16 @@ def variants_in(folder: Path) -> dict[str, Result]:
     if (folder / "summary.json").is_file():
         return {folder.name: Result.load(folder)}
     found = {path.parent.name: Result.load(path.parent) for path in sorted(folder.glob("*/summary.json"))}
+    if not found and (folder / STUDY).is_file():
+        raise ValueError(_not_a_run(folder, None))
     if not found:
         raise ValueError(f"{folder}: no results here; 'opsim run FILE.yaml -o {folder}' makes some")
     return found
+
+
+def _not_a_run(folder: Path, kind: object) -> str:
+    """What to say of the folder of a study; kind : of a finished one, None before."""
+    said = f"of 'opsim {kind}'" if isinstance(kind, str) and kind.replace("_", "").isalnum() else "of a study"
+    page = folder / f"{kind}.html"
+    see = f": its answer is in {page}" if page.is_file() else ""
+    return f"{folder}: a folder {said}, which keeps figures and no runs{see}; 'opsim run FILE.yaml' keeps runs"

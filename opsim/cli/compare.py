@@ -12,7 +12,7 @@ from opsim.cli.verbs import mistakes
 
 @click.command("compare")
 @click.argument("of", metavar="FOLDER|FILE")
-@click.option("--base", default="base", show_default=True, metavar="NAME", help="The variant to compare with.")
+@click.option("--base", metavar="NAME", help="The variant to compare with.  [default: base, or else the first]")
 @click.option("--kpi", "kpis", multiple=True, metavar="NAME", help="This figure; may be given again.")
 @click.option("--frontier", metavar="FIGURE,FIGURE", help="Two figures, one against the other, over all variants.")
 @click.option("-o", "--out", type=click.Path(path_type=Path), help="Results folder, where a FILE is run first.")
@@ -21,7 +21,7 @@ from opsim.cli.verbs import mistakes
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use for a FILE.  [default: as many as pay]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
-    of: str, base: str, kpis: tuple[str, ...], frontier: str | None, out: Path | None, as_json: bool, **how: Any
+    of: str, base: str | None, kpis: tuple[str, ...], frontier: str | None, out: Path | None, as_json: bool, **how: Any
 ) -> None:
     """Compare the variants in a results FOLDER, or those of a scenario FILE, which are run first.
 
@@ -34,6 +34,7 @@ def command(
 
     with mistakes():
         folder, results = _results(of, out, how, (base, kpis, frontier))
+        base = _base(base, results)
         comparison = compare(results, base, kpis)
         refuse = frontier is not None and Path(of).is_dir()
         found, no_frontier = frontier_or_why(results, base, frontier, refuse=refuse)
@@ -51,6 +52,11 @@ def command(
         click.echo(no_frontier, err=True)
     if failed:
         raise Failed(failed)
+
+
+def _base(base: str | None, variants: Any) -> str:
+    """The variant to compare with: the first one where nobody says and none is called base."""
+    return base if base is not None else "base" if "base" in variants else str(next(iter(variants)))
 
 
 def _page(comparison: Any, path: Path, title: str, frontier: Any) -> tuple[Path | None, str]:
@@ -75,28 +81,27 @@ def _results(of: str, out: Path | None, how: dict[str, Any], asked: Any) -> tupl
         if given:
             raise ValueError(f"{', '.join(given)}: only where a scenario FILE is run; {of} is a folder of results")
         return folder, variants_in(folder)
-    folder, _, results = run_variants(of, out, check=lambda variants: check_asked(variants, *asked), **how)
+    base, *others = asked
+    folder, _, results = run_variants(
+        of, out, check=lambda variants: check_asked(variants, _base(base, variants), *others), **how
+    )
     return folder, results
 
 
 def _print(comparison: Any, title: str) -> None:
-    from opsim.cli.console import print_table
-    from opsim.cli.run_table import without_repeats
-    from opsim.report.comparison import comparison_cells, largest_of
-    from opsim.report.parts import part_name
-    from opsim.report.words import kpi_name
+    """First the answer in sentences, then a table that fits a screen, then how to read it."""
+    from opsim.cli.console import print_table, say, width
+    from opsim.report.comparison_table import screen_table
+    from opsim.report.comparison_words import answer
 
-    rows = []
-    for difference in comparison.differences:
-        kpi, subject, part, _ = difference.key
-        cells = comparison_cells(difference, largest_of([d for d in comparison.differences if d.key[0] == kpi]))
-        of = " ".join(filter(None, (subject, part_name(kpi, part))))
-        texts = (cells[name] for name in ("base", "mean", "difference", "unit", "relative", "pairing", "verdict"))
-        rows.append((kpi_name(kpi, bool(comparison.hours)), of, difference.variant, *texts))
-    columns = ("figure", "of", "variant", comparison.base, "mean", "difference", "", "relative", "pairing", "verdict")
-    print_table(f"{title}: differences from {comparison.base}", columns, without_repeats(rows), words=3)
-    for sentence in comparison.words:
-        click.echo(sentence)
+    say(f"{title}: variants compared with {comparison.base}")
+    for sentence in answer(comparison):
+        say(sentence)
+    click.echo()
+    table = screen_table(comparison, width())
+    print_table(f"Differences from {comparison.base}", table.columns, table.rows, words=1)
+    for sentence in (*table.left_out, *comparison.short_words):
+        say(sentence)
 
 
 def _as_json(comparison: Any, page: Path | None) -> dict[str, Any]:

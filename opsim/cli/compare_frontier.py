@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import click
-
+MOST_SHOWN = 12
 _VERDICTS = {"front": "on the frontier", "behind": "behind, not clearly", "beaten": "clearly beaten"}
 
 
@@ -43,7 +42,7 @@ def frontier_or_why(results: Mapping[str, Any], base: str, asked: str | None, *,
 
 def print_frontier(frontier: Any, hours: bool) -> None:
     """A row a variant, and what follows from it in sentences."""
-    from opsim.cli.console import print_table
+    from opsim.cli.console import print_table, say
     from opsim.report.frontier import axis_name, kind_of
     from opsim.report.frontier_words import frontier_sentences
     from opsim.report.words import plus_minus
@@ -59,13 +58,20 @@ def print_frontier(frontier: Any, hours: bool) -> None:
             ),
             _VERDICTS[kind_of(point)] if point.x.n and point.y.n else "not shown",
         )
-        for point in frontier.points
+        for point in _shown(frontier.points)
     ]
     print_table("Two figures against each other", ("variant", *names, "verdict"), rows, words=1)
     ways = zip(names, (frontier.better_x, frontier.better_y))
     better = "; ".join(f"{name}: {way} is better" for name, way in ways)
-    for sentence in (f"{better}.", *frontier_sentences(frontier)):
-        click.echo(sentence)
+    others = len(frontier.points) - len(rows)
+    left_out = [f"{others:,} more variants are in the page."] if others else []
+    for sentence in (*left_out, f"{better}.", *frontier_sentences(frontier)):
+        say(sentence)
+
+
+def _shown(points: Any) -> list[Any]:
+    """All where they fit a screen, else the first of those on the frontier."""
+    return list(points) if len(points) <= MOST_SHOWN else [point for point in points if point.on_front][:MOST_SHOWN]
 
 
 def frontier_json(frontier: Any) -> dict[str, Any]:

@@ -6,13 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from opsim.report.comparison_cells import comparison_cells, largest_of
+from opsim.report.comparison_words import answer, way_of
 from opsim.report.frontier import frontier_section
 from opsim.report.interval_picture import intervals_svg
 from opsim.report.parts import part_name
-from opsim.report.words import digits, half_digits, is_number, kpi_name, quantity, scale_of
+from opsim.report.words import kpi_name, quantity, scale_of
 from opsim.whole import write_text
 
 HERE = Path(__file__).parent
+MOST_ROWS = 60
+"""Variants shown of each figure; of more, those that differ most, for the page to be read at all."""
 
 
 def write_comparison(comparison: Any, path: str | Path, title: str, frontier: Any = None) -> Path:
@@ -32,6 +36,7 @@ def comparison_html(comparison: Any, title: str, frontier: Any = None) -> str:
     environment = Environment(loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined)
     return environment.get_template("comparison.html.jinja").render(
         title=title,
+        answer=answer(comparison),
         words=comparison.words,
         base=comparison.base,
         groups=groups,
@@ -40,52 +45,28 @@ def comparison_html(comparison: Any, title: str, frontier: Any = None) -> str:
     )
 
 
-def comparison_cells(difference: Any, largest: float | None = None) -> dict[str, str]:
-    """The cells of one difference: base, variant, difference ± half-width, per cent of the base, pairing, verdict."""
-    interval, unit = difference.interval, difference.key[3]
-    factor, word = scale_of(unit, difference.base if largest is None else largest)
-    half = interval.half_width * factor if is_number(interval.half_width) and interval.half_width else None
-    of = difference.base * factor if is_number(difference.base) else 0.0
-    by = digits(interval.mean * factor, half, of)
-    relative = 100 * interval.mean / abs(difference.base) if difference.base else None
-    share = None if relative is None or half is None else 100 * interval.half_width / abs(difference.base)
-    ratio = difference.variance_ratio
-    by = by if half is None else f"{by} ± {half_digits(interval.mean * factor, half, of)}"
-    percent = f"{digits(relative, share, 100.0)} %" if is_number(relative) else ""
-    return {
-        "base": quantity_in(difference.base, factor, half),
-        "mean": quantity_in(difference.mean, factor, half),
-        "difference": "0" if difference.identical else by,
-        "unit": word,
-        "relative": "0 %" if difference.identical else percent,
-        "pairing": f"{ratio:.3g}" if is_number(ratio) else "",
-        "verdict": difference.verdict,
-        "n": str(interval.n),
-    }
-
-
-def quantity_in(value: float, factor: float, half_width: float | None) -> str:
-    """A mean in a unit chosen before, as exact as the difference is."""
-    return digits(value * factor, half_width)
-
-
-def largest_of(differences: Sequence[Any]) -> float | None:
-    """The largest mean of some differences, which chooses their common unit."""
-    values = [abs(v) for d in differences for v in (d.base, d.mean) if is_number(v)]
-    return max(values, default=None)
-
-
 def _group(differences: Sequence[Any], hours: bool) -> dict[str, Any]:
     kpi, subject, part, unit = differences[0].key
     largest = largest_of(differences)
+    shown = _shown(differences)
     factor, word = scale_of(unit, largest)
     bars = [
         (d.variant, d.interval.low * factor, d.interval.mean * factor, d.interval.high * factor, d.verdict)
-        for d in differences
+        for d in shown
     ]
     return {
         "name": " · ".join(filter(None, (kpi_name(kpi, hours), subject, part_name(kpi, part)))),
         "base": quantity(differences[0].base, unit),
-        "rows": [{"variant": d.variant, **comparison_cells(d, largest)} for d in differences],
+        "rows": [{"variant": d.variant, **comparison_cells(d, largest)} for d in shown],
+        "others": len(differences) - len(shown),
         "picture": intervals_svg(bars, word),
     }
+
+
+def _shown(differences: Sequence[Any]) -> list[Any]:
+    """All where they are few; else the best half and the worst half of what is shown, the best first."""
+    if len(differences) <= MOST_ROWS:
+        return list(differences)
+    known = [d for d in differences if d.interval.n]
+    ordered = sorted(known, key=lambda d: -abs(d.interval.mean) * (way_of(d) or (1 if d.interval.mean > 0 else -1)))
+    return ordered if len(ordered) <= MOST_ROWS else [*ordered[: MOST_ROWS // 2], *ordered[-MOST_ROWS // 2 :]]

@@ -1,20 +1,18 @@
 """Variants against a base, replication by replication: common random numbers make the pairs alike."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from opsim.problems import did_you_mean
-from opsim.results import Key, Result
+from opsim.results import Key, Result, Table, figures_of
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
 from opsim.study.no_figure import remedy
+from opsim.study.paired import FEW, ROUNDING, holm, paired
 
+__all__ = ["ROUNDING", "Comparison", "Difference", "NotComparable", "compare", "holm", "paired", "scheduled_hours"]
 PER_SCHEDULED_HOUR, PER_CALENDAR_HOUR = ("throughput_per_h",), "throughput_per_calendar_h"
-ROUNDING = 1e-9
-"""Differences below this share of the values are of the order in which numbers were added, not of the variants."""
-FEW = 10
-"""Pairs: in fewer of them the same step everywhere may be luck, as with counts, and says nothing of the spread."""
 
 
 class NotComparable(ValueError):
@@ -79,13 +77,33 @@ class Comparison:
     hours: Mapping[str, float] = field(default_factory=dict)
 
     @property
+    def tests(self) -> int:
+        """How many comparisons are held against each other."""
+        return sum(not np.isnan(_tested(difference)) for difference in self.differences)
+
+    @property
+    def pairs(self) -> str:
+        """``20 pairs of replications with the same random numbers (seed 7)``."""
+        pairs = "1 pair" if self.n == 1 else f"{self.n} pairs"
+        return f"{pairs} of replications with the same random numbers (seed {self.seed})"
+
+    @property
+    def short_words(self) -> tuple[str, ...]:
+        """The same as ``words`` for who has read them once."""
+        few = f" {self.n} are few: more replications make ± smaller." if 1 < self.n < FEW else ""
+        return (
+            f"± is the {100 * CONFIDENCE:.0f} % interval of a difference, from {self.pairs}.{few}",
+            f"* is clearly higher or lower, with all {self.tests} comparisons held together (Holm 1979).",
+            *self._hours_words(),
+        )
+
+    @property
     def words(self) -> tuple[str, ...]:
         """How the numbers are to be read."""
-        m = sum(not np.isnan(_tested(difference)) for difference in self.differences)
-        pairs = "1 pair" if self.n == 1 else f"{self.n} pairs"
+        m = self.tests
         own, wrong = f"{100 * CONFIDENCE:.0f} %", f"{100 * (1 - CONFIDENCE):.0f} %"
         return (
-            f"Differences from {self.base} in {pairs} of replications with the same random numbers (seed {self.seed}).",
+            f"Differences from {self.base} in {self.pairs}.",
             f"Each {own} interval is for its own figure alone. 'higher' and 'lower' are said so that "
             f"all comparisons together ({m}) are wrong with a chance of at most {wrong} (Holm 1979).",
             "Pairing: so many times more replications would be needed with independent random numbers.",
@@ -109,10 +127,10 @@ def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[st
     Raises NotComparable (no such base, other seeds, unknown figures), OSError where results cannot be read.
     """
     _check(results, base)
-    tables = {name: result.kpis() for name, result in results.items()}
     hours = scheduled_hours(results)
     apart = {name for name in hours if hours[name] != hours[base]}
-    keys = _keys(results[base], list(tables[base]), kpis, by_calendar=bool(apart))
+    keys = _keys(results[base], list(results[base].kpis()), kpis, by_calendar=bool(apart))
+    tables = tables_of(results, dict.fromkeys(key[0] for key in keys))
     shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
     found = [
         _difference(name, key, table[key], tables[base][key], shared, key[0] in PER_SCHEDULED_HOUR and name in apart)
@@ -125,48 +143,9 @@ def compare(results: Mapping[str, Result], base: str = "base", kpis: Sequence[st
     return Comparison(base, results[base].summary["seed"], len(shared), differences, hours)
 
 
-def holm(p: Sequence[float]) -> np.ndarray:
-    """(m,) p-values held against all m tests made; nan stays nan and does not count.
-
-    Source: Holm 1979, A simple sequentially rejective multiple test procedure, Scand. J. Statist. 6:65-70.
-    """
-    alone = np.asarray(p, dtype=float)
-    adjusted = np.full(alone.shape, np.nan)
-    order = np.argsort(alone)[: np.count_nonzero(~np.isnan(alone))]
-    steps = alone[order] * np.arange(order.size, 0, -1)
-    adjusted[order] = np.minimum(1.0, np.maximum.accumulate(steps))
-    return adjusted
-
-
 def _tested(difference: Difference) -> float:
     """The p that is held against the others: nan where there is nothing to test, as between identical figures."""
     return np.nan if difference.identical or difference.other_hours else difference.p
-
-
-def paired(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, float, float | None]:
-    """(interval of the mean of a - b, two-sided p, variance ratio) of pairs; a pair with a nan is left out.
-
-    Differences that are all below ``ROUNDING`` of the values are taken for 0. Where a and b vary, and their difference
-    does not in fewer than ``FEW`` pairs, p is nan; where neither varies, nothing is left to luck.
-    """
-    from scipy.special import stdtr  # scipy.stats costs three times this import
-
-    pairs = np.array([a, b], dtype=float)
-    pairs = pairs[:, ~np.isnan(pairs).any(axis=0)]
-    apart_by = pairs[0] - pairs[1]
-    least = ROUNDING * np.abs(pairs).max(initial=0)
-    if np.abs(apart_by).max(initial=0) <= least:
-        apart_by = np.zeros_like(apart_by)
-    interval = t_interval(apart_by)
-    if interval.n < 2:
-        return interval, np.nan, None
-    if interval.n < FEW and interval.mean != 0 and np.ptp(apart_by) <= least < np.ptp(pairs, axis=1).max():
-        return interval, np.nan, None
-    if interval.sd == 0:
-        return interval, 1.0 if interval.mean == 0 else 0.0, None
-    t = interval.mean / (interval.sd / np.sqrt(interval.n))
-    apart = float(pairs.var(axis=1, ddof=1).sum())
-    return interval, float(2 * stdtr(interval.n - 1, -abs(t))), apart / interval.sd**2 if apart > 0 else None
 
 
 def scheduled_hours(results: Mapping[str, Result]) -> dict[str, float]:
@@ -184,6 +163,13 @@ def _difference(
     a, b = ([row.get(replication, np.nan) for replication in shared] for row in (of, base))
     interval, p, ratio = paired(a, b)
     return Difference(name, key, t_interval(b).mean, t_interval(a).mean, interval, p, p, ratio, other_hours)
+
+
+def tables_of(results: Mapping[str, Result], names: Collection[str]) -> dict[str, Table]:
+    """By variant, the figures with some names."""
+    if all(isinstance(result, Result) for result in results.values()):
+        return dict(zip(results, figures_of(list(results.values()), names)))
+    return {name: result.kpis() for name, result in results.items()}
 
 
 def _check(results: Mapping[str, Result], base: str) -> None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.log import CREATE, FINISH, LOST, EventLog
+from opsim.log import CREATE, FINISH, LEAVING_KINDS, EventLog
 from opsim.results import Result
 
 BATCH = 5
@@ -64,12 +64,21 @@ def suggested_warm_up(result: Result) -> list[WarmUp]:
         for name, (_, of) in SERIES.items():
             totals[name] = totals.get(name, 0.0) + of(log, np.linspace(0, horizon_s, SLICES + 1))
     told = n_finished >= FEWEST_JOBS
-    return [_found(name, totals[name] / len(files), horizon_s / SLICES, told) for name in totals]
+    return [found_in(name, totals[name] / len(files), horizon_s / SLICES, told) for name in totals]
 
 
 def jobs_inside(log: EventLog, edges_s: np.ndarray) -> np.ndarray:
     """(slices,) jobs inside, averaged over each slice of time between two edges."""
-    return (_area(log.of(CREATE), edges_s) - _area(log.of(FINISH, LOST), edges_s)) / np.diff(edges_s)
+    came_s, left_s = log.of(CREATE)["end_s"], log.of(*LEAVING_KINDS)["end_s"]
+    return at_once(came_s, left_s, edges_s)
+
+
+def at_once(begin_s: np.ndarray, end_s: np.ndarray, edges_s: np.ndarray) -> np.ndarray:
+    """(slices,) how many of some things that begin and end are going on, averaged over each slice of time.
+
+    begin_s, end_s : instants in any order; what never ends has no end among them
+    """
+    return (_area(begin_s, edges_s) - _area(end_s, edges_s)) / np.diff(edges_s)
 
 
 def finished_per_h(log: EventLog, edges_s: np.ndarray) -> np.ndarray:
@@ -83,15 +92,16 @@ SERIES: dict[str, tuple[str, Callable[[EventLog, np.ndarray], np.ndarray]]] = {
 }
 
 
-def _area(rows: EventLog, edges_s: np.ndarray) -> np.ndarray:
-    """(slices,) integral over each slice of how many of the rows have happened."""
-    at = np.sort(rows["end_s"])
+def _area(at_s: np.ndarray, edges_s: np.ndarray) -> np.ndarray:
+    """(slices,) integral over each slice of how many of some instants have passed."""
+    at = np.sort(at_s)
     before = np.searchsorted(at, edges_s)
     until = before * edges_s - np.r_[0.0, np.cumsum(at)][before]
     return np.diff(until)
 
 
-def _found(name: str, series: np.ndarray, slice_s: float, told: bool) -> WarmUp:
+def found_in(name: str, series: np.ndarray, slice_s: float, told: bool) -> WarmUp:
+    """The warm-up that the average series suggests; none where nothing can be told, as of too few jobs."""
     left_out = mser(series) if told else None
     return WarmUp(name, SERIES[name][0], slice_s, series, None if left_out is None else left_out * slice_s)
 

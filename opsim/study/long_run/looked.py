@@ -1,0 +1,180 @@
+"""What the rows of one long replication, or of a few, say of the steady state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from opsim.results import Result
+from opsim.study.long_run.batches import MANY_VALUES, MOST_BATCHES, PIECES_EACH, BatchMeans, batch_means
+from opsim.study.long_run.correlation import correlogram
+from opsim.study.long_run.flags import Flag, flags
+from opsim.study.long_run.slices import DAY_S, Sliced, edges_of, jobs_in_a_row, sliced
+from opsim.study.long_run.welch_curve import welch
+from opsim.study.warm_up import FEWEST_JOBS, SLICES, found_in
+
+UNITS = {
+    "throughput_per_h": "1/h",
+    "time_in_system_s": "s",
+    "work_in_progress": "jobs",
+    "jobs_waiting": "jobs",
+    "people_at_work": "people",
+}
+"""In the order in which they are told."""
+PILES_UP = ("time_in_system_s", "work_in_progress", "jobs_waiting")
+MOST_LAGS = 40
+NEVER_STARVED = 0.005
+
+
+@dataclass(frozen=True)
+class LongSeries:
+    """One figure of a long run.
+
+    batches   : None where there are fewer than 10 values; batch_s, batch_jobs : how long one is, one of them nan
+    span_s    : how long the part is that the batches are of
+    curve     : the whole run, slice by slice, all replications averaged; smooth : the same by Welch; empty for jobs
+    values    : of the correlogram, all replications together
+    warm_up_s : by MSER-5, None where it finds none
+    """
+
+    name: str
+    unit: str
+    batches: BatchMeans | None
+    batch_s: float
+    batch_jobs: float
+    span_s: float
+    flags: tuple[Flag, ...]
+    correlogram: np.ndarray
+    values: int
+    curve: np.ndarray
+    smooth: np.ndarray
+    warm_up_s: float | None
+
+
+@dataclass(frozen=True)
+class LongRun:
+    """``series`` of a result; ``left_out_s`` of its start, said by ``why``: own, asked or MSER-5.
+
+    full_stations : stations that are never without a job, where the summary says so
+    part_of_days  : the floor keeps hours, and the run is too short for batches of whole days
+    """
+
+    scenario: str
+    variant: str
+    seed: int
+    replications: int
+    horizon_s: float
+    own_warm_up_s: float
+    left_out_s: float
+    why: str
+    slice_s: float
+    series: tuple[LongSeries, ...]
+    full_stations: tuple[str, ...]
+    part_of_days: bool
+
+    @property
+    def serious(self) -> bool:
+        """Whether something forbids to believe it."""
+        return self.part_of_days or any(flag.serious for one in self.series for flag in one.flags)
+
+
+def look(result: Result, warm_up_s: float | None = None, progress: Callable[[int, int], None] | None = None) -> LongRun:
+    """Read the rows of a result, one replication at a time, and judge them.
+
+    warm_up_s : what is left out of the start; by default the run's own warm-up, or what MSER-5 finds if that is longer
+    Raises ValueError where there are no rows or nothing is left, OSError where they cannot be read.
+    """
+    from opsim.log_store import read_events
+
+    if not result.events_files:
+        raise ValueError(f"{result.folder}: no events here; a long run is judged by its events")
+    summary = result.summary
+    own_s, horizon_s = summary["window_s"]
+    edges_s = edges_of(horizon_s, "scheduled_h" in summary)
+    read: list[Sliced] = []
+    for path in result.events_files:
+        read.append(sliced(read_events(path), edges_s))
+        if progress is not None:
+            progress(len(read), len(result.events_files))
+    slice_s = float(edges_s[1])
+    cuts = _mser(read, slice_s)
+    left_out_s, why = _left_out(warm_up_s, own_s, cuts)
+    if left_out_s >= horizon_s:
+        raise ValueError(f"nothing is left: the warm-up ({left_out_s:g} s) is as long as the run ({horizon_s:g} s)")
+    return LongRun(
+        str(summary.get("scenario", "")),
+        str(summary.get("variant", "")),
+        summary["seed"],
+        len(read),
+        horizon_s,
+        own_s,
+        left_out_s,
+        why,
+        slice_s,
+        tuple(_series(name, read, edges_s, left_out_s, cuts) for name in UNITS),
+        _full_stations(summary),
+        "scheduled_h" in summary and slice_s < DAY_S,
+    )
+
+
+def _mser(read: list[Sliced], slice_s: float) -> Mapping[str, float | None]:
+    """By series that ``opsim warm-up`` looks at: the warm-up MSER-5 suggests, None where none is believed."""
+    told = sum(one.jobs for one in read) >= FEWEST_JOBS
+    found = {}
+    for name in ("work_in_progress", "throughput_per_h"):
+        mean = np.mean([one.by_time[name] for one in read], axis=0)
+        each = mean.size // SLICES
+        if each:  # the same slices that `opsim warm-up` has
+            mean = mean[: SLICES * each].reshape(SLICES, each).mean(axis=1)
+        told = told and mean.size >= MANY_VALUES
+        found[name] = found_in(name, mean, slice_s * max(1, each), told).until_s
+    return found
+
+
+def _left_out(asked_s: float | None, own_s: float, cuts: Mapping[str, float | None]) -> tuple[float, str]:
+    if asked_s is not None:
+        return asked_s, "asked"
+    longest_s = max((cut for cut in cuts.values() if cut is not None), default=0.0)
+    return (longest_s, "MSER-5") if longest_s > own_s else (own_s, "own")
+
+
+def _series(
+    name: str, read: list[Sliced], edges_s: np.ndarray, from_s: float, cuts: Mapping[str, float | None]
+) -> LongSeries:
+    by_job = name == "time_in_system_s"
+    first = int(np.searchsorted(edges_s, from_s - 1e-6))
+    whole = None if by_job else np.array([one.by_time[name] for one in read])
+    most = MOST_BATCHES * PIECES_EACH
+    rows = jobs_in_a_row(read, from_s, most) if whole is None else whole[:, first:]
+    n_jobs = sum(int((one.finish_s >= from_s).sum()) * one.each for one in read)
+    batches = None if rows is None or rows.size < 10 else batch_means(rows)
+    slice_s = float(edges_s[1])
+    span_s = float(edges_s[-1] - max(from_s, 0.0))
+    counted = n_jobs if name in ("throughput_per_h", "time_in_system_s") else None
+    found = (
+        []
+        if batches is None or rows is None
+        else flags(rows, piles_up=name in PILES_UP, events=counted, left_out=0 if by_job else first)
+    )
+    curve = np.empty(0) if whole is None else whole.mean(axis=0)
+    return LongSeries(
+        name,
+        UNITS[name],
+        batches,
+        np.nan if by_job or batches is None else batches.batch_size * slice_s,
+        np.nan if not by_job or batches is None else n_jobs / batches.n,
+        span_s,
+        tuple(found),
+        np.empty(0) if rows is None else correlogram(rows, MOST_LAGS),
+        0 if rows is None else rows.size,
+        curve,
+        curve if curve.size < 8 else welch(curve),
+        cuts.get(name),
+    )
+
+
+def _full_stations(summary: Mapping) -> tuple[str, ...]:
+    rows = [row for row in summary["kpis"] if (row["kpi"], row["part"]) == ("station_states", "starved")]
+    return tuple(row["subject"] for row in rows if row["mean"] is not None and row["mean"] <= NEVER_STARVED)
