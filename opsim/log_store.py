@@ -121,7 +121,7 @@ def _reason(said: str, path: Path) -> str:
 
 def _to_text(log: EventLog, column: str) -> str:
     if column in NAMED:
-        return f"list_extract({_name_list(log.names[column])}, {column} + 1) AS {column}"
+        return f"list_extract({name_list(log.names[column])}, {column} + 1) AS {column}"
     if column in _NUMBERED:
         return f"nullif({column}, -1) AS {column}"
     return f"CASE WHEN isnan({column}) THEN NULL ELSE {column} END AS {column}"
@@ -129,11 +129,12 @@ def _to_text(log: EventLog, column: str) -> str:
 
 def _to_number(names: dict[str, tuple[str, ...]], column: str) -> str:
     if column in NAMED:
-        return f"coalesce(list_position({_name_list(names[column])}, {column}), 0) - 1 AS {column}"
+        return f"coalesce(list_position({name_list(names[column])}, {column}), 0) - 1 AS {column}"
     if column in _NUMBERED:
         return f"coalesce({column}, -1) AS {column}"
     return f"coalesce({column}, 'nan'::DOUBLE) AS {column}"
 
 
-def _name_list(names: tuple[str, ...]) -> str:
+def name_list(names: tuple[str, ...]) -> str:
+    """Names as an SQL list."""
     return "[" + ", ".join(quoted(name) for name in names) + "]::VARCHAR[]"

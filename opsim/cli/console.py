@@ -13,6 +13,21 @@ import click
 PIPE_WIDTH = 140
 
 
+def width() -> int:
+    """Characters of the terminal; of what a pipe is given elsewhere."""
+    from shutil import get_terminal_size
+
+    return get_terminal_size().columns if sys.stdout.isatty() else PIPE_WIDTH
+
+
+def say(sentence: str) -> None:
+    """A sentence, broken between words on a terminal and in one line elsewhere; nothing in it steers a terminal."""
+    from textwrap import fill
+
+    text = printable(sentence)
+    click.echo(fill(text, width(), break_long_words=False, break_on_hyphens=False) if sys.stdout.isatty() else text)
+
+
 def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], *, words: int = 1) -> None:
     """A table; the first ``words`` columns are text, the others stand to the right. Nothing in it is read as markup.
 

@@ -75,19 +75,21 @@ def _reached(variant: str, one: dict[str, Any], n: int) -> str:
 
 
 def _reports(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Path]:
-    """Write the report of each variant; strips of one model are drawn once."""
+    """Write the report of each variant that has none of just these results; strips of one model are drawn once."""
     from opsim.report import bodies_section, curves_section, days_section, scenario_strips, walks_section, write_report
 
     reports: dict[str, Path] = {}
     drawn: dict[tuple[str, str], bytes] = {}
     for name, result in results.items():
+        reports[name] = path = result.folder / "report.html"
+        if path.exists():
+            continue
         strips = scenario_strips(variants[name], result.summary["tasks"], drawn)
         walks = walks_section(variants[name], result)
         days = days_section(variants[name], result)
         bodies = bodies_section(variants[name], result)
         curves = curves_section(variants[name], result)
-        path = result.folder / "report.html"
-        reports[name] = write_report(result, path, strips, walks, days, bodies, curves)
+        write_report(result, path, strips, walks, days, bodies, curves)
     return reports
 
 

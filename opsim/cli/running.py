@@ -36,17 +36,29 @@ def run_variants(
     check : may raise ValueError of the variants as read; how : arguments of ``run_scenario``
     """
     from opsim.cli.stopping import stops_once
+    from opsim.one_thread import lean
 
+    lean()
     with mistakes():
         variants = _variants(file, names, horizon)
         if check is not None:
             check(variants)
         out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
+        _refuse_study(out, variants)
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
             _refuse_other_runs(variants, out, how.get("seed"), _way_out(out, how))
     with stops_once():
         return out, variants, {name: _run(name, loaded, out / name, how) for name, loaded in variants.items()}
+
+
+def _refuse_study(out: Path, variants: dict[str, Any]) -> None:
+    """The folder of a study is not mixed with results of a run, nor removed for them."""
+    from opsim.study.jobs.folder import holds_study
+
+    for folder in (out, *(out / name for name in variants)):
+        if holds_study(folder):
+            raise ValueError(f"{folder} holds a study, not results of 'opsim run'; take another folder with -o")
 
 
 def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> dict[str, Any]:
@@ -85,18 +97,19 @@ def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
     from opsim.cli.stopping import stopped
     from opsim.study import run_scenario
     from opsim.study.folder import OtherRun
+    from opsim.study.lock import Busy
     from opsim.study.precision import NoSuchFigure
 
     kept = f"finished replications are kept in {folder}; the same command goes on from there"
     try:
-        with mistakes(OSError, OtherRun, NoSuchFigure), _failures(kept), progress(f"run {name}") as report:
-            return run_scenario(loaded, folder=folder, progress=report, **how)
+        with mistakes(OSError, OtherRun, Busy, NoSuchFigure), failures(kept), progress(f"run {name}") as report:
+            return run_scenario(loaded, folder=folder, progress=report, meanwhile=_report_modules, **how)
     except KeyboardInterrupt as stop:
         raise stopped(stop, kept) from None
 
 
 @contextmanager
-def _failures(kept: str) -> Iterator[None]:
+def failures(kept: str) -> Iterator[None]:
     """What is neither the user's mistake nor to be met with a traceback. Set OPSIM_TRACEBACK=1 to see where."""
     from opsim.engine.simpy_engine.settle import EndlessInstant
     from opsim.laws import BrokenLog
@@ -114,3 +127,14 @@ def _failures(kept: str) -> Iterator[None]:
             EndlessInstant: f"the simulation does not move on in time\n{error}\n{kept}",
         }
         raise Failed(next(words for kind, words in said.items() if isinstance(error, kind))) from None
+
+
+def _report_modules() -> None:
+    """What the end of ``opsim run`` takes long to import, while other processes compute."""
+    from importlib import import_module
+
+    from opsim.report.offline import template
+
+    for name in ("rich.table", "opsim.report.bodies", "opsim.report.days", "opsim.report.write"):
+        import_module(name)
+    template("report.html.jinja")

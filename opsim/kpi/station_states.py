@@ -66,9 +66,10 @@ def _parts(log: EventLog, plan: Plan, rank: int, rows: np.ndarray, stops: np.nda
     can_be = possible(plan, rank)
     states = {"work": kind == WORK, "blocked": kind == BLOCKED}
     states["waiting"] = (kind == HELD) & (cause != kinds.BATCH)  # the first of a batch stands for all of it
-    for part in can_be.intersection(WAITS):
+    awaited = [part for part in WAITS if part in can_be]  # the order of a set is another one in every process
+    for part in awaited:
         states[part] = states["waiting"] & (cause == WAITS[part])
-    for part in can_be.intersection(WAITS):
+    for part in awaited:
         states["waiting"] = states["waiting"] & ~states[part]
     if "setup" in can_be:
         states["setup"] = kind == SETUP

@@ -27,6 +27,10 @@ COLOURS = {FRONT: (ACCENT, ACCENT), BEHIND: (ACCENT, "#ffffff"), BEATEN: (MUTED,
 """Edge and fill of a dot; bars have the colour of the edge."""
 
 
+MOST_NAMED, FEW_NAMED = 40, 12
+"""Variants that all have a name and bars in the picture; of more, so many of the front have."""
+
+
 @dataclass(frozen=True, slots=True)
 class Axis:
     """From ``low`` to ``high`` in units for people, which are ``factor`` times SI and called ``word``; so in the
@@ -88,12 +92,13 @@ def frontier_svg(frontier: Any, hours: bool = False) -> str:
     x = _axis([point.x for point in points], frontier.x[3], LEFT, WIDE - RIGHT)
     y = _axis([point.y for point in points], frontier.y[3], TALL - FOOT, TOP)
     marks = [_mark(point, x, y) for point in points]
+    named = _with_names(marks)
     drawn = [
         *_grid(x, y),
         _front(marks, frontier.better_x),
-        *(part for mark in marks for part in _bars(mark)),
+        *(part for mark in named for part in _bars(mark)),
         *(_dot(mark) for mark in marks),
-        *(_name(mark, *place) for mark, place in zip(marks, _places(marks))),
+        *(_name(mark, *place) for mark, place in zip(named, _places(named))),
         *_titles(frontier, x.word, y.word, hours),
     ]
     said = escape("; ".join(f"{mark.name}: {KINDS[mark.kind]}" for mark in marks))
@@ -163,6 +168,14 @@ def _bars(mark: Mark) -> Iterator[str]:
 def _dot(mark: Mark) -> str:
     edge, fill = COLOURS[mark.kind]
     return f'<circle cx="{mark.x:.1f}" cy="{mark.y:.1f}" r="5.5" stroke-width="2" fill="{fill}" stroke="{edge}"/>'
+
+
+def _with_names(marks: Sequence[Mark]) -> list[Mark]:
+    """Those with bars and a name: all where they are few, else some of the front, evenly from one end to the other."""
+    if len(marks) <= MOST_NAMED:
+        return list(marks)
+    front = sorted((mark for mark in marks if mark.kind == FRONT), key=lambda mark: (mark.x, mark.name))
+    return front[:: -(-len(front) // FEW_NAMED)] if front else []
 
 
 def _places(marks: Sequence[Mark]) -> list[Place]:

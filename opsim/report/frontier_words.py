@@ -7,7 +7,7 @@ from typing import Any
 
 from opsim.report.words import listing
 
-MOST_SAID = 6
+MOST_SAID, MOST_NAMED = 6, 10
 
 
 def frontier_sentences(frontier: Any) -> list[str]:
@@ -28,9 +28,15 @@ def _front(names: Sequence[str]) -> str:
     if len(names) == 1:
         return f"By the means {names[0]} is the best in both figures: there is nothing to weigh up."
     return (
-        f"By the means no variant beats {listing(list(names))}: who chooses among them gains in one figure and pays in "
+        f"By the means no variant beats {_some(names)}: who chooses among them gains in one figure and pays in "
         "the other."
     )
+
+
+def _some(names: Sequence[str]) -> str:
+    """All where they are few; else the first, and how many more."""
+    more = len(names) - MOST_NAMED
+    return listing(list(names) if more <= 0 else [*names[:MOST_NAMED], f"{more:,} more"])
 
 
 def _beaten(frontier: Any) -> Iterator[str]:
@@ -54,7 +60,7 @@ def _behind(frontier: Any) -> Iterator[str]:
 
 def _said(points: Sequence[Any], by: str) -> str:
     """``a by b and c; d by b``; by : which field of a point names those before it"""
-    said = "; ".join(f"{point.variant} by {listing(list(getattr(point, by)))}" for point in points[:MOST_SAID])
+    said = "; ".join(f"{point.variant} by {_some(getattr(point, by))}" for point in points[:MOST_SAID])
     return f"{said}; and {len(points) - MOST_SAID} more" if len(points) > MOST_SAID else said
 
 

@@ -26,6 +26,7 @@ class Section:
 
     picture   : SVG text, with names escaped
     legend    : (edge, fill, words) of its marks
+    code      : lines to copy into a file
     on_screen : whether the terminal shows it too; what it shows of a study fits on one screen
     """
 
@@ -35,6 +36,7 @@ class Section:
     picture: str = ""
     legend: Sequence[tuple[str, str, str]] = ()
     on_screen: bool = False
+    code: str = ""
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,15 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from opsim.results import events_in
+from opsim.study.finished import FINISHED
 from opsim.study.manifest import deciding, library_files, manifest_of, recorded_files
 from opsim.study.resolved import decides_figures, differences, read_resolved, resolved_text, with_run
 from opsim.whole import whole_file, write_json, write_text
 
 MANIFEST, RESOLVED = "manifest.json", "scenario.resolved.yaml"
-RESULTS = ("summary.json", "kpis.parquet", "report.html", "replay.html", "postures.json")
+LOCK = ".run.lock"
+RESULTS = (FINISHED, "summary.json", "kpis.parquet", "report.html", "replay.html", "postures.json")
 MOST_DIFFERENCES = 5
 
 
@@ -31,11 +34,16 @@ def open_folder(folder: Path, loaded, seed: int, replications: int, *, overwrite
         raise OtherRun(words)
     held = _read_resolved(folder)
     if _read_manifest(folder) != manifest or not held or decides_figures(held) != decides_figures(loaded.resolved):
-        _remove(folder, RESULTS)
+        clear_results(folder)
     _copy_inputs(folder, loaded)
     say_replications(folder, loaded, seed, replications)
     write_json(folder / MANIFEST, manifest)
     return manifest
+
+
+def clear_results(folder: Path) -> None:
+    """Remove what was made of rows, which stay. Raises OSError."""
+    _remove(folder, RESULTS)
 
 
 def say_replications(folder: Path, loaded, seed: int, replications: int) -> None:
@@ -45,7 +53,7 @@ def say_replications(folder: Path, loaded, seed: int, replications: int) -> None
 
 def other_run(folder: Path, loaded, seed: int) -> str | None:
     """What the folder holds and in what it differs from this run, in words; None where the run may go on there."""
-    n = len(_events(folder))
+    n = len(events_in(folder))
     if not n and not any((folder / name).exists() for name in RESULTS):
         return None
     manifest, held = manifest_of(loaded, seed), _read_manifest(folder)
@@ -92,14 +100,10 @@ def _copy_inputs(folder: Path, loaded) -> None:
             shutil.copyfile(path, temporary)
 
 
-def _events(folder: Path) -> list[Path]:
-    return sorted((folder / "events").glob("replication_*.parquet"))
-
-
 def _empty(folder: Path) -> None:
     """Remove results first, then rows: what is left half-way is never a summary without its rows."""
-    _remove(folder, RESULTS)
-    for stale in [*_events(folder), *(folder / "events").glob(".replication_*.part")]:
+    clear_results(folder)
+    for stale in [*events_in(folder), *(folder / "events").glob(".replication_*.part")]:
         stale.unlink(missing_ok=True)
 
 

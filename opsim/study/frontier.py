@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
 
 import numpy as np
 
@@ -12,9 +11,10 @@ from opsim.kpi.better import LESS, MORE, Asked
 from opsim.kpi.names import KPIS
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result
-from opsim.study.compare import PER_SCHEDULED_HOUR, ROUNDING, NotComparable, holm, paired, scheduled_hours
+from opsim.study.compare import PER_SCHEDULED_HOUR, NotComparable, scheduled_hours, tables_of
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
 from opsim.study.no_figure import remedy
+from opsim.study.paired import ROUNDING, holm, paired_with_each
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,10 +76,12 @@ def frontier_of(results: Mapping[str, Result], x: Asked, y: Asked) -> Frontier:
     Raises NotComparable, all mistakes at once: unknown figures, figures whose better way is not known, one figure
     twice, results of other seeds; OSError where results cannot be read.
     """
-    tables = {name: result.kpis() for name, result in results.items()}
+    tables = tables_of(results, (x.kpi, y.kpi))
     keys = _keys(tables, (x, y))
     _one_luck(results)
-    shared = sorted(set.intersection(*({r for row in table.values() for r in row} for table in tables.values())))
+    shared = sorted(
+        set.intersection(*({r for row in table.values() for r in row} for table in tables.values() if table))
+    )
     values = {  # (2, n) by variant
         name: np.array([[table.get(key, {}).get(r, np.nan) for r in shared] for key in keys], dtype=float)
         for name, table in tables.items()
@@ -126,17 +128,17 @@ def _clearly(values: Mapping[str, np.ndarray], signs: np.ndarray) -> set[tuple[s
 
     Paired t tests of all pairs in both figures, held together at 5 % (Holm 1979).
     """
-    pairs = [(a, b) for a, b in permutations(values, 2) if a < b]
-    tests = [paired(values[a][axis], values[b][axis]) for a, b in pairs for axis in (0, 1)]
-    same = np.array([i.n > 0 and i.mean == 0 and i.sd == 0 for i, _, _ in tests], dtype=bool).reshape(-1, 2)
-    p = holm([np.nan if alike else test[1] for alike, test in zip(same.ravel(), tests)]).reshape(-1, 2)
-    by = np.array([interval.mean for interval, _, _ in tests]).reshape(-1, 2) * signs
-    shown = np.where(p <= 1 - CONFIDENCE, np.sign(by), 0.0)
+    names = sorted(values)
+    stacked = np.array([values[name] for name in names], dtype=float)
+    tests = [paired_with_each(one, stacked[i + 1 :]) for i, one in enumerate(stacked)]
+    by, p, same = (np.concatenate(parts).reshape(-1, 2) for parts in zip(*tests))
+    held = holm(np.where(same, np.nan, p).ravel().tolist()).reshape(-1, 2)
+    ways = np.where(held <= 1 - CONFIDENCE, np.sign(by * signs), 0.0)
+    first, second = np.triu_indices(len(names), 1)
     found = set()
-    for (a, b), alike, ways in zip(pairs, same, shown):
-        for better, worse, way in ((a, b, 1.0), (b, a, -1.0)):
-            if ((ways == way) | alike).all() and (ways == way).any():
-                found.add((better, worse))
+    for way, better, worse in ((1.0, first, second), (-1.0, second, first)):
+        clear = ((ways == way) | same.astype(bool)).all(axis=1) & (ways == way).any(axis=1)
+        found |= {(names[i], names[j]) for i, j in zip(better[clear].tolist(), worse[clear].tolist())}
     return found
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from opsim.kpi.names import KPIS, needs_postures
 from opsim.problems import did_you_mean, shown
 from opsim.study.interval import Interval, t_interval
-from opsim.study.replicate import Replicated
+from opsim.study.replicated import Replicated
 
 FEWEST = 10
 """Replications before the rule is asked at all: fewer give a half-width that is itself too uncertain."""

@@ -1,15 +1,16 @@
 """One variant of a scenario, from what was read to a results folder."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
 from opsim.kpi.better import read_asked
-from opsim.plan import compile_plan
+from opsim.plan import Plan, compile_plan
 from opsim.results import Result
 from opsim.study.assumed.assumptions import Asked
 from opsim.study.precision import MOST, Precision, replicate_until
-from opsim.study.replicate import Progress, Replicated, replicate
+from opsim.study.replicate import Once, Progress, replicate
+from opsim.study.replicated import Replicated, together
 
 
 def run_scenario(
@@ -22,45 +23,69 @@ def run_scenario(
     progress: Progress | None = None,
     overwrite: bool = False,
     precision: Sequence[Precision] = (),
+    meanwhile: Callable[[], None] | None = None,
 ) -> Result:
     """Run all replications of a scenario that was read and write the results folder (without its report).
 
     replications, seed : instead of the scenario's own
     overwrite : remove what the folder holds first; else finished replications of the same run are gone on with. Fewer
-        replications than are finished: the results are of the first ones, the other rows stay for later
+        replications than are finished: the results are of the first ones, the other rows stay for later. Results that
+        are there of just this run are taken as they are
     precision : run as many replications as these figures need, at least 10 and at most ``replications`` (or 1,000)
-    Raises OtherRun where the folder holds another run, OSError where it cannot be written, BrokenLog where a run
-    contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
+    meanwhile : what is best done once while other processes compute
+    Raises OtherRun where the folder holds another run, Busy where somebody writes there now, OSError where it cannot be
+    written, BrokenLog where a run contradicts itself, ProcessLost where a process is killed, ValueError where postures
+    cannot be had.
     """
-    from opsim.study.folder import open_folder, say_replications
+    from opsim.study.finished import finished, say_finished
+    from opsim.study.folder import LOCK, clear_results, open_folder, say_replications
+    from opsim.study.lock import locked
     from opsim.study.manifest import digest
     from opsim.study.summary import summary_of, write_kpis
     from opsim.whole import write_json
 
-    make_plan = partial(compile_plan, loaded, seed=seed)
-    plan = make_plan()
-    own = MOST if precision else loaded.scenario.run.replications
-    n = own if replications is None else replications
-    manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
-    beside = (*(one.kpi for one in precision), *(read_asked(text).kpi for text in loaded.scenario.frontier or ()))
-    outputs = (*loaded.scenario.outputs, *beside)
-
-    def run(first: int, upto: int) -> list[Replicated]:
-        made_from = digest(manifest)
-        return replicate(
+    make_plan = Once(partial(compile_plan, loaded, seed=seed))
+    plan: Plan = make_plan()
+    n = replications if replications is not None else MOST if precision else loaded.scenario.run.replications
+    with locked(folder / LOCK, f"{folder}: another 'opsim run' writes there now; take another folder with -o, or wait"):
+        manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
+        asks = {"replications": replications, "seed": seed, "precision": [one.name for one in precision]}
+        if finished(folder, loaded, manifest, asks):
+            return Result.load(folder)
+        clear_results(folder)
+        run = partial(
+            _replicated,
             make_plan,
-            upto,
             folder,
-            first=first,
-            made_from=made_from,
+            made_from=digest(manifest),
             processes=processes,
             progress=progress,
-            outputs=outputs,
+            outputs=_outputs(loaded, precision),
+            meanwhile=partial(_meanwhile, meanwhile),
         )
-
-    done, reached = replicate_until(precision, n, run) if precision else (run(0, n), [])
-    asked = Asked(seed, len(done) if precision else replications, "; ".join(one.words for one in reached))
-    say_replications(folder, loaded, plan.seed, len(done))
-    write_kpis(done, folder / "kpis.parquet")
-    write_json(folder / "summary.json", summary_of(loaded, plan, done, asked, reached))
+        done, reached = replicate_until(precision, n, run) if precision else (run(0, n), [])
+        done = together(done)
+        asked = Asked(seed, len(done) if precision else replications, "; ".join(one.words for one in reached))
+        say_replications(folder, loaded, plan.seed, len(done))
+        write_kpis(done, folder / "kpis.parquet")
+        write_json(folder / "summary.json", summary_of(loaded, plan, done, asked, reached))
+        say_finished(folder, loaded, manifest, asks, len(done))
     return Result.load(folder)
+
+
+def _outputs(loaded, precision: Sequence[Precision]) -> tuple[str, ...]:
+    """Figures that are asked for anywhere."""
+    frontier = (read_asked(text).kpi for text in loaded.scenario.frontier or ())
+    return (*loaded.scenario.outputs, *(one.kpi for one in precision), *frontier)
+
+
+def _replicated(make_plan: Once, folder: Path, first: int, upto: int, **how) -> list[Replicated]:
+    return replicate(make_plan, upto, folder, first=first, **how)
+
+
+def _meanwhile(more: Callable[[], None] | None) -> None:
+    """What the end of a run takes long to import."""
+    import scipy.special  # noqa: F401
+
+    if more is not None:
+        more()

@@ -1,5 +1,6 @@
 """Replications -> the table of intervals, histograms, tasks and assumptions that report and tables show."""
 
+from array import array
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,9 +10,10 @@ from opsim import __version__
 from opsim.kpi.names import headline, needs_postures
 from opsim.kpi.open_hours import open_hours
 from opsim.laws import CHECKS
-from opsim.log_store import parquet_file
+from opsim.log_store import name_list, parquet_file
 from opsim.plan import Plan
 from opsim.plan.hours.scheduled import floor_has_hours
+from opsim.results import Key
 from opsim.study.assumed.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
 from opsim.study.assumed.posture_words import posture_assumptions
 from opsim.study.assumed.sources import task_sources
@@ -19,10 +21,11 @@ from opsim.study.assumed.walking import walking_source
 from opsim.study.assumed.warnings import warnings_of
 from opsim.study.interval import CONFIDENCE, t_interval
 from opsim.study.precision import Reached
-from opsim.study.replicate import Replicated
+from opsim.study.replicated import Replicated
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40
+KEY = ("kpi", "subject", "part", "unit")
 
 
 def summary_of(
@@ -65,34 +68,39 @@ def _assumptions(loaded, plan: Plan, done: Sequence[Replicated], asked: Asked) -
 
 def write_kpis(done: Sequence[Replicated], path: Path) -> None:
     """Every figure of every replication as Parquet: replication, kpi, subject, part, unit, value."""
-    rows = [(result.replication, *figure) for result in done for figure in result.figures]
-    columns = [np.array(column) for column in zip(*rows)]
-    table = dict(zip(("replication", "kpi", "subject", "part", "unit", "value"), columns))
+    keys: dict[Key, int] = {}
+    codes, values = array("q"), array("d")
+    for result in done:
+        for *key, value in result.figures:
+            codes.append(keys.setdefault(tuple(key), len(keys)))  # type: ignore[arg-type]
+            values.append(value)
+    rows = {
+        "replication": np.repeat([one.replication for one in done], [len(one.figures) for one in done]),
+        "code": np.frombuffer(codes, np.int64),
+        "value": np.frombuffer(values),
+    }
+    named = [f"list_extract({name_list(of)}, code + 1) AS {name}" for name, of in zip(KEY, zip(*keys))]
     with parquet_file(path) as (connection, temporary):
-        connection.register("kpi_rows", {name: _as_object(column) for name, column in table.items()})
+        connection.register("kpi_rows", rows)
         connection.execute(
-            "COPY (SELECT replication, kpi, subject, part, unit, "
+            f"COPY (SELECT replication, {', '.join(named)}, "
             "CASE WHEN isnan(value) THEN NULL ELSE value END AS value "
             f"FROM kpi_rows) TO {temporary} (FORMAT parquet, COMPRESSION zstd)"
         )
 
 
-def _as_object(column: np.ndarray) -> np.ndarray:
-    return column.astype(object) if column.dtype.kind == "U" else column
-
-
 def _intervals(done: Sequence[Replicated], in_front: set[str]) -> list[dict]:
-    values: dict[tuple[str, str, str, str], list[float]] = {}
+    values: dict[Key, array[float]] = {}
     for result in done:
         for *key, value in result.figures:
-            values.setdefault(tuple(key), []).append(value)  # type: ignore[arg-type]
+            values.setdefault(tuple(key), array("d")).append(value)  # type: ignore[arg-type]
     return [_row(key, found, key[0] in in_front) for key, found in values.items()]
 
 
-def _row(key: tuple[str, str, str, str], values: list[float], headline: bool) -> dict:
+def _row(key: Key, values: Sequence[float], headline: bool) -> dict:
     interval = t_interval(values)
     return {
-        **dict(zip(("kpi", "subject", "part", "unit"), key)),
+        **dict(zip(KEY, key)),
         "mean": interval.mean,
         "low": interval.low,
         "high": interval.high,

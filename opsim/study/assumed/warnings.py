@@ -8,7 +8,7 @@ from opsim.kpi.waits.fills import TO_FILL
 from opsim.names import listed
 from opsim.plan import Plan
 from opsim.plan.unread import unread
-from opsim.study.replicate import Replicated
+from opsim.study.replicated import Replicated
 
 
 def warnings_of(done: Sequence[Replicated], plan: Plan) -> list[str]:

@@ -27,6 +27,22 @@ def test_a_file_is_run_and_its_variants_compared(results):
     assert "<svg" in page and "http://" not in page.replace("http://www.w3.org/2000/svg", "") and "<script" not in page
 
 
+def test_the_answer_comes_first_in_sentences_on_the_screen_and_on_the_page(results):
+    _, shown, _ = opsim("compare", results)
+    lines = shown.splitlines()
+    assert lines[0] == "Two stations: variants compared with base" and len(lines) <= 20
+    assert lines[1].startswith("wider: no clear difference in throughput (+")
+    assert lines[2] == "same is identical to base in every replication."
+    page = (results / "compare.html").read_text(encoding="utf-8")
+    assert 0 < page.index("wider: no clear difference in throughput (+") < page.index("<table>")
+
+
+def test_where_no_variant_is_called_base_the_first_of_the_file_is_it(tmp_path):
+    text = TWO.replace("{base: [], wider: [wide], same: [same]}", "{today: [], alike: [same]}")
+    code, shown, _ = opsim("compare", line(tmp_path, text), "-o", tmp_path / "out")
+    assert code == 0 and "variants compared with today" in shown and "alike is identical to today" in shown
+
+
 def test_the_comparison_as_json(results):
     code, shown, _ = opsim("compare", results, "--json")
     found = {(d["variant"], d["kpi"]): d for d in json.loads(shown)["differences"]}

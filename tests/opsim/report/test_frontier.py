@@ -80,3 +80,13 @@ def test_axes_have_round_numbers_without_needless_zeros_and_one_unit():
     svg = frontier_svg(frontier({"a": (480.0, 20.0), "b": (400.0, 26.0)}))
     assert ">440<" in svg and ">22<" in svg and "Throughput (good units), per hour (more is better)" in svg
     assert "per scheduled hour (more" in frontier_svg(THREE, hours=True)
+
+
+def test_of_many_variants_every_one_has_a_dot_and_some_of_the_front_a_name():
+    rng = np.random.default_rng(5)
+    means = dict(zip((f"v{i}" for i in range(200)), zip(rng.normal(50, 9, 200), rng.normal(20, 9, 200))))
+    found = frontier(means)
+    svg, front = frontier_svg(found), [point.variant for point in found.points if point.on_front]
+    names = re.findall(r">(v\d+)</text>", svg)
+    assert svg.count("<circle") == 200 and 0 < len(names) <= 12 and set(names) <= set(front)
+    assert len(frontier_sentences(found)[0]) < 400

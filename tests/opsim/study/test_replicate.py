@@ -25,8 +25,9 @@ def test_processes_are_started_where_the_work_left_is_worth_it(took_s, at_home, 
         return replication
 
     monkeypatch.setattr(replicating.time, "perf_counter", lambda: clock[0])
-    monkeypatch.setattr(replicating.os, "cpu_count", lambda: 2)
-    monkeypatch.setattr(replicating, "pooled", lambda runner, left, processes: pooled.extend(left) or left)
+    monkeypatch.setattr(replicating, "cores", lambda: 2)
+    monkeypatch.setattr(replicating, "pays", lambda seconds: seconds > 4)
+    monkeypatch.setattr(replicating, "pooled", lambda runner, left, processes, meanwhile: pooled.extend(left) or left)
     assert list(replicating._results(lambda: run, range(20), None)) == list(range(20))
     assert alone == list(range(at_home)) and pooled == list(range(at_home, 20))
 
@@ -34,6 +35,6 @@ def test_processes_are_started_where_the_work_left_is_worth_it(took_s, at_home, 
 @pytest.mark.parametrize("processes", [1, 2])
 def test_a_number_of_processes_that_is_asked_for_is_taken(processes, monkeypatch):
     used = []
-    monkeypatch.setattr(replicating, "pooled", lambda runner, left, n: used.append(n) or left)
+    monkeypatch.setattr(replicating, "pooled", lambda runner, left, n, meanwhile: used.append(n) or left)
     assert list(replicating._results(lambda: lambda replication: replication, range(3), processes)) == [0, 1, 2]
     assert used == ([2] if processes == 2 else [])

@@ -8,6 +8,8 @@ from plans import CELL, loaded
 from opsim.log_store import connect, read_events
 from opsim.study import replicate as replicating
 from opsim.study import run_scenario
+from opsim.study.folder import LOCK
+from opsim.study.lock import Busy, locked
 from opsim.study.summary import _distribution
 
 
@@ -29,7 +31,8 @@ def test_one_and_two_processes_write_the_same_bytes(one, tmp_path):
 
 def test_the_folder_holds_what_the_design_promises(one):
     names = {path.name for path in one.folder.iterdir()}
-    assert names == {"scenario.resolved.yaml", "manifest.json", "events", "kpis.parquet", "summary.json"}
+    shown = {"scenario.resolved.yaml", "manifest.json", "events", "kpis.parquet", "summary.json", "finished.json"}
+    assert names == {*shown, ".run.lock"}
     assert [path.name for path in one.events_files] == [f"replication_{r:05d}.parquet" for r in range(3)]
 
 
@@ -141,3 +144,47 @@ def test_the_assumption_sheet_says_where_seed_and_replications_come_from(tmp_pat
 def test_the_manifest_names_seed_and_versions(one):
     manifest = json.loads((one.folder / "manifest.json").read_text())
     assert manifest["seed"] == 5 and manifest["packages"]["simpy"]
+
+
+def test_a_finished_run_is_taken_as_it_is_and_no_row_is_read(one, tmp_path, monkeypatch):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    monkeypatch.setattr(replicating, "run_one", None)
+    assert run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1).summary == one.summary
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda folder: (folder / "kpis.parquet").write_bytes(b"PAR1"),
+        lambda folder: (folder / "summary.json").write_text("{}"),
+        lambda folder: (folder / "finished.json").write_text("[]"),
+        lambda folder: (folder / "events" / "replication_00001.parquet").unlink(),
+    ],
+    ids=["figures", "summary", "what it says", "rows"],
+)
+def test_results_that_are_not_whole_are_made_anew_of_the_rows(one, tmp_path, spoil):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    spoil(tmp_path / "copy")
+    assert run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1).summary == one.summary
+    for name in ("kpis.parquet", "summary.json", "finished.json"):
+        assert (tmp_path / "copy" / name).read_bytes() == (one.folder / name).read_bytes()
+    assert files(tmp_path / "copy") == files(one.folder)
+
+
+def test_other_options_or_outputs_of_the_same_rows_are_another_run(one, tmp_path):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    assert (
+        run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1, replications=2).summary["replications"] == 2
+    )
+    other = loaded(CELL.replace("warm_up: 10 min", "warm_up: 5 min"))
+    assert run_scenario(other, folder=tmp_path / "copy", processes=1).summary["window_s"][0] == 300
+    assert files(tmp_path / "copy") == files(one.folder)
+    assert run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1).summary == one.summary
+
+
+def test_two_runs_do_not_write_into_one_folder(one, tmp_path):
+    shutil.copytree(one.folder, tmp_path / "copy")
+    before = {path: path.read_bytes() for path in (tmp_path / "copy").rglob("*") if path.is_file()}
+    with locked(tmp_path / "copy" / LOCK, ""), pytest.raises(Busy, match="another 'opsim run' writes there now"):
+        run_scenario(loaded(CELL), folder=tmp_path / "copy", processes=1, overwrite=True)
+    assert {path: path.read_bytes() for path in (tmp_path / "copy").rglob("*") if path.is_file()} == before

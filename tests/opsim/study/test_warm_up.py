@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from plans import line, loaded, queue
 
-from opsim.log import CREATE, FINISH, event_log, row
+from opsim.log import CREATE, FINISH, JOIN, SCRAP, event_log, row
 from opsim.study import run_scenario
 from opsim.study.warm_up import finished_per_h, jobs_inside, mser, suggested_warm_up
 
@@ -60,6 +60,12 @@ def test_series_of_a_log_are_those_counted_by_hand():
     edges = np.array([0.0, 20.0, 40.0])
     assert jobs_inside(log, edges) == pytest.approx([1.5, 1.25])
     assert finished_per_h(log, edges) == pytest.approx([0, 180])
+
+
+def test_parts_that_are_joined_and_jobs_that_are_scrapped_are_inside_no_longer():
+    rows = [*(row(CREATE, 0, 0, job=job) for job in range(3)), row(JOIN, 10, 10, job=0), row(SCRAP, 20, 20, job=1)]
+    names = dict.fromkeys(("worker", "station", "source", "product", "operation", "task"), ("a",))
+    assert jobs_inside(event_log(rows, 40.0, names), np.array([0.0, 20.0, 40.0])) == pytest.approx([2.5, 1.0])
 
 
 def test_the_series_of_a_queue_settles_and_its_steady_mean_is_that_of_theory(tmp_path):
