@@ -32,7 +32,7 @@ test-fast: $(READY)
 	$(RUN) -m pytest -n 2 -m "not slow"
 
 test-slow: $(READY)
-	$(RUN) -m pytest -n 2 --dist loadgroup -m slow
+	$(RUN) -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m slow
 
 bench: $(READY)
 	$(RUN) -m pytest tests/bench -p no:xdist -q -s

@@ -29,7 +29,6 @@ def replications(variant):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("low pallet")
 def test_drawing_times_and_postures_apart_misses_bent_time_and_no_throughput():
     """Who bends deeper takes longer: apart, the deep postures are given shorter times."""
     bent, rate = replications("base")
@@ -41,6 +40,5 @@ def test_drawing_times_and_postures_apart_misses_bent_time_and_no_throughput():
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("low pallet")
 def test_a_raised_pallet_takes_the_bending_away():
     assert replications("pallet_raised")[0].max() < 0.05 * replications("base")[0].min()

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from long_take import long_take
 
 from emulator.recordings.bvh_write import write_bvh
 from emulator.synthetic import make
+from opsim.cli import main
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 
@@ -70,9 +72,9 @@ def test_a_python_block_runs_as_it_stands(block, folder):
 
 
 @pytest.mark.slow
-def test_the_commands_run_as_they_stand_one_after_the_other(folder):
+def test_the_commands_run_as_they_stand_one_after_the_other(folder, monkeypatch):
+    """All in this process: what each has to load, such as compiled code, is loaded once."""
+    monkeypatch.chdir(folder)
     for line in COMMANDS:
-        words = shlex.split(line, comments=True)
-        command = [sys.executable, "-c", "from opsim.cli import main; main()", *words[1:]]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-        assert done.returncode == 0, f"{line}\n{done.stderr}"
+        done = CliRunner().invoke(main, shlex.split(line, comments=True)[1:])
+        assert done.exit_code == 0, f"{line}\n{done.output}"

@@ -22,7 +22,6 @@ def results(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("shelf heights")
 def test_a_shelf_at_hip_height_gives_more_and_takes_exposure_away_in_paired_intervals(results):
     code, shown, _ = opsim("compare", results, *(word for kpi in KPIS for word in ("--kpi", kpi)), "--json")
     found = {(d["kpi"], d["subject"], d["part"]): d for d in json.loads(shown)["differences"]}
@@ -36,7 +35,6 @@ def test_a_shelf_at_hip_height_gives_more_and_takes_exposure_away_in_paired_inte
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("shelf heights")
 def test_the_report_says_who_when_and_which_region_and_keeps_the_worst_postures(results):
     page = (results / "base" / "report.html").read_text(encoding="utf-8")
     assert "is exposed most" in page and "worst hour is that from" in page and "What brings them to RULA 7" in page
@@ -45,7 +43,6 @@ def test_the_report_says_who_when_and_which_region_and_keeps_the_worst_postures(
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("shelf heights")
 def test_who_tires_brings_out_less():
     rates = []
     for variant in ("base", "tiring"):

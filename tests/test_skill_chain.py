@@ -41,7 +41,6 @@ def _rates(result):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("skills")
 def test_a_chain_gains_most_of_full_flexibility_in_a_balanced_line_and_cherry_picking_does_not(made):
     results = made["skill_chain"]
     assert verdicts(results, "base") == {"cherry": "no clear difference", "chain": "higher", "full": "higher"}
@@ -51,7 +50,6 @@ def test_a_chain_gains_most_of_full_flexibility_in_a_balanced_line_and_cherry_pi
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("skills")
 def test_cherry_picking_gains_most_of_it_where_one_station_is_the_bottleneck_and_more_than_a_chain(made):
     results = made["cherry_picking"]
     assert set(verdicts(results, "base").values()) == {"higher"}

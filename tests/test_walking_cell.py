@@ -29,7 +29,6 @@ def ran(variant):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("walking cell")
 def test_walking_minutes_are_the_time_of_walking_rows_and_shelves_nearer_save_a_third():
     minutes = {}
     for variant in ("base", "near"):
@@ -43,7 +42,6 @@ def test_walking_minutes_are_the_time_of_walking_rows_and_shelves_nearer_save_a_
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("walking cell")
 def test_steps_follow_the_worker():
     """jon is taller and faster by half: constant walk ratio says 1.5 ** 0.5 * (1.92 / 1.58) ** 0.75 = 1.42 times."""
     _, _, found = ran("base")
@@ -54,7 +52,6 @@ def test_steps_follow_the_worker():
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("walking cell")
 def test_feet_of_walks_of_a_run_do_not_slide_and_walks_are_as_long_as_the_way():
     plan, logs, _ = ran("base")
     walks = walks_of(logs[0], plan)

@@ -20,6 +20,7 @@ NAMES = {
     "station_states": "State of station",
     "queue_length": "Jobs waiting at the station",
     "walked_m": "Walked",
+    "trips_per_h": "Trips",
     "duration_s": "Duration of the task",
     "time_in_system_quantile_s": "Time in system, quantiles",
     "lead_time_s": "Lead time of the product",

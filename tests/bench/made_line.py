@@ -23,7 +23,7 @@ outputs: [throughput_per_h, time_in_system_s, worker_states]
 """
 
 
-def line(folder, horizon="4 h"):
+def line(folder, horizon="6 h"):
     """The file of the model, written."""
     path = folder / "line.yaml"
     path.write_text(LINE.format(horizon=horizon))

@@ -100,7 +100,6 @@ def test_the_fitted_half_is_aligned_as_the_emulator_aligns_it():
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("motion evidence")
 def test_the_emulator_stands_on_unseen_squats():
     ours = figures(judged(), "deep_squat", OURS)
     assert ours.n_passed == 2
@@ -110,7 +109,6 @@ def test_the_emulator_stands_on_unseen_squats():
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("motion evidence")
 @pytest.mark.parametrize("control", [COPIER, SHAKER])
 def test_a_copier_is_seen_through_by_its_novelty(control):
     found = figures(judged(), "deep_squat", control)
@@ -118,14 +116,12 @@ def test_a_copier_is_seen_through_by_its_novelty(control):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("motion evidence")
 def test_fewer_numbers_than_the_papers_lose_less_of_unseen_squats():
     for split in judged():
         assert split.n_components <= 40 and split.error < split.paper_error
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("motion evidence")
 def test_durations_and_marks_of_unseen_squats_are_as_good_as_resampled_ones():
     for split in judged():
         for emulated, resampled in zip(split.emulated_times, split.resampled_times):

@@ -22,7 +22,7 @@ CREWS = [Crew(task, 10 * i + j) for (i, task), j in product(enumerate(("reach", 
 COUPLED = Crew("reach", 0, n_workers=40, share=0.0, correlation=0.42, pace=0.9)
 """Who lifts his hand higher takes longer; who takes longer does so on the way there more than on the way back."""
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
-slow = [pytest.mark.slow, pytest.mark.xdist_group("truth")]
+slow = [pytest.mark.slow]
 schemes = pytest.mark.parametrize("scheme", BOTH)
 
 
@@ -56,7 +56,6 @@ def test_blocks_drawn_apart_have_the_margins_of_one_draw():
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("truth apart")
 @pytest.mark.parametrize("seed", range(3))
 def test_sub_task_times_of_one_draw_pass_where_those_of_blocks_apart_fail(seed):
     """240 repetitions, sub-task times, Holm over both."""

@@ -19,7 +19,6 @@ def recorded(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("paper")
 def test_all_tables_and_figures_of_the_paper_are_made(recorded, tmp_path):
     code, shown, progress = opsim("motion", "judge", recorded, "--paper", "-o", tmp_path / "out", "--json")
     assert code == 0 and "judge: reach: two levels" in progress

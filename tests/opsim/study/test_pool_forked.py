@@ -125,7 +125,7 @@ def test_processes_end_with_their_parent_whatever_ends_it(tmp_path, number):
 
 WAITS = """
 def work(item):
-    print(os.getpid(), flush=True)
+    os.write(1, f"{os.getpid()}\\n".encode())  # at once: two children write here
     time.sleep(60)
 list(pooled(lambda: work, range(2), 2))
 """
