@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from opsim.report.long_run_answer import answer
 from opsim.report.long_run_pictures import (
     BATCH_LEGEND,
     SETTLING_LEGEND,
@@ -11,7 +12,7 @@ from opsim.report.long_run_pictures import (
     correlogram_svg,
     settling_svg,
 )
-from opsim.report.long_run_words import NAMES, answer, length_words, mean_words, reasons, time_words
+from opsim.report.long_run_words import NAMES, length_words, mean_words, reasons, time_words
 from opsim.report.study_page import Section, StudyPage, Table
 from opsim.report.words import ABSENT, digits, is_number, scale_of
 
@@ -84,9 +85,12 @@ def _row(one: Any) -> tuple[str, ...]:
 def _words() -> tuple[str, ...]:
     return (
         "± is the 95 % interval of the mean from batches that follow one another (Law & Carson 1979): as many as may "
-        "be taken for independent, 40 at most and 10 at least, all replications together.",
-        "neighbours: correlation of pieces a tenth of a batch long; above 0.4 the batches are not independent. "
+        "be taken for independent, 40 at most and 10 at least, all replications together; else a whole replication "
+        "each, from five replications on.",
+        "neighbours: correlation of pieces a tenth of a batch long; above 0.4 the batches are not independent, or the "
+        "replications too short to forget their start. "
         "check: the half-width from batches that overlap (Meketon & Schmeiser 1984); it should be near the other.",
         "Jobs finished are counted per hour of the calendar, good or not; time in system job by job, by when they "
-        "finish. Flags are raised by luck alone in one run of a hundred each.",
+        "finish. Where neighbours are not alike each flag is raised by luck alone in one run of a hundred; growth far "
+        "more often in a short run of a floor that is nearly full. That nothing is flagged is no proof.",
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from opsim.study.interval import CONFIDENCE, t_interval
 from opsim.study.long_run.correlation import lag_one, rows_of
+from opsim.study.long_run.pieces import overlapping_half_width, pieces
 
 MOST_BATCHES, FEWEST_BATCHES = 40, 10
 PIECES_EACH = 10
@@ -29,8 +30,8 @@ class BatchMeans:
     means       : (R, b) batch means, b a replication; batch_size : values in each
     left_over   : values at the front of each replication that fill no whole batch
     lag_one     : correlation of neighbours among ten times as many pieces; nan where there are too few values
-    independent : whether the batches may be taken for independent
-    longer      : so many times as long a series would probably do; 1 where the batches are independent
+    independent : whether the batches may be taken for independent: no sign that they are not
+    longer      : so many times as long a series would probably do; 1 where it is ``long_enough``
     """
 
     mean: float
@@ -43,6 +44,14 @@ class BatchMeans:
     lag_one: float
     independent: bool
     longer: float
+
+    @property
+    def long_enough(self) -> bool:
+        """Whether no sign is found that the series is too short.
+
+        Whole replications are independent in any case, but where they are too short all have the same start in them.
+        """
+        return self.independent and self.lag_one <= ALIKE
 
     @property
     def n(self) -> int:
@@ -64,6 +73,8 @@ def batch_means(series: np.ndarray, confidence: float = CONFIDENCE) -> BatchMean
     series : (n,) values in their order, or (R, n), a row a replication
     As many batches as may be taken for independent, 40 at most and 10 at least, all replications together; at least
     one a replication. Where even 10 may not, 10 are taken and ``independent`` is False: the interval is too narrow.
+    From five replications on whole replications are batches if need be: ``independent``, but not ``long_enough`` where
+    they are too short to forget their start, so that the interval may lie off the steady mean.
     Raises ValueError for fewer than 10 values or values that are not finite.
     Source: Law & Carson 1979 (their bound 0.4 on ten times as many pieces); Law, Simulation Modeling and Analysis,
     5th ed., section 9.5.3.
@@ -85,47 +96,18 @@ def batch_means(series: np.ndarray, confidence: float = CONFIDENCE) -> BatchMean
         rows.shape[1] - each * size,
         lag,
         independent,
-        1.0 if independent else _longer(rows),
+        _longer(rows, lag, independent),
     )
-
-
-def pieces(series: np.ndarray, n: int) -> np.ndarray:
-    """(R, n) means of ``n`` pieces of equal length of each row; what fills none is left out at the front."""
-    rows = rows_of(series)
-    size = rows.shape[1] // n
-    return rows[:, rows.shape[1] - n * size :].reshape(rows.shape[0], n, size).mean(axis=2)
-
-
-def overlapping_half_width(series: np.ndarray, size: int, confidence: float = CONFIDENCE) -> float:
-    """Half-width of the mean's interval from all batches of ``size`` values that overlap; nan with too few values.
-
-    1.5 times as many degrees of freedom as without overlap.
-    Source: Meketon & Schmeiser 1984, Overlapping batch means: something for nothing? Winter Simulation Conference.
-    """
-    from scipy.special import stdtrit
-
-    rows = rows_of(series)
-    n = rows.shape[1]
-    if n < 2 * size:
-        return float("nan")
-    summed = np.concatenate([np.zeros((rows.shape[0], 1)), np.cumsum(rows - rows.mean(), axis=1)], axis=1)
-    means = (summed[:, size:] - summed[:, :-size]) / size
-    # Deviations are from the common mean of all replications, which takes less of them away than each one's own would.
-    of_one = size * np.mean(means**2) / (n - size / rows.shape[0])
-    freedom = max(1.0, 1.5 * (rows.size / size - 1))
-    return float(stdtrit(freedom, (1 + confidence) / 2) * np.sqrt(of_one / rows.shape[0]))
 
 
 def _numbers(rows: np.ndarray) -> tuple[int, float, bool]:
     """(batches a replication, lag-1 correlation of the pieces, whether the batches may be taken for independent)."""
     each, lag = 1, float("nan")
     for each in _candidates(rows.shape[0]):
-        if each == 1:  # means of replications are independent, whatever their values are
-            return 1, lag, True
-        if rows.shape[1] >= PIECES_EACH * each:
-            lag = lag_one(pieces(rows, PIECES_EACH * each))
-            if lag <= ALIKE:
-                return each, lag, True
+        enough = rows.shape[1] >= PIECES_EACH * each
+        lag = lag_one(pieces(rows, PIECES_EACH * each)) if enough else float("nan")
+        if lag <= ALIKE or each == 1:  # means of replications are independent, whatever their values are
+            return each, lag, True
     return min(each, rows.shape[1]), lag, False
 
 
@@ -138,8 +120,12 @@ def _candidates(replications: int) -> Iterator[int]:
         yield 1
 
 
-def _longer(rows: np.ndarray) -> float:
-    """So many times as many values would make the fewest batches independent, as far as this series tells."""
+def _longer(rows: np.ndarray, lag: float, independent: bool) -> float:
+    """So many times as many values would do, as far as this series tells; 1 where it does."""
+    if independent and np.isnan(lag):
+        return min(MOST_TIMES, PIECES_EACH / rows.shape[1])
+    if independent:
+        return 1.0 if lag <= ALIKE else _times(lag)
     wanted = PIECES_EACH * max(1, -(-FEWEST_BATCHES // rows.shape[0]))
     if rows.shape[1] < wanted:
         return min(MOST_TIMES, wanted / rows.shape[1])
@@ -147,3 +133,15 @@ def _longer(rows: np.ndarray) -> float:
         if lag_one(pieces(rows, max(4, wanted // times))) <= ALIKE:
             return float(times)
     return MOST_TIMES
+
+
+def _times(lag: float) -> float:
+    """So many times as long pieces are no more alike than ``ALIKE``, if correlation fades as in an AR(1).
+
+    lag : lag-1 correlation of the pieces as they are. Where the values' own correlation is exp(-distance), means of
+    pieces x long have (1 - exp(-x))^2 / (2 (x - 1 + exp(-x))): its double integral over two neighbours and over one.
+    """
+    lengths = np.geomspace(0.02, 4.0, 200)
+    alike = (1 - np.exp(-lengths)) ** 2 / (2 * (lengths - 1 + np.exp(-lengths)))
+    now, wanted = np.interp([-lag, -ALIKE], -alike, lengths)
+    return next((float(times) for times in (2, 3, 5, 10) if now * times >= wanted), MOST_TIMES)

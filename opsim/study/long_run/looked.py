@@ -11,6 +11,8 @@ from opsim.results import Result
 from opsim.study.long_run.batches import MANY_VALUES, MOST_BATCHES, PIECES_EACH, BatchMeans, batch_means
 from opsim.study.long_run.correlation import correlogram
 from opsim.study.long_run.flags import Flag, flags
+from opsim.study.long_run.growing import beyond_luck
+from opsim.study.long_run.never_free import full_stations, nobody_free
 from opsim.study.long_run.slices import DAY_S, Sliced, edges_of, jobs_in_a_row, sliced
 from opsim.study.long_run.welch_curve import welch
 from opsim.study.warm_up import FEWEST_JOBS, SLICES, found_in
@@ -25,7 +27,6 @@ UNITS = {
 """In the order in which they are told."""
 PILES_UP = ("time_in_system_s", "work_in_progress", "jobs_waiting")
 MOST_LAGS = 40
-NEVER_STARVED = 0.005
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class LongRun:
     """``series`` of a result; ``left_out_s`` of its start, said by ``why``: own, asked or MSER-5.
 
     full_stations : stations that are never without a job, where the summary says so
+    nobody_free   : nobody ever waits for work, where the summary says so
     part_of_days  : the floor keeps hours, and the run is too short for batches of whole days
     """
 
@@ -73,6 +75,7 @@ class LongRun:
     series: tuple[LongSeries, ...]
     full_stations: tuple[str, ...]
     part_of_days: bool
+    nobody_free: bool = False
 
     @property
     def serious(self) -> bool:
@@ -103,6 +106,10 @@ def look(result: Result, warm_up_s: float | None = None, progress: Callable[[int
     left_out_s, why = _left_out(warm_up_s, own_s, cuts)
     if left_out_s >= horizon_s:
         raise ValueError(f"nothing is left: the warm-up ({left_out_s:g} s) is as long as the run ({horizon_s:g} s)")
+    full, none_free = full_stations(summary), nobody_free(summary)
+    inside = np.array([one.by_time["work_in_progress"] for one in read])[:, _first(edges_s, left_out_s) :]
+    # A station that is never without a job is no proof alone: in a short run it may be one long busy spell.
+    overloaded = (bool(full) or none_free) and beyond_luck(inside)
     return LongRun(
         str(summary.get("scenario", "")),
         str(summary.get("variant", "")),
@@ -113,9 +120,10 @@ def look(result: Result, warm_up_s: float | None = None, progress: Callable[[int
         left_out_s,
         why,
         slice_s,
-        tuple(_series(name, read, edges_s, left_out_s, cuts) for name in UNITS),
-        _full_stations(summary),
+        tuple(_series(name, read, edges_s, left_out_s, cuts, overloaded) for name in UNITS),
+        full,
         "scheduled_h" in summary and slice_s < DAY_S,
+        none_free,
     )
 
 
@@ -141,10 +149,15 @@ def _left_out(asked_s: float | None, own_s: float, cuts: Mapping[str, float | No
 
 
 def _series(
-    name: str, read: list[Sliced], edges_s: np.ndarray, from_s: float, cuts: Mapping[str, float | None]
+    name: str,
+    read: list[Sliced],
+    edges_s: np.ndarray,
+    from_s: float,
+    cuts: Mapping[str, float | None],
+    overloaded: bool,
 ) -> LongSeries:
     by_job = name == "time_in_system_s"
-    first = int(np.searchsorted(edges_s, from_s - 1e-6))
+    first = _first(edges_s, from_s)
     whole = None if by_job else np.array([one.by_time[name] for one in read])
     most = MOST_BATCHES * PIECES_EACH
     rows = jobs_in_a_row(read, from_s, most) if whole is None else whole[:, first:]
@@ -156,7 +169,13 @@ def _series(
     found = (
         []
         if batches is None or rows is None
-        else flags(rows, piles_up=name in PILES_UP, events=counted, left_out=0 if by_job else first)
+        else flags(
+            rows,
+            piles_up=name in PILES_UP,
+            events=counted,
+            left_out=0 if by_job else first,
+            overloaded=overloaded,
+        )
     )
     curve = np.empty(0) if whole is None else whole.mean(axis=0)
     return LongSeries(
@@ -175,6 +194,6 @@ def _series(
     )
 
 
-def _full_stations(summary: Mapping) -> tuple[str, ...]:
-    rows = [row for row in summary["kpis"] if (row["kpi"], row["part"]) == ("station_states", "starved")]
-    return tuple(row["subject"] for row in rows if row["mean"] is not None and row["mean"] <= NEVER_STARVED)
+def _first(edges_s: np.ndarray, from_s: float) -> int:
+    """The first slice that is kept."""
+    return int(np.searchsorted(edges_s, from_s - 1e-6))

@@ -22,6 +22,7 @@ def as_json(run: LongRun) -> dict[str, Any]:
         "believable": not run.serious,
         "parts_of_days": run.part_of_days,
         "never_without_a_job": list(run.full_stations),
+        "nobody_ever_free": run.nobody_free,
         "series": [_series(one) for one in run.series],
     }
 

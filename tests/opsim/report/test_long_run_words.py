@@ -3,8 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from opsim.report.long_run_answer import answer
 from opsim.report.long_run_page import long_run_page
-from opsim.report.long_run_words import answer, time_words
+from opsim.report.long_run_words import time_words
 from opsim.report.study_page import study_html
 from opsim.study.long_run import batch_means, correlogram, flags, welch
 from opsim.study.long_run.flags import Flag
@@ -49,7 +50,7 @@ def test_a_run_that_is_well_is_told_with_its_batches_and_what_was_left_out():
     assert (
         stay.startswith("Time in system: ") and "40 batches of 400 jobs" in stay and inside.startswith("Jobs inside: ")
     )
-    assert verdict.startswith("Nothing speaks against it")
+    assert verdict.startswith("Nothing speaks against it: no sign ") and "no test finds the start" in verdict
 
 
 def test_growth_is_said_by_the_day_and_which_station_is_never_without_a_job():
@@ -59,7 +60,23 @@ def test_growth_is_said_by_the_day_and_which_station_is_never_without_a_job():
     assert (
         verdict.startswith("Not believable yet: more comes than leaves") and "jobs inside (+3.10 jobs a day)" in verdict
     )
-    assert "Never without a job: press." in verdict
+    assert "No longer run helps. Never without a job: press." in verdict
+
+
+def test_growth_that_may_be_a_short_run_is_said_with_both_and_with_one_horizon():
+    raised = [Flag("growing", "", True, 12.4), Flag("too_short", "", True, 3.0)]
+    verdict = answer(long_run(inside=raised, full=("press",)))[-1]
+    assert "within this run these keep growing: jobs inside (+3.10 jobs a day). Either more comes than" in verdict
+    assert "Run 10 times as long: --horizon '970 h'." in verdict and "too short for jobs inside: " in verdict
+    assert "No longer run helps" not in verdict and verdict.count("--horizon") == 1
+
+
+def test_replications_that_are_each_too_short_are_called_so():
+    made = long_run()
+    short = batch_means(np.cumsum(np.random.default_rng(2).normal(size=(8, 60)), axis=1))
+    stay = replace(made.series[1], batches=short, flags=(Flag("too_short", "", True, 3.0),))
+    verdict = answer(replace(made, series=(made.series[0], stay, made.series[2])))[-1]
+    assert "replications are independent, but each is too short to forget its start." in verdict
 
 
 def test_a_short_run_is_told_how_long_it_should_be():

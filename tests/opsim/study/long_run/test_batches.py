@@ -3,7 +3,7 @@ import pytest
 
 from opsim.study.interval import t_interval
 from opsim.study.long_run import batch_means
-from opsim.study.long_run.batches import overlapping_half_width, pieces
+from opsim.study.long_run.pieces import overlapping_half_width, pieces
 from tests.opsim.study.long_run.waits import autoregressions, mm1_waits, naive_waits, variance_of_mean
 
 
@@ -83,7 +83,17 @@ def test_too_short_a_series_is_no_proof_and_says_how_long_it_should_be():
 def test_means_of_five_and_more_replications_are_independent_whatever_their_values():
     found = batch_means(autoregressions(0.999, 400, 6, 9))
     assert found.independent and found.means.shape == (6, 1)
+    assert not found.long_enough and found.lag_one > 0.9 and found.longer == 20
     assert not batch_means(autoregressions(0.999, 400, 2, 9)).independent
+
+
+def test_how_much_longer_replications_should_be_is_near_the_truth():
+    """AR(1) 0.95 in ten of 200 values: pieces of 20 fade by e; 1.6 times that makes them 0.4 alike, so twice does."""
+    found = [batch_means(one) for one in autoregressions(0.95, 200, 1000, 10).reshape(100, 10, 200)]
+    assert np.mean([one.long_enough for one in found]) <= 0.2
+    assert np.median([one.longer for one in found]) == 2
+    twice = [batch_means(one) for one in autoregressions(0.95, 500, 1000, 11).reshape(100, 10, 500)]
+    assert np.mean([one.long_enough for one in twice]) >= 0.8
 
 
 def test_a_constant_is_known_exactly():

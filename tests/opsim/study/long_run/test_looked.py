@@ -85,7 +85,16 @@ def test_a_floor_to_which_more_comes_than_leaves_is_not_believed(tmp_path):
     run = look(run_scenario(loaded(text), folder=tmp_path, processes=1))
     flagged = {one.name: [flag.code for flag in one.flags] for one in run.series}
     assert run.serious and "unstable" in flagged["work_in_progress"] and "unstable" in flagged["time_in_system_s"]
-    assert "unstable" not in flagged["throughput_per_h"] and run.full_stations
+    assert "unstable" not in flagged["throughput_per_h"] and run.full_stations and run.nobody_free
+
+
+def test_a_stable_floor_that_grows_within_a_short_run_is_not_called_overloaded(tmp_path):
+    """M/M/1 at load 0.95, ten runs of 480 services: most grow, and only a longer run tells why."""
+    text = queue(horizon="480 s", warm_up="0 s", every="1.0526 s").replace("seed: 1", "seed: 3, replications: 10")
+    run = look(run_scenario(loaded(text), folder=tmp_path, processes=1))
+    flagged = {flag.code for one in run.series for flag in one.flags}
+    assert run.serious and "too_short" in flagged and "unstable" not in flagged
+    assert run.full_stations == () and not run.nobody_free
 
 
 def test_results_without_rows_are_refused(stable, tmp_path):
