@@ -72,7 +72,7 @@ KIND = Kind("select", study, kept, no_shards=NO_SHARDS)
 @click.option("--search", is_flag=True, help="Let an optimiser look for good values of what is varied.")
 @click.option("--trials", type=click.IntRange(min=2), help="Of a search.  [default: 60]")
 @click.option(
-    "--most", "most_replications", type=click.IntRange(min=2), help="Replications of each at most.  [default: 1000]"
+    "--most", "most_replications", type=click.IntRange(min=5), help="Replications of each at most.  [default: 1000]"
 )
 @study_options(shards=False)
 def command(file: str, common: Common, vary: Sequence[str], variants: str | None, **options: Any) -> None:

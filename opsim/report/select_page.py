@@ -26,7 +26,7 @@ BETTER_KNOWN = {
     "dudewicz-dalal": "Proven where the best is at least that much better than every other (Dudewicz & Dalal 1975). "
     "Its means weigh the first stage apart from the second, so that they are a little beside the plain ones.",
     "ocba": "OCBA (Chen et al. 2000) promises nothing beforehand: the probability is one of the means and spreads that "
-    "were seen, a bound over all pairs (Bonferroni).",
+    "were seen, a bound over all pairs (Bonferroni) by Student's t, as few replications know spreads badly.",
 }
 
 

@@ -16,13 +16,14 @@ import numpy as np
 
 from opsim.kpi.better import MORE
 from opsim.study.select.asking import Limit, Observe, sign_of
-from opsim.study.select.constants import kn_eta
-from opsim.study.select.race import Race, decide, ended_how, names_of
+from opsim.study.select.race import Race, decide, ended_how, names_of, open_limits, open_pairs
+from opsim.study.select.rooms import UNMOVED, Rooms
 from opsim.study.select.selection import CHOSEN, TIED, Asked, Out, Selection, Stage, plain_means
 
 ASSUMES = (
     "means of replications are normally distributed (nearly so where many jobs pass)",
     "replications of one variant are independent; variants may share random numbers",
+    f"what does not vary in {UNMOVED} replications (or as many as are allowed) does not vary at all",
 )
 
 
@@ -40,6 +41,8 @@ def kn(
 ) -> Selection:
     """The best of some systems whose means keep the limits, with a chance of at least ``confidence``.
 
+    first_stage : replications from which the spread is known, 5 or more; of what does not vary in them at all
+        nothing is decided before ``UNMOVED`` (or ``most``) replications
     batch : replications asked of every system left at a time. Decisions are taken replication by replication on the
         answers, as if asked one by one: it changes nothing but how many answers are not needed in the end.
     Raises ValueError where something asked is wrong, or an answer holds no number.
@@ -49,12 +52,8 @@ def kn(
     answered.upto(dict.fromkeys(range(asked.k), first_stage))
     # one system may lose its place by a limit of its own or to each other: so many decisions share the chance of error
     error = (1.0 - confidence) / (asked.k - 1 + len(asked.limits))
-    scale = 2.0 * kn_eta(first_stage - 1, error) * (first_stage - 1)
     starts = np.stack([_turned(asked, of) for of in answered.values])
-    variances = _variances_of_differences(starts[..., 0])
-    pair_begin = scale * variances / (2.0 * indifference)
-    tolerances = np.array([limit.tolerance for limit in asked.limits])
-    limit_begin = scale * starts[..., 1:].var(axis=1, ddof=1) / (2.0 * tolerances)
+    rooms = Rooms(asked, error, starts)
     race = Race(
         np.ones(asked.k, dtype=bool),
         np.zeros((asked.k, asked.k), dtype=np.int8),
@@ -64,14 +63,16 @@ def kn(
     sums, stages, out = starts.sum(axis=1), [Stage(0, asked.systems)], list[Out]()
     r, ended = first_stage, ""
     while not ended:
-        pair_room = np.maximum(0.0, pair_begin - 0.5 * indifference * r)
-        limit_room = np.maximum(0.0, limit_begin - 0.5 * tolerances * r)
+        if r == rooms.look_again_at:
+            alive = np.flatnonzero(race.alive)
+            rooms.look_again(alive, np.stack([_turned(asked, answered.values[i][:r]) for i in alive]))
+        pair_room, limit_room = rooms.at(r)
         race.n[race.alive] = r
         thrown = decide(race, sums, pair_room, limit_room, asked, r)
         if thrown:
             out += thrown
             stages.append(Stage(r, names_of(asked, race.alive)))
-        ended = ended_how(race, pair_room, r, most)
+        ended = ended_how(race, rooms.pairs, r, most)
         if not ended:
             if r == min(answered.n[i] for i in np.flatnonzero(race.alive)):
                 answered.upto(dict.fromkeys(map(int, np.flatnonzero(race.alive)), min(r + batch, most)))
@@ -97,7 +98,9 @@ def kn(
         indifference=indifference,
         promise=_promise(asked),
         assumes=ASSUMES,
-        affordable=float(np.sqrt(scale * variances[np.ix_(race.alive, race.alive)].max(initial=0.0) / most)),
+        affordable=rooms.affordable(open_pairs(race)),
+        open_pairs=tuple((systems[i], systems[j]) for i, j in np.argwhere(np.triu(open_pairs(race)))),
+        open_limits=tuple((systems[i], asked.limits[c].name) for i, c in np.argwhere(open_limits(race))),
         tied=left if ended == TIED else (),
         values=tuple(answered.values),
     )
@@ -119,8 +122,3 @@ def _turned(asked: Asked, values: np.ndarray) -> np.ndarray:
     for column, limit in enumerate(asked.limits, 1):
         turned[:, column] = limit.over(values[:, column])
     return turned
-
-
-def _variances_of_differences(values: np.ndarray) -> np.ndarray:
-    """(k, k) variances of the paired differences of (k, n) values, about their mean."""
-    return np.array([(of - values).var(axis=1, ddof=1) for of in values])

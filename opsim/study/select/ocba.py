@@ -18,7 +18,7 @@ TINY = 1e-12
 ASSUMES = (
     "means of replications are normally distributed (nearly so where many jobs pass)",
     "replications are independent, and so are variants: each has random numbers of its own",
-    "spreads are as they were seen, and nothing was known before (flat prior)",
+    "nothing was known before of means and spreads (flat prior)",
 )
 
 
@@ -50,17 +50,22 @@ def ocba_allocation(
 def chance_of_best(means: np.ndarray, sds: np.ndarray, n: np.ndarray, *, better: str, within: float = 0.0) -> float:
     """At least this probable, given what was seen: the system with the best mean is best, or ``within`` of the best.
 
-    Source: Chen et al. 2000, eq. 4 (APCS-Bonferroni): 1 - sum of Phi(-gap_i / sqrt(sd_b^2 / n_b + sd_i^2 / n_i)).
+    A bound over all pairs: 1 - the sum of T(-gap_i / error_i), T of Student's t with Welch's degrees of freedom, as few
+    replications know the spread badly; n : of each system, 2 or more
+    Source: Branke, Chick & Schmidt 2007, Management Science 53:1916-1932 (Bonferroni's PCS and PGS, unknown variances);
+    Chen et al. 2000, eq. 4, which it is of many replications.
     """
-    from scipy.special import ndtr
+    from scipy.special import stdtr
 
     seen = sign_of(better) * np.asarray(means, dtype=float)
     best = int(np.argmax(seen))
-    error = np.sqrt(np.square(sds) / n + np.square(sds[best]) / n[best])
+    own = np.square(sds) / n
+    squares = own + own[best]
     gap = seen[best] - seen + within
     others = np.arange(seen.size) != best
     with np.errstate(divide="ignore", invalid="ignore"):
-        wrong = np.where(error > 0, ndtr(-gap / error), np.where(gap > 0, 0.0, 0.5))
+        freedom = np.square(squares) / (np.square(own) / (n - 1) + np.square(own[best]) / (n[best] - 1))
+        wrong = np.where(squares > 0, stdtr(freedom, -gap / np.sqrt(squares)), np.where(gap > 0, 0.0, 0.5))
     return float(max(0.0, 1.0 - wrong[others].sum()))
 
 

@@ -31,8 +31,7 @@ def decide(
     race.within[(race.within == 0) & (over > limit_room)] = -1
     apart = sums[:, None, 0] - sums[None, :, 0]
     apart[np.abs(apart) <= ROUNDING * np.abs(sums[:, 0]).max()] = 0.0
-    both = race.alive[:, None] & race.alive[None] & (race.beats == 0) & (race.beats.T == 0)
-    race.beats[both & (apart > pair_room)] = 1
+    race.beats[open_pairs(race) & (apart > pair_room)] = 1
     beyond = race.alive & (race.within < 0).any(axis=1)
     judges = race.alive & (race.within > 0).all(axis=1)
     beaten = race.alive & ~beyond & (race.beats[judges] > 0).any(axis=0)
@@ -52,15 +51,27 @@ def _bounds(asked: Asked) -> np.ndarray:
     return np.array([abs(limit.bound) for limit in asked.limits])
 
 
-def ended_how(race: Race, pair_room: np.ndarray, r: int, most: int) -> str:
-    """How it ended; "" where it goes on."""
+def open_pairs(race: Race) -> np.ndarray:
+    """(k, k) which two of those left nobody has told apart."""
+    open_yet = race.alive[:, None] & race.alive[None] & (race.beats == 0) & (race.beats.T == 0)
+    np.fill_diagonal(open_yet, False)
+    return open_yet
+
+
+def open_limits(race: Race) -> np.ndarray:
+    """(k, L) of which limits nobody knows whether those left keep them."""
+    return np.asarray(race.alive[:, None] & (race.within == 0))
+
+
+def ended_how(race: Race, begun: np.ndarray, r: int, most: int) -> str:
+    """How it ended; "" where it goes on. begun : (k, k) where triangles begin, 0 of two that never differed"""
     left = np.flatnonzero(race.alive)
     if not left.size:
         return NONE_WITHIN
     if (race.within[left] > 0).all():
         if left.size == 1:
             return CHOSEN
-        if not pair_room[np.ix_(left, left)].any():
+        if not begun[np.ix_(left, left)].any():
             return TIED
     return RAN_OUT if r >= most else ""
 

@@ -21,7 +21,7 @@ class Search(Protocol):
         """What came of a point that was asked for, in the order of asking.
 
         value : mean of the figure, more is better; None where the point cannot be run
-        over  : by how much each limit is broken; at most 0 where it is kept
+        over  : by how much each limit is broken, in its tolerances; at most 0 where it is kept
         """
 
 
@@ -29,13 +29,15 @@ class Search(Protocol):
 class Trial:
     """A point that a search tried: means over its few replications, which flatter the best of many.
 
-    over : of each limit; refused : why it could not be run, "" where it could
+    over : beyond each limit, in its tolerances, so that limits of different units add up; below 0 where it is kept
+    half_width : of the mean, nan of one replication; refused : why it could not be run, "" where it could
     """
 
     changes: Changes
     mean: float
     over: tuple[float, ...]
     refused: str = ""
+    half_width: float = float("nan")
 
     @property
     def within(self) -> bool:
@@ -62,7 +64,7 @@ def searched(search: Search, look: Look, trials: int, at_once: int, sign: float)
 
 
 def best_trials(trials: Sequence[Trial], n: int, sign: float) -> list[Trial]:
-    """The n best different points: those within the limits by their means, then those nearest to them."""
+    """The n best different points: those within the limits by their means, then those nearest in tolerances."""
     different = list({_said(trial): trial for trial in reversed(trials) if not trial.refused}.values())[::-1]
     worst = [float(np.sum(np.maximum(0.0, trial.over))) for trial in different]
     order = sorted(range(len(different)), key=lambda i: (worst[i], -sign * different[i].mean, i))

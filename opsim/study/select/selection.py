@@ -11,8 +11,10 @@ from opsim.study.select.asking import Answered, Limit, Observe, sign_of
 from opsim.study.select.constants import check_confidence
 
 CHOSEN, TIED, NONE_WITHIN, RAN_OUT, SPENT = "chosen", "tied", "none within", "ran out", "spent"
-"""How it ended: one is left; several that are the same in every replication; nobody keeps the limits; replications
+"""How it ended: one is left; several that are the same in every replication seen; nobody keeps the limits; replications
 ran out first; the budget is spent (OCBA)."""
+LEAST_FIRST = 5
+"""Of fewer replications the spread is hardly known, and of counts it is 0 too often."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,10 @@ class Selection:
     n, asked : replications of each system that decided, and that were asked for
     needed  : of each system, where a procedure knows it; empty elsewhere
     promise, assumes : in words
-    affordable : the indifference at which the replications allowed would have been enough for sure; nan: not known
+    affordable : the indifference at which the replications allowed would have been enough for sure to tell who is
+        better; nan: not known, or told
+    open_pairs, open_limits : (system, system) that nobody told apart, (system, name of the limit) that may be kept or
+        not, of those left (KN)
     posterior : chance that the winner is the best, or within the indifference of it, given what was seen (OCBA)
     values  : of each system (asked, 1 + limits), as observed
     """
@@ -67,6 +72,8 @@ class Selection:
     tied: tuple[str, ...] = ()
     needed: tuple[int, ...] = ()
     affordable: float = float("nan")
+    open_pairs: tuple[tuple[str, str], ...] = ()
+    open_limits: tuple[tuple[str, str], ...] = ()
     posterior: tuple[float, float] | None = None
     values: tuple[np.ndarray, ...] = field(default=(), compare=False, repr=False)
 
@@ -82,7 +89,7 @@ class Asked:
 
     indifference : differences of means below this do not matter, above 0
     confidence   : chance at least that the choice is right, above that of a guess
-    first_stage  : replications of each system from which its spread is estimated
+    first_stage  : replications of each system from which its spread is estimated, ``LEAST_FIRST`` or more
     most         : replications of each system at most
     """
 
@@ -101,8 +108,9 @@ class Asked:
             raise ValueError(f"expected each variant once, found {', '.join(self.systems)}")
         if not (np.isfinite(self.indifference) and self.indifference > 0):
             raise ValueError(f"indifference: expected a number above 0, found {self.indifference:g}")
-        if self.first_stage < 2:
-            raise ValueError(f"first stage: a spread needs two replications or more, found {self.first_stage}")
+        if self.first_stage < LEAST_FIRST:
+            found = f"expected {LEAST_FIRST} replications or more, found {self.first_stage}"
+            raise ValueError(f"first stage: {found}; fewer say too little of the spread")
         if self.most < self.first_stage:
             raise ValueError(f"most: expected {self.first_stage} (the first stage) or more, found {self.most}")
         check_confidence(self.confidence, len(self.systems))

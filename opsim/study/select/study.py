@@ -174,8 +174,8 @@ def _trial(point: Point, values: np.ndarray, looking: Replications, limits: Sequ
             point.changes, np.nan, (), nothing_seen(Job(point, looking.first + int(row)), looking.keys[column])
         )
     means = values.mean(axis=0)
-    over = tuple(float(limit.over(means[place])) for place, limit in enumerate(limits, 1))
-    return Trial(point.changes, float(means[0]), over)
+    over = tuple(float(limit.over(means[place])) / limit.tolerance for place, limit in enumerate(limits, 1))
+    return Trial(point.changes, float(means[0]), over, half_width=t_interval(values[:, 0]).half_width)
 
 
 def _refused(answers: Answers, point: Point) -> str:

@@ -23,6 +23,8 @@ def summary_of(found: Any) -> dict[str, Any]:
         "promise": "" if selection is None else selection.promise,
         "assumes": [] if selection is None else list(selection.assumes),
         "tied": [] if selection is None else list(selection.tied),
+        "open_pairs": [] if selection is None else [list(pair) for pair in selection.open_pairs],
+        "open_limits": [] if selection is None else [list(pair) for pair in selection.open_limits],
         "posterior": None if selection is None or selection.posterior is None else list(selection.posterior),
         "first_replication": found.first,
         "numbers_of_their_own": found.apart,
@@ -72,7 +74,12 @@ def _search_summary(found: Any) -> dict[str, Any]:
         "replications": tried.replications,
         "finalists": dict(tried.finalists),
         "trials": [
-            {"changes": dict(one.changes), "mean": one.mean, "over": list(one.over), "refused": one.refused or None}
+            {
+                "changes": dict(one.changes),
+                "mean": one.mean,
+                "over_in_tolerances": list(one.over),
+                "refused": one.refused or None,
+            }
             for one in tried.trials
         ],
     }

@@ -81,11 +81,11 @@ class Select(Block):
         40, ge=2, le=MOST, description="fresh ones, on which the chosen one is looked at again beside the base"
     )
     first_replications: Whole | None = Field(
-        None, ge=2, le=MOST, description="of each variant, from which its spread is known; 10 for kn and ocba, else 20"
+        None, ge=5, le=MOST, description="of each variant, from which its spread is known; 10 for kn and ocba, else 20"
     )
     most_replications: Whole | None = Field(
         None,
-        ge=2,
+        ge=5,
         le=MOST,
         description="of each variant at most, without the fresh ones, 1000 where nobody says; of ocba all together, "
         "100 of each variant",

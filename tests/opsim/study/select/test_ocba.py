@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from made_systems import normal_systems, slippage
+from scipy import stats
 
 from opsim.study.select import ocba, ocba_allocation
 from opsim.study.select.ocba import chance_of_best, shared
@@ -30,10 +31,33 @@ def test_two_that_are_equal_do_not_take_the_whole_budget():
     assert found[0] == pytest.approx(found[1], rel=0.05) and found[2] > 5
 
 
-def test_the_chance_of_two_systems_is_that_of_a_normal_difference():
-    """1.6449 standard errors apart: 0.95."""
-    found = chance_of_best(np.array([0.0, 1.6448536]), np.ones(2) * 2, np.array([8, 8]), better="more")
+def test_the_chance_of_two_systems_is_that_of_students_t_with_welchs_freedom():
+    """1.7613 standard errors apart with 14 degrees of freedom: 0.95. Of 8 and 4 replications with variances 4 and 1:
+    (1/2 + 1/4)^2 / (1/4 / 7 + 1/16 / 3) = 9.947 degrees, of which 1.8134 is the quantile of 0.95."""
+    found = chance_of_best(np.array([0.0, 1.7613101]), np.ones(2) * 2, np.array([8, 8]), better="more")
     assert found == pytest.approx(0.95, abs=1e-6)
+    gap = stats.t.ppf(0.95, 0.75**2 / (0.25 / 7 + 0.0625 / 3)) * np.sqrt(0.75)
+    found = chance_of_best(np.array([0.0, gap]), np.array([2.0, 1.0]), np.array([8, 4]), better="more")
+    assert found == pytest.approx(0.95, abs=1e-9)
+
+
+def test_without_any_spread_the_better_is_certain_and_equals_are_even():
+    two = np.zeros(2), np.array([5, 5])
+    assert chance_of_best(np.array([0.0, 1.0]), *two, better="more") == 1.0
+    assert chance_of_best(np.array([1.0, 1.0]), *two, better="more") == 0.5
+
+
+@pytest.mark.slow
+def test_the_probability_is_not_more_than_how_often_it_is_right_from_few_replications():
+    """Means drawn at random, five replications first: 600 times, right as often as said within two standard errors."""
+    said = right = 0.0
+    for m in range(600):
+        means = np.random.default_rng([41, m]).normal(size=5)
+        found = ocba(normal_systems(means, np.ones(5), 42, m, n=500), TEN[:5], indifference=0.3, first_stage=5,
+                     batch=5, budget=400)  # fmt: skip
+        said += found.posterior[1]
+        right += means[TEN.index(found.winner)] >= means.max() - 0.3
+    assert said <= right + 2 * np.sqrt(600 * 0.05 * 0.95)
 
 
 @given(st.lists(st.floats(-50, 50), min_size=1, max_size=8), st.integers(1, 40))

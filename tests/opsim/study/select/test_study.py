@@ -1,19 +1,27 @@
 """From what is asked to who is best, on made answers: which replications are asked for, limits, searches, refusals."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from scipy import stats
 
 from opsim.problems import ScenarioError
 from opsim.report.select_page import select_page
+from opsim.report.select_rows import rows_of, welch_half_width
+from opsim.report.select_words import _flattered
 from opsim.report.study_page import study_html
 from opsim.scenario.schema.studies.select import Select
-from opsim.study.jobs import Point
+from opsim.study.interval import Interval
+from opsim.study.jobs import Job, Point
+from opsim.study.select.asking import Limit
 from opsim.study.select.candidates import candidates_of
+from opsim.study.select.observing import Replications
 from opsim.study.select.optuna_search import OptunaSearch
-from opsim.study.select.study import choose, kept_of
+from opsim.study.select.search import Trial, best_trials
+from opsim.study.select.study import _trial, choose, kept_of
 from opsim.study.select.summary import summary_of
 
 KEYS = [("throughput_per_h", "", "", "1/h"), ("rula_mean", "", "worst", "1"), ("time_in_system_s", "", "", "s")]
@@ -77,7 +85,9 @@ def test_the_best_is_chosen_and_looked_at_again_on_numbers_beyond_those_used():
 
 def test_what_is_said_is_what_an_engineer_would_say():
     said = screen(found_of({})[0])
-    assert said.startswith("With at least 95 % confidence 'nine' is the best of 4, or within 1 per hour of it: 6")
+    assert said.startswith(
+        "With at least 95 % confidence 'nine' is the best of 4, or (by experience, not proof) within 1 per hour of it: "
+    )
     assert "on 20 fresh replications" in said and "per hour more than 'base'." in said
     assert "were out after 10 replications" in said
 
@@ -86,7 +96,7 @@ def test_a_limit_changes_who_is_best():
     found, _ = found_of({"subject_to": ["rula_mean/worst <= 4.8 +- 0.1"]})
     assert found.winner == "five" and {out.system for out in found.selection.out if out.limit} == {"base", "nine"}
     said = screen(found)
-    assert "the best of 4 that keeps the limit" in said and "at most 4.8 is allowed" in said
+    assert "the best of those of 4 that keep the limit" in said and "at most 4.8 is allowed" in said
     assert "which does not keep the limit" in said
 
 
@@ -121,13 +131,51 @@ def test_nobody_is_called_best_where_replications_ran_out():
     found, _ = found_of({"most_replications": 12, "indifference": 0.01}, Made(lambda point: (50, 4, 800), sd=5.0))
     assert not found.winner and found.fresh is None
     said = screen(found)
-    assert "still too close to tell after 12 replications each" in said and "So many replications tell" in said
+    assert (
+        "still too close to tell after 12 replications, the most allowed" in said
+        and "So many replications tell" in said
+    )
     enough = found.selection.affordable
     assert found_of({"most_replications": 12, "indifference": enough}, Made(lambda point: (50, 4, 800), sd=5.0))[
         0
     ].winner
     found, _ = found_of({"procedure": "rinott", "most_replications": 30, "indifference": 0.01})
     assert "would need" in screen(found) and "at most 30 are allowed" in screen(found)
+
+
+def test_a_limit_that_is_open_is_not_called_too_close_to_tell():
+    """Means far apart, and a figure at its limit: a larger indifference would change nothing."""
+    said = {"subject_to": ["rula_mean/worst <= 4 +- 0.001"], "most_replications": 30, "variants": ["base", "three"]}
+    means = {"base": (50, 4, 900), "three": (60, 4, 800)}
+    found, _ = found_of(said, Made(lambda point: means[point.name]))
+    words = screen(found)
+    assert "whether 'base' and 'three' keep the limit is open after 30 replications, the most allowed" in words
+    assert "To know who keeps the limit, allow more replications (--most), or a wider +-" in words
+    assert "too close" not in words and "--indifference" not in words
+    assert json.loads(json.dumps(summary_of(found)))["open_pairs"] == [] and len(found.selection.open_limits) == 2
+
+
+def test_two_that_never_differed_are_called_the_same_without_a_confidence():
+    same = {name: Point("same", {}) for name in MEANS}
+    made = Made(lambda point: (50, 4, 800))
+    one = made._value
+    made._value = lambda job, column: one(Job(same["base"], job.replication), column)
+    said = screen(found_of({"most_replications": 60}, made)[0])
+    assert said.startswith(
+        "The best of 4 are 'base', 'three', 'five' and 'nine', the same in all 59 replications: take"
+    )
+    assert "(they hardly differ in more than 5.1 % of replications)" in said and "confidence" not in said
+
+
+@pytest.mark.parametrize("procedure", ["rinott", "ocba"])
+def test_how_far_variants_with_numbers_of_their_own_are_behind_has_an_interval(procedure):
+    found, _ = found_of({"procedure": procedure})
+    selection = found.selection
+    rows = {row[0]: row[3] for row in rows_of(found)}
+    a, b = (selection.values[selection.systems.index(name)][:, 0] for name in ("nine", "base"))
+    known = stats.ttest_ind(a, b, equal_var=False).confidence_interval()
+    assert welch_half_width(a, b) == pytest.approx((known.high - known.low) / 2)
+    assert " ± " in rows["base"] and rows["nine"] == ""
 
 
 def test_the_base_as_the_best_is_nothing_to_change():
@@ -163,8 +211,38 @@ def test_a_search_finds_the_hill_keeps_the_limit_and_says_how_much_it_flattered(
     assert abs(best["run.x"] - 0.7) < 0.15 and best["run.kind"] == "a"
     assert len(found.searched.trials) == 24 and found.first == 3
     said = screen(found)
-    assert "The search tried 24 points on 3 replications each; the best 5 went on" in said and "too " in said
-    assert "the best of 5" in said and f"'{found.winner}' (x 0." in said
+    assert (
+        "The search tried 24 points on 3 replications each; the best 5 went on" in said
+        and " than the fresh ones" in said
+    )
+    assert "the best of those of 5 that keep the limit" in said and f"'{found.winner}' (x 0." in said
+
+
+@pytest.mark.parametrize(("seen", "better", "words"), [
+    (Trial({}, 42.8, (), half_width=1.2), "more", "42.8 per hour for the chosen one, 0.4 more than the fresh ones"),
+    (Trial({}, 42.8, (), half_width=0.1), "more", "0.4 more than the fresh ones (may be chance)"),
+    (Trial({}, 44.8, (), half_width=1.2), "more", "2.4 more than the fresh ones: the best of many looks better"),
+    (Trial({}, 40.8, (), half_width=1.2), "less", "1.6 less than the fresh ones: the best of many looks better"),
+    (Trial({}, 40.8, (), half_width=1.2), "more", "1.6 less than the fresh ones (may be chance)"),
+    (Trial({}, 49.9, ()), "more", "7.5 more than the fresh ones (may be chance)"),
+])  # fmt: skip
+def test_that_the_best_of_many_flatters_is_said_where_both_errors_leave_it(seen, better, words):
+    found = SimpleNamespace(key=KEYS[0], better=better)
+    assert words in _flattered(seen, Interval(42.4, 0.5, 0.7, 10), found)
+
+
+def test_limits_of_different_units_are_held_against_their_tolerances():
+    """30 s beyond 600 s +- 60 s is nearer than 0.3 points beyond 4 +- 0.1, which a sum of both would call nearer."""
+    means = {0: (50, 4.0, 630), 1: (50, 4.3, 600)}
+    seen = Made(lambda point: means[point.changes["run.x"]], sd=0.0)
+    limits = [Limit("time", 600.0, 60.0), Limit("rula", 4.0, 0.1)]
+    looking = Replications(seen, (), (KEYS[0], KEYS[2], KEYS[1]), 0)
+    points = [Point("x", {"run.x": x}) for x in means]
+    trials = [
+        _trial(point, seen.values([Job(point, r) for r in range(3)], looking.keys), looking, limits) for point in points
+    ]
+    assert [trial.over for trial in trials] == [pytest.approx((0.5, 0.0)), pytest.approx((0.0, 3.0))]
+    assert best_trials(trials[::-1], 1, 1.0) == [trials[0]]
 
 
 def test_a_search_is_the_same_every_time(monkeypatch):
@@ -214,6 +292,7 @@ def test_a_choice_that_is_none_is_refused_before_anything_is_run(said, words):
     ({"indifference": 0}, "expected more than 0, found 0"),
     ({"indifference": "2 s"}, "'2 s': throughput_per_h is per hour: write 2"),
     ({"indifference": None}, "nothing says which difference is too small to matter"),
+    ({"first_replications": 4}, "greater than or equal to 5|at least 5|5 or more"),
     ({"trials": 20}, "a search needs to know what it may vary"),
     ({"procedure": "rinott", "subject_to": ["rula_mean <= 4"]}, "the procedure rinott knows no limits"),
     ({"vary": {"run.x": [1, 2]}, "variants": ["base"]}, "either the file's variants or what is varied"),
