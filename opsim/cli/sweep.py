@@ -56,6 +56,6 @@ def command(file: str, common: Common, vary: Sequence[str], **options: Any) -> N
     with mistakes():
         factors = vary_of(vary)
         if options["points"] and options["design"] in ("grid", "one_at_a_time"):
-            words = options["design"].replace("_", " ")
-            raise ValueError(f"--points: the points of a {words} follow from its factors; leave it out")
+            design = options["design"]
+            raise ValueError(f"--points: with --design {design} the factors say which points there are; leave it out")
     run_study(KIND, file, common, {"vary": factors or None, **options})

@@ -48,7 +48,9 @@ def _dots(found: Any, points: Any, numbers: np.ndarray, column: int) -> Iterator
     """Of a grid the means of each level over all others, else the points themselves."""
     factor = points.factors[column]
     if found.how == "mean":
-        of = next(one for one in found.swings if one.name == factor.path)
+        of = next((one for one in found.swings if one.name == factor.path), None)
+        if of is None:  # it has one value: it was not varied
+            return
         for value, level in zip(factor.grid_values(), of.levels):
             if is_number(level.mean.mean):
                 yield Dot(factor.number(value), level.mean.mean, _half(level.mean))

@@ -8,24 +8,17 @@ from typing import Any
 from opsim.report.frontier import axis_name
 from opsim.report.study_page import Section, StudyPage, Table
 from opsim.report.sweep_curves import FIT, POINT, curves_html
+from opsim.report.sweep_fit_words import fit_sentences
 from opsim.report.sweep_map import is_grid, map_svg
+from opsim.report.sweep_notes import beside_answer, how_to_read
 from opsim.report.sweep_sensitivity import sensitivity_section
 from opsim.report.sweep_terms import terms_table
 from opsim.report.sweep_tornado import LEGEND, tornado_svg
-from opsim.report.sweep_words import changed, fit_sentences, largest_of, sentences_of
+from opsim.report.sweep_words import changed, largest_of, sentences_of
 from opsim.report.words import half_digits, interval_cells, is_number, listing, scale_of
 
 MOST_ROWS = 200
 MOST_FIGURES_ON_SCREEN, MOST_ROWS_ON_SCREEN, MOST_FIGURES_ANSWERED = 2, 8, 3
-DESIGNS = {
-    "grid": "every combination",
-    "list": "points given one by one",
-    "one_at_a_time": "one factor at a time, the others as they are",
-    "latin_hypercube": "Latin hypercube",
-    "sobol": "scrambled Sobol sequence",
-    "sobol_indices": "Saltelli's design for Sobol indices",
-    "morris": "Morris' paths, one factor moving at a time",
-}
 AGAINST = {"base": "the scenario as it is", "mean": "the mean of all points", "fit": "the middle of all factors"}
 HOW = {
     "base": "Each factor alone, the others as the scenario has them: what two of them do together is not seen.",
@@ -36,17 +29,19 @@ HOW = {
 
 def sweep_page(name: str, points: Any, found: Sequence[Any], replications: int, seed: int) -> StudyPage:
     """points : the Points; found : a Found for each figure"""
-    answer = [sentence for one in found[:MOST_FIGURES_ANSWERED] for sentence in sentences_of(one, points)]
+    told = found[:MOST_FIGURES_ANSWERED]
+    answer = [sentence for one in told for sentence in sentences_of(one, points, one is told[0])]
     if len(found) > MOST_FIGURES_ANSWERED:
         others = listing([axis_name(one.key) for one in found[MOST_FIGURES_ANSWERED:]])
         answer.append(f"Below, too: {others}.")
+    answer += beside_answer(points, found)
     sections = [section for place, one in enumerate(found) for section in _sections(one, points, place)]
     return StudyPage(
         title=name,
         kind="sweep",
         answer=answer,
         sections=[*sections, points_section(points, found)],
-        words=_words(points, found, replications, seed),
+        words=how_to_read(points, found, replications, seed),
     )
 
 
@@ -76,11 +71,17 @@ def swings_table(found: Any) -> Table:
             one.name,
             changed(one.rise, unit, largest),
             *(("", "") if one.nothing else (one.levels[one.least].name, one.levels[one.most].name)),
-            "clear" if one.clear else "no effect" if one.nothing else "not told from chance",
+            _told(one, found),
         )
         for one in found.swings
     ]
     return Table(("factor", "difference", "lowest at", "highest at", ""), rows)
+
+
+def _told(one: Any, found: Any) -> str:
+    if found.how == "fit" and not found.response.trusted:
+        return "fit not trusted"
+    return "clear" if one.clear else "no effect" if one.nothing else "not told from chance"
 
 
 def _response(found: Any, points: Any, name: str, largest: float | None) -> Iterator[Section]:
@@ -131,32 +132,3 @@ def _mean(found: Any, row: int) -> str:
     if not is_number(one.half_width) or not one.half_width:
         return cells["mean"]
     return f"{cells['mean']} ± {half_digits(one.mean * factor, one.half_width * factor)}"
-
-
-def _words(points: Any, found: Sequence[Any], replications: int, seed: int) -> list[str]:
-    n = len(points.values)
-    each = "1 replication" if replications == 1 else f"{replications} replications"
-    said = [
-        f"{n:,} points ({DESIGNS[points.design]}), {each} of each, with the same random numbers at every point "
-        f"(seed {seed}).",
-        *points.words,
-    ]
-    if any(one.swings for one in found):
-        said.append(
-            "Differences are paired, replication by replication; each 95 % interval is for its factor alone, and "
-            "counts that the two levels furthest apart were picked (Bonferroni)."
-        )
-    if any(one.response is not None for one in found):
-        said.append(
-            "The fitted response is the polynomial, linear or with squares and interactions, that misses points left "
-            "out by least. Its intervals say how replications differ, not how far the polynomial is from the truth; "
-            "the error for points left out says that. (Kleijnen 2015; Montgomery 2013)"
-        )
-    if any(one.sensitivity for one in found):
-        said.append("Intervals are by bootstrap over the design (95 %), by SALib (Saltelli 2010; Morris 1991).")
-    if any(one.best is not None for one in found):
-        said.append(
-            "The best of many points is partly lucky: 'opsim select' says with a promise which one is best, on fresh "
-            "random numbers."
-        )
-    return said

@@ -42,8 +42,9 @@ def _morris(title: str, found: Any, pairs: Sequence[tuple[Any, Any]], on_screen:
         for f, s in pairs
     ]
     said = (
-        "Change of the figure when one factor goes over its whole range. A size above the change with its sign, or "
-        "a large spread, says that the effect is bent or depends on other factors."
+        "Change of the figure when one factor goes over its whole range (of values without order: from one to "
+        "another). A size above the change with its sign, or a large spread, says that the effect is "
+        "bent or depends on other factors."
     )
     picture = sensitivity_svg(found.factors, found.sensitivity, factor, f"change over the whole range, {word}")
     table = Table(("factor", f"size of the change, {word}", f"with its sign, {word}", "spread"), rows)

@@ -16,10 +16,10 @@ WIDE = 0.2
 """A half-width of a share of variance with which little can be said."""
 
 
-def sentences_of(found: Any, points: Any) -> list[str]:
-    """The answer of one figure. found : a Found; points : the Points"""
+def sentences_of(found: Any, points: Any, first: bool = True) -> list[str]:
+    """The answer of one figure. found : a Found; points : the Points; first : of the figures, whose says more"""
     said = list(_effects(found)) if found.swings else list(_sensitivity(found, points.design))
-    return [text for text in (" ".join(said), *_best(found, points)) if text]
+    return [text for text in (" ".join(said), *_best(found, points, first)) if text]
 
 
 def changed(interval: Any, unit: str, largest: float | None, sign: bool = True) -> str:
@@ -42,44 +42,15 @@ def largest_of(found: Any) -> float | None:
     return max((abs(one.mean) for one in found.means if is_number(one.mean)), default=None)
 
 
-def fit_sentences(found: Any) -> list[str]:
-    """How good the fitted response is, and whether it is to be trusted."""
-    response = found.response
-    if response is None:
-        return [f"No response is fitted: {found.no_response}."] if found.no_response else []
-    factor, word = scale_of(found.key[3], largest_of(found))
-    miss = f"{_two(response.loo_rmse * factor)} {word}".strip()
-    noise = f"; the noise of a point's mean is {_two(response.noise * factor)} {word}".rstrip()
-    return [
-        f"Fitted response ({response.kind}, {len(response.terms)} terms, {response.n_points} points): it misses a "
-        f"point that it has not seen by {miss} (root mean square, leave one out)"
-        + (noise if is_number(response.noise) else "")
-        + f". It explains {_percent(response.r2_predicted)} of how such points differ.",
-        _trust(response),
-    ]
-
-
-def _trust(response: Any) -> str:
-    if response.r2_predicted < 0.5:
-        return "The fit is not to be trusted: it says hardly more than the mean of all points. Look at the points."
-    few = f" Only {response.spare} points more than terms: run more points." if response.spare < 3 else ""
-    if not response.trusted:
-        why = "it misses the points clearly by more than their noise" if response.bent else "it misses too much"
-        return f"Do not trust the fit between the points: {why}. Take more points, or narrower ranges.{few}"
-    if response.bent:
-        return (
-            f"It misses the points by more than their noise (lack of fit, p {_p(response.lack_of_fit_p)}): the shape "
-            f"is a little other than a parabola. Read it to that error, no finer.{few}"
-        )
-    return f"The fit may be read between the points, to that error; not outside of the ranges.{few}"
-
-
 def _effects(found: Any) -> Iterator[str]:
     name, unit, largest = axis_name(found.key), found.key[3], largest_of(found)
     clear = [one for one in found.swings if one.clear]
     others = [one for one in found.swings if not one.clear]
     if found.replications == 1:
         yield f"{name}: one replication of each point says nothing of chance; take more (--replications)."
+        return
+    if found.how == "fit" and not found.response.trusted:
+        yield f"{name}: the fitted response is not to be trusted, so what each factor does is not told; see its points."
         return
     if not clear:
         yield f"{name}: no factor's effect is told from chance in {found.replications} replications."
@@ -124,7 +95,7 @@ def _rise(one: Any, unit: str, largest: float | None, way: str) -> str:
     return f"{changed(rise, unit, largest)} from {names[0]} to {names[1]}"
 
 
-def _best(found: Any, points: Any) -> Iterator[str]:
+def _best(found: Any, points: Any, first: bool) -> Iterator[str]:
     if found.best is None:
         return
     best, where = found.best, point_words(points, found.best.row)
@@ -132,14 +103,19 @@ def _best(found: Any, points: Any) -> Iterator[str]:
     extreme = "Highest" if best.better == MORE else "Lowest"
     mean = plus_minus(row, largest_of(found))
     said = f"{extreme} {_inside(axis_name(found.key))} of the {len(found.means)} points: {mean} at {where}"
+    if best.shared < found.replications:
+        said += f" (values are missing: compared in {best.shared} or more of {found.replications} replications)"
+    again = "; 'opsim select' looks again" if first else ""
+    picked = f" (picked, so likely flattered{again})" if best.mean.sd else ""  # nan of one replication
     if found.replications == 1:
-        yield f"{said}, by one replication."
+        yield f"{said}, by one replication{picked}."
     elif best.like_it:
         verb = "is" if best.like_it == 1 else "are"
         others = f"{best.like_it} other point" + ("" if best.like_it == 1 else "s")
-        yield f"{said}; {others} {verb} not told from it."
+        yield f"{said}; {others} {verb} not told from it{picked}."
     else:
-        yield f"{said}, clearly ahead of all others."
+        ahead = "the other" if len(found.means) == 2 else "all others"
+        yield f"{said}, clearly ahead of {ahead}{picked}."
 
 
 def _inside(name: str) -> str:
@@ -175,7 +151,7 @@ def _sensitivity(found: Any, design: str) -> Iterator[str]:
             yield "These intervals are wide: take more base points (--points)."
     if is_number(found.noise_share) and found.noise_share > 0.05:
         yield (
-            f"Luck makes {_percent(found.noise_share)} of the differences between the points; it counts as if it were "
+            f"Luck makes {percent(found.noise_share)} of the differences between the points; it counts as if it were "
             "an effect of every factor: more replications make it less."
         )
 
@@ -188,14 +164,6 @@ def _about(value: float, half: float) -> str:
     return f"{digits(value, half)} ± {half_digits(value, half)}" if half else digits(value)
 
 
-def _percent(share: float) -> str:
+def percent(share: float) -> str:
+    """A share, which is only all where nothing is missing."""
     return f"{100 * max(share, 0):.0f} %" if share < 0.995 else f"{min(100 * share, 99.9 if share < 1 else 100):.1f} %"
-
-
-def _two(size: float) -> str:
-    """An error with two digits."""
-    return f"{float(f'{size:.2g}'):,g}"
-
-
-def _p(p: float) -> str:
-    return "below 0.001" if p < 0.001 else f"{p:.2g}"

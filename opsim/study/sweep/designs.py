@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 
 MORRIS_LEVELS = 4
+MORRIS_STEP = 2 / 3
+"""Of a factor's range: by how much it moves at a time on four levels."""
 
 
 class Missing(ValueError):

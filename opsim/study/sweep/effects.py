@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from opsim.study.compare import paired
 from opsim.study.interval import CONFIDENCE, Interval, t_interval
+from opsim.study.paired import holm, paired
+from opsim.study.sweep.beside_fit import BesideFit
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,8 @@ class Swing:
     """One factor: its levels, and from which of them (``least``) to which (``most``) the figure rises most, and by how
     much; ``clear`` where that is told from chance.
 
-    rise : its interval holds for the two levels that were picked (Bonferroni over all pairs of levels)
+    rise, p : its interval and p hold for the two levels that were picked (Bonferroni over all pairs of levels)
+    clear   : among the factors of ``ranked``, held over all of them together (Holm)
     """
 
     name: str
@@ -33,12 +35,13 @@ class Swing:
     least: int
     most: int
     rise: Interval
+    p: float
     clear: bool
 
     @property
     def nothing(self) -> bool:
         """Whether the figure is the same at all levels in every replication."""
-        return self.rise.n > 0 and self.rise.mean == 0 and self.rise.sd == 0
+        return self.rise.n > 0 and self.rise.mean == 0 == self.rise.sd and not self.rise.half_width > 0
 
     @property
     def size(self) -> float:
@@ -58,8 +61,7 @@ def tornado(
     The base counts as a level of each factor, as the figure may be best, or worst, in the middle.
     """
     names = base_names or {}
-    found = [swing(name, {**of, names.get(name, "base"): base}, base) for name, of in ends.items()]
-    return sorted(found, key=lambda one: -one.size)
+    return ranked([swing(name, {**of, names.get(name, "base"): base}, base) for name, of in ends.items()])
 
 
 def main_effects(
@@ -74,29 +76,62 @@ def main_effects(
     for factor, (name, words) in enumerate(zip(names, levels)):
         of = {word: values[design[:, factor] == k].mean(axis=0) for k, word in enumerate(words)}
         found.append(swing(name, of, whole))
-    return sorted(found, key=lambda one: -one.size)
+    return ranked(found)
 
 
-def swing(name: str, of: Mapping[str, Sequence[float]], reference: Sequence[float]) -> Swing:
-    """One factor from the values (n,) of its levels; changes are against the reference, replication by replication."""
+def ranked(swings: Sequence[Swing], any_clear: bool = True) -> list[Swing]:
+    """The largest swing first, ``clear`` where it is so among all of them (Holm). any_clear : False leaves none clear
+
+    A factor that has one level only was not varied, and is left out.
+    """
+    varied = [one for one in swings if len(one.levels) > 1]
+    together = holm([np.nan if one.nothing else one.p for one in varied])
+    told = [replace(one, clear=any_clear and bool(p <= 1 - CONFIDENCE)) for one, p in zip(varied, together)]
+    return sorted(told, key=lambda one: -one.size)
+
+
+def swing(
+    name: str, of: Mapping[str, Sequence[float]], reference: Sequence[float], fit: BesideFit | None = None
+) -> Swing:
+    """One factor from the values (n,) of its levels; changes are against the reference, replication by replication.
+
+    fit : the error of the fit that the values are read from, which comes beside the luck of the replications
+    """
     rows = {level: np.asarray(values, dtype=float) for level, values in of.items()}
-    levels = tuple(Level(level, t_interval(row), paired(row.tolist(), reference)[0]) for level, row in rows.items())
+    levels = tuple(_level(level, row, reference, fit) for level, row in rows.items())
     means = np.array([level.mean.mean for level in levels])
     if np.isnan(means).all():
-        return Swing(name, levels, 0, 0, Interval(np.nan, np.nan, np.nan, 0), False)
+        return Swing(name, levels, 0, 0, Interval(np.nan, np.nan, np.nan, 0), np.nan, False)
     least, most = int(np.nanargmin(means)), int(np.nanargmax(means))
-    each = list(rows.values())
+    each, pairs = list(rows.values()), max(1, len(levels) * (len(levels) - 1) // 2)
     rise, p, _ = paired(each[most].tolist(), each[least].tolist())
-    pairs = max(1, len(levels) * (len(levels) - 1) // 2)
-    if rise.n > 1:
-        p *= pairs
-        rise = _wider(rise, pairs)
-    return Swing(name, levels, least, most, rise, bool(p <= 1 - CONFIDENCE))
+    error = 0.0 if fit is None else fit.between(levels[most].name, levels[least].name)
+    rise, p = _held(rise, p, pairs, error, 0 if fit is None else fit.degrees)
+    return Swing(name, levels, least, most, rise, p, bool(p <= 1 - CONFIDENCE))
 
 
-def _wider(interval: Interval, comparisons: int) -> Interval:
-    """The interval that holds together with those of so many comparisons (Bonferroni)."""
-    from scipy.special import stdtrit
+def _level(name: str, row: np.ndarray, reference: Sequence[float], fit: BesideFit | None) -> Level:
+    mean, change = t_interval(row), paired(row.tolist(), reference)[0]
+    if fit is not None:
+        mean = _held(mean, np.nan, 1, fit.of(name), fit.degrees)[0]
+        change = _held(change, np.nan, 1, fit.against_reference(name), fit.degrees)[0]
+    return Level(name, mean, change)
 
-    t = float(stdtrit(interval.n - 1, 1 - (1 - CONFIDENCE) / (2 * comparisons)))
-    return Interval(interval.mean, t * interval.sd / float(np.sqrt(interval.n)), interval.sd, interval.n)
+
+def _held(interval: Interval, p: float, comparisons: int, error: float, spare: int) -> tuple[Interval, float]:
+    """The interval and p that hold together with those of so many comparisons (Bonferroni).
+
+    error, spare : a fit's standard error and its degrees of freedom, added to the luck of the replications with the
+    degrees of Welch & Satterthwaite
+    """
+    from scipy.special import stdtr, stdtrit
+
+    if interval.n < 2:
+        return interval, p
+    luck, degrees = interval.sd / float(np.sqrt(interval.n)), float(interval.n - 1)
+    both = float(np.hypot(luck, error))
+    if error > 0:
+        degrees = both**4 / (luck**4 / degrees + error**4 / spare)
+        p = 2 * float(stdtr(degrees, -abs(interval.mean) / both))
+    t = float(stdtrit(degrees, 1 - (1 - CONFIDENCE) / (2 * comparisons)))
+    return replace(interval, half_width=t * both), float(np.minimum(1.0, p * comparisons))

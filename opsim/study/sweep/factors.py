@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from opsim.scenario.changes import flow_text
-from opsim.scenario.schema.studies.between import between, number_of, steps
+from opsim.scenario.schema.studies.between import between, is_whole, number_of, steps
 from opsim.scenario.schema.studies.factors import Range
 from opsim.units import UNITS
 
@@ -50,6 +50,24 @@ class Factor:
         if self.is_range:
             return between(self.values[0], self.values[1], share)
         return self.values[min(len(self.values) - 1, int(share * len(self.values)))]
+
+    def at_even(self, share: float) -> Any:
+        """As ``at`` for shares on an even grid with both ends (Morris): whole numbers and lists by the nearest step.
+
+        Equal steps of such shares are then equal steps here, while parts of the way would put two of them together.
+        """
+        steps = self.steps
+        if not steps:
+            return self.at(share)
+        step = round(share * steps)
+        return self.values[0] + step if self.is_range else self.values[step]
+
+    @property
+    def steps(self) -> int:
+        """From the first of its values to the last; 0 where there are values in between, or only one."""
+        if self.is_range:
+            return int(self.values[1] - self.values[0]) if is_whole(*self.values) else 0
+        return len(self.values) - 1
 
     def grid_values(self) -> list[Any]:
         """The values that it takes in a grid."""

@@ -27,7 +27,8 @@ class Points:
 
     design  : its name; array : (P, F) shares or level numbers as ``opsim.study.sweep.designs`` gives them
     values  : (P, F) plain values; UNCHANGED where a point leaves a factor as the scenario has it
-    words   : what is to be said of the design; bases : by path, what the scenario has there, in words
+    words   : what is to be said of the design; warned : the same, beside the answer
+    bases  : by path, what the scenario has there, in words
     """
 
     design: str
@@ -35,6 +36,7 @@ class Points:
     array: np.ndarray
     values: tuple[tuple[Any, ...], ...]
     words: tuple[str, ...] = ()
+    warned: tuple[str, ...] = ()
     bases: Mapping[str, str] = field(default_factory=dict)
 
     def points(self, variant: str | None) -> list[Point]:
@@ -74,8 +76,8 @@ def points_of(asked: Sweep, seed: int) -> Points:
     _refuse_too_many(float(np.prod(counts, dtype=float)) if design == "grid" else sum(counts))
     array = designs.grid(counts) if design == "grid" else designs.one_at_a_time(counts)
     values = tuple(tuple(UNCHANGED if k < 0 else of[k] for of, k in zip(levels, row)) for row in array.tolist())
-    unused = () if asked.points is None else (f"The design {design} makes its own points: {asked.points} is not used.",)
-    return Points(design, factors, array, values, unused)
+    unused = f"The points of the design {design} follow from its factors: 'points: {asked.points}' is not used."
+    return Points(design, factors, array, values, warned=() if asked.points is None else (unused,))
 
 
 def _counted(design: str, factors: tuple[Factor, ...], n: int | None, seed: int) -> Points:
@@ -91,7 +93,9 @@ def _counted(design: str, factors: tuple[Factor, ...], n: int | None, seed: int)
         "morris": designs.morris,
     }[design]
     array = make(n, len(factors), rng)
-    values = tuple(tuple(f.at(share) for f, share in zip(factors, row)) for row in array.tolist())
+    values = tuple(
+        tuple(f.at_even(s) if design == "morris" else f.at(s) for f, s in zip(factors, row)) for row in array.tolist()
+    )
     return Points(design, factors, array, values, tuple(_of_powers(design, n)))
 
 

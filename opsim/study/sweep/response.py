@@ -15,7 +15,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from opsim.study.interval import CONFIDENCE
-from opsim.study.sweep.fit_errors import lack_of_fit, leaves_one_out, press_of, pure_error, residuals, t_of
+from opsim.study.sweep.fit_errors import (
+    lack_of_fit,
+    leaves_one_out,
+    misfit,
+    press_of,
+    pure_error,
+    residuals,
+    t_of,
+)
 from opsim.study.sweep.terms import Part, Room, columns, offers
 
 TRUSTED_R2, SHARP = 0.8, 2.0
@@ -40,9 +48,11 @@ class Response:
     coefficients    : (C,); per_replication (C, n), empty where there is one replication only
     half_widths     : (C,) of their 95 % intervals
     loo_rmse        : root mean square by which a point is missed by the fit without it (leave one out)
-    noise           : standard error of a point's mean, apart from luck common to all points (nan where n is 1)
+    noise           : standard error of a point's mean by luck that no fit of a replication takes up (nan where n is 1)
     r2, r2_predicted: share of the points' variation that the fit explains; the same for points left out
     lack_of_fit_p   : of the F test against pure error: below 0.05, noise alone does not explain the misses
+    misfit          : variance by which the truth at a point lies beside the best fit of this kind
+    inverse         : (C, C) inverse of the normal matrix X'X
     """
 
     room: Room
@@ -57,6 +67,8 @@ class Response:
     r2: float
     r2_predicted: float
     lack_of_fit_p: float
+    misfit: float
+    inverse: np.ndarray
 
     @property
     def spare(self) -> int:
@@ -90,6 +102,11 @@ class Response:
             return 0.0
         n = self.per_replication.shape[1]
         return float(t_of(n - 1) * (row @ self.per_replication).std(ddof=1) / np.sqrt(n))
+
+    def misfit_of(self, row: np.ndarray, points: int) -> float:
+        """Standard error that the misfit gives a sum of coefficients which stands for so many points of the truth: by
+        the coefficients, and by the points' own distance from the best fit."""
+        return float(np.sqrt(self.misfit * (row @ self.inverse @ row + points)))
 
     def _inside(self, points: np.ndarray | Sequence[Sequence[float]]) -> np.ndarray:
         found = np.asarray(points, dtype=float)
@@ -156,11 +173,11 @@ def _fitted(room: Room, kind: str, terms: list[tuple[Part, ...]], design: np.nda
     each = np.linalg.lstsq(design, y, rcond=None)[0]
     misses, around = residuals(design, means), means - means.mean()
     total, press = float(around @ around), press_of(design, means)
-    spare = len(means) - len(terms)
+    spare, inverse = len(means) - len(terms), np.linalg.inv(design.T @ design)
     if n > 1:
         halves = t_of(n - 1) * each.std(axis=1, ddof=1) / np.sqrt(n)
     else:
-        spread = np.diag(np.linalg.inv(design.T @ design)) * float(misses @ misses) / spare
+        spread = np.diag(inverse) * float(misses @ misses) / spare
         halves = t_of(spare) * np.sqrt(spread)
     flat = total <= (1e-12 * np.abs(means).max(initial=0)) ** 2 * len(means)
     return Response(
@@ -172,8 +189,10 @@ def _fitted(room: Room, kind: str, terms: list[tuple[Part, ...]], design: np.nda
         half_widths=halves,
         n_points=len(means),
         loo_rmse=float(np.sqrt(press / len(means))),
-        noise=float(np.sqrt(pure_error(y) / n)),
+        noise=float(np.sqrt(pure_error(design, y) / n)),
         r2=1.0 if flat else 1 - float(misses @ misses) / total,
         r2_predicted=1.0 if flat else 1 - press / total,
-        lack_of_fit_p=lack_of_fit(misses, y, spare),
+        lack_of_fit_p=lack_of_fit(design, y),
+        misfit=misfit(design, y),
+        inverse=inverse,
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from opsim.streams import stream
 from opsim.study.interval import CONFIDENCE
-from opsim.study.sweep.designs import MORRIS_LEVELS, _room, _salib
+from opsim.study.sweep.designs import MORRIS_LEVELS, MORRIS_STEP, _room, _salib
 
 RESAMPLES = 500
 """Of the bootstrap behind the intervals."""
@@ -52,9 +52,15 @@ def sobol_indices(values: Sequence[float] | np.ndarray, factors: int, seed: int 
 
 
 def morris_effects(
-    design: np.ndarray, values: Sequence[float] | np.ndarray, factors: int, seed: int = 0
+    design: np.ndarray,
+    values: Sequence[float] | np.ndarray,
+    factors: int,
+    seed: int = 0,
+    moved: Sequence[float] | None = None,
 ) -> list[Sensitivity]:
     """Elementary effects from the values at the points of ``morris``, in their order: per whole range of a factor.
+
+    moved : (F,) by which share of its range a factor really moves at a step; by default by that of the design
 
     Source: Morris 1991; Campolongo, Cariboni & Saltelli 2007 (mu*); computed by SALib.
     """
@@ -70,7 +76,8 @@ def morris_effects(
         seed=_seed(seed),
     )
     n = y.size // (factors + 1)
-    columns = (np.asarray(found[key], dtype=float) for key in ("mu", "mu_star", "mu_star_conf", "sigma"))
+    whole = np.ones(factors) if moved is None else MORRIS_STEP / np.asarray(moved, dtype=float)
+    columns = (np.asarray(found[key], dtype=float) * whole for key in ("mu", "mu_star", "mu_star_conf", "sigma"))
     return [
         Sensitivity(
             float(mu), float("nan") if n < 2 else float(1.96 * sd / np.sqrt(n)), float(star), float(half), float(sd)

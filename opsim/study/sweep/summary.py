@@ -23,7 +23,7 @@ def summary_of(points: Points, found: Sequence[Found], replications: int) -> dic
             for values in points.values
         ],
         "figures": [_figure(one) for one in found],
-        "words": list(points.words),
+        "words": [*points.words, *points.warned],
     }
 
 

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from opsim.report.study_page import study_html
+from opsim.report.sweep_fit_words import fit_sentences
 from opsim.report.sweep_map import colour
+from opsim.report.sweep_notes import beside_answer
 from opsim.report.sweep_page import MOST_ROWS, sweep_page
 from opsim.report.sweep_tornado import tornado_svg
-from opsim.report.sweep_words import fit_sentences, sentences_of
+from opsim.report.sweep_words import sentences_of
 from opsim.scenario.schema.studies.sweep import Sweep
 from opsim.study.sweep.found import found_of
 from opsim.study.sweep.points import points_of
@@ -90,3 +92,55 @@ def test_a_study_with_a_point_without_value_still_stands():
     values[0] = np.nan
     page = sweep_page("Line", points, [found_of(KEY, "more", points, values, 3)], 4, 3)
     assert "nan" not in study_html(page).replace("tornado", "")
+
+
+def test_a_factor_of_one_value_is_said_to_be_not_varied_and_not_to_matter_little():
+    points, found = made(lambda every, buffer: every, vary={**VARY, "stations.<b>.buffer": [2]})
+    page = sweep_page("Line", points, [found], 6, 3)
+    assert "stations.<b>.buffer has one value, so it was not varied." in page.answer
+    assert not any("matter" in sentence for sentence in page.answer) and len(page.sections[0].table.rows) == 1
+
+
+def test_the_best_is_said_to_be_picked_and_of_two_points_to_be_ahead_of_the_other():
+    points = points_of(Sweep.model_validate({"vary": {"stations.a.buffer": [1, 2]}}), 3)
+    values = points.numbers() + np.random.default_rng(0).normal(0, 0.1, (2, 6))
+    found = found_of(KEY, "more", points, values, 3)
+    said = sentences_of(found, points)
+    assert said[1].endswith("ahead of the other (picked, so likely flattered; 'opsim select' looks again).")
+    assert sentences_of(found, points, first=False)[1].endswith("(picked, so likely flattered).")
+
+
+def test_an_effect_by_a_fit_that_is_not_to_be_trusted_is_not_told():
+    vary = {**VARY, "release.every": {"from": "40 s", "to": "60 s"}}
+    points, found = made(lambda every, buffer: 9 * np.sin(every), vary=vary, points=20)
+    page = sweep_page("Line", points, [found], 6, 3)
+    assert "the fitted response is not to be trusted, so what each factor does is not told" in page.answer[0]
+    assert {row[-1] for row in page.sections[0].table.rows} == {"fit not trusted"}
+
+
+def test_a_fit_that_is_a_little_off_names_its_own_shape():
+    vary = {"stations.a.buffer": list(range(12))}
+    points = points_of(Sweep.model_validate({"vary": vary}), 3)
+    x = points.numbers()[:, 0]
+    values = (10 * x + 2 * (-1) ** x)[:, None] + np.random.default_rng(1).normal(0, 0.1, (12, 6))
+    found = found_of(KEY, "more", points, values, 3)
+    assert found.response.kind == "linear" and "is a little other than straight lines." in fit_sentences(found)[1]
+
+
+def test_figures_per_scheduled_hour_are_not_compared_silently_where_shifts_are_varied():
+    points = points_of(Sweep.model_validate({"vary": {"shifts.early.from": ["6:00", "7:00"]}}), 3)
+    found = found_of(KEY, "more", points, np.random.default_rng(0).normal(5, 1, (2, 4)), 3)
+    assert any("points with other hours are not comparable" in said for said in beside_answer(points, [found]))
+
+
+def test_points_that_a_design_does_not_use_are_said_beside_the_answer():
+    points, found = made(lambda every, buffer: every, design="grid", points=50)
+    assert any("'points: 50' is not used" in said for said in sweep_page("Line", points, [found], 6, 3).answer)
+
+
+def test_missing_values_say_how_many_replications_were_compared():
+    points = points_of(Sweep.model_validate({"vary": VARY}), 3)
+    values = np.random.default_rng(0).normal(5, 1, (9, 6))
+    values[2, :4] = np.nan
+    said = sentences_of(found_of(KEY, "more", points, values, 3), points)
+    assert "(values are missing: compared in 2 or more of 6 replications)" in said[-1]

@@ -30,9 +30,12 @@ class Range(Block):
 
 def _refuse_twice(values: list[Any]) -> None:
     """A value that stands twice would count for two."""
+    seen: set[str] = set()
     for number, value in enumerate(values):
-        if any(type(one) is type(value) and one == value for one in values[:number]):
+        written = repr(value)
+        if written in seen:
             raise plain_error(f"{shown(value)} stands twice among the values", "give each value once", on=number)
+        seen.add(written)
 
 
 def _list_or_range(value: object) -> object:

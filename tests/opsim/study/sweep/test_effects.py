@@ -50,3 +50,19 @@ def test_main_effects_are_means_over_all_combinations_of_the_others():
 def test_what_is_the_same_everywhere_is_no_effect():
     one = swing("x", {"a": [1.0, 2.0], "b": [1.0, 2.0]}, [1.0, 2.0])
     assert one.nothing and not one.clear
+
+
+def test_one_of_ten_factors_that_do_nothing_is_called_clear_in_at_most_one_of_twenty_sweeps():
+    rng, sweeps = np.random.default_rng(7), 150
+    factors = [f"x{k}" for k in range(10)]
+    clear = [
+        any(one.clear for one in tornado(rng.normal(0, 1, 6), {name: {"end": rng.normal(0, 1, 6)} for name in factors}))
+        for _ in range(sweeps)
+    ]
+    assert np.mean(clear) < 0.05 + 3 * np.sqrt(0.05 * 0.95 / sweeps)
+
+
+def test_a_factor_of_one_value_is_no_effect_but_left_out():
+    values = np.random.default_rng(0).normal(0, 1, (3, 4))
+    found = main_effects(grid([1, 3]), values, ["a", "b"], [["1"], ["1", "2", "3"]])
+    assert [one.name for one in found] == ["b"]

@@ -42,8 +42,8 @@ def test_numbers_that_are_no_power_of_two_are_said():
 
 
 def test_points_that_a_design_does_not_use_are_said():
-    assert points(design="one_at_a_time", points=50).words == (
-        "The design one_at_a_time makes its own points: 50 is not used.",
+    assert points(design="one_at_a_time", points=50).warned == (
+        "The points of the design one_at_a_time follow from its factors: 'points: 50' is not used.",
     )
 
 

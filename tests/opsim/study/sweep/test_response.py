@@ -121,3 +121,25 @@ def test_nothing_is_foretold_outside_of_what_was_looked_at():
 def test_a_flat_figure_is_fitted_without_fear():
     fit = fit_response(THREE, np.full((9, 4), 3.0))
     assert fit.r2_predicted == 1 and fit.lack_of_fit_p == 1 and fit.trusted
+
+
+@pytest.mark.parametrize("bend, least, most", [(0.0, 0.02, 0.09), (0.3, 1.0, 1.0)])
+def test_lack_of_fit_keeps_its_level_and_its_power_where_luck_tilts_the_line(bend, least, most):
+    """Common random numbers: slopes vary from replication to replication, 20 times as much as a point by itself."""
+    rng, found = np.random.default_rng(4), []
+    x = rng.uniform(-1, 1, (20, 2))
+    for _ in range(300):
+        y = 10 + (3 + rng.normal(0, 1, (1, 5))) * x[:, :1] + bend * x[:, :1] ** 2 + rng.normal(0, 0.05, (20, 5))
+        found.append(fit_response(x, y, kind="linear"))
+    assert least <= np.mean([fit.lack_of_fit_p < 0.05 for fit in found]) <= most
+    assert np.mean([fit.noise**2 for fit in found]) == pytest.approx(0.05**2 / 5, rel=0.05)
+
+
+def test_the_misfit_is_what_the_misses_have_beyond_luck():
+    """A saw tooth of 0.5 about a line: its variance, whatever the luck."""
+    rng = np.random.default_rng(5)
+    x = np.linspace(-1, 1, 40)[:, None]
+    tooth = 0.5 * (-1.0) ** np.arange(40)[:, None]
+    found = [fit_response(x, 2 * x + tooth + rng.normal(0, 1, (40, 8)), kind="linear").misfit for _ in range(100)]
+    straight = [fit_response(x, 2 * x + rng.normal(0, 1, (40, 8)), kind="linear").misfit for _ in range(100)]
+    assert np.mean(found) == pytest.approx(0.25, rel=0.1) and np.mean(straight) < 0.02

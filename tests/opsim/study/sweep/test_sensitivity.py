@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
+from opsim.scenario.schema.studies.sweep import Sweep
+from opsim.study.interval import t_interval
 from opsim.study.sweep.designs import morris, saltelli
+from opsim.study.sweep.found import _sensitivity
+from opsim.study.sweep.points import points_of
 from opsim.study.sweep.sensitivity import morris_effects, sobol_indices
 
 ALONE, TOTAL = (0.3139, 0.4424, 0.0), (0.5576, 0.4424, 0.2437)
@@ -38,3 +42,20 @@ def test_effects_of_a_straight_line_are_its_slopes_and_do_not_spread(rng):
     assert [one.alone for one in found] == pytest.approx([3, -2, 0])
     assert [one.total for one in found] == pytest.approx([3, 2, 0])
     assert max(one.spread for one in found) < 1e-12
+
+
+@pytest.mark.parametrize("values", [2, 3, 4, 5, 6, 9])
+def test_a_step_of_a_list_or_of_whole_numbers_moves_it_evenly_and_tells_its_whole_range(values, rng):
+    vary = {"stations.a.buffer": list(range(values)), "stations.b.buffer": {"from": 1, "to": values}}
+    points = points_of(Sweep.model_validate({"vary": vary, "design": "morris", "points": 6}), 3)
+    figure = points.numbers() @ [1.0, -1.0] / (values - 1)
+    means = [t_interval([one]) for one in figure]
+    found = _sensitivity(points, means, 3)
+    assert [one.alone for one in found] == pytest.approx([1, -1]) and max(one.spread for one in found) < 1e-9
+
+
+def test_values_without_order_tell_the_change_from_one_to_another():
+    vary = {"run.variability": ["full", "times only", "none"], "stations.b.buffer": [1, 2]}
+    points = points_of(Sweep.model_validate({"vary": vary, "design": "morris", "points": 6}), 3)
+    means = [t_interval([one]) for one in points.numbers()[:, 0]]
+    assert [one.total for one in _sensitivity(points, means, 3)] == pytest.approx([1, 0])
