@@ -29,10 +29,11 @@ def labour_page(found: Any, title: str) -> StudyPage:
 
 
 def _variance(found: Any) -> list[Section]:
+    """Of the page: the screen has it in the first sentence."""
     parts = next(iter(found.parts.values()))
     first = _only(found, 1)
     return [
-        Section("What moves the output", table=variance_table(first), on_screen=True),
+        Section("What moves the output", table=variance_table(first)),
         Section(
             "Of the variance, how much is whose",
             picture=parts_svg(found.parts),

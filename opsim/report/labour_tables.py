@@ -76,12 +76,17 @@ def off_table(found: Any) -> Table:
 
 
 def bought_table(found: Any, most: int | None = None) -> Table:
-    """By way and step: gained, share of the loss, and what is left or missing."""
+    """By way and step: gained, share of the loss, and what is left or missing.
+
+    Where the loss cannot be told from nothing there is no share of it, and nothing is enough or not.
+    """
+    loss = found.bought.loss
+    sure = loss.low > 0
     columns = ("bought back by", "more", "gained an hour", "of the loss", "beyond the loss", "enough")
     rows = []
     for curve in found.bought.curves[:most]:
         for step in curve.steps:
-            share = 100 * step.gained.mean / found.bought.loss.mean if found.bought.loss.mean > 0 else math.nan
+            share = 100 * step.gained.mean / loss.mean if sure else math.nan
             words = "yes" if step.surely else "perhaps" if step.enough else "no"
             rows.append(
                 (
@@ -93,7 +98,7 @@ def bought_table(found: Any, most: int | None = None) -> Table:
                     words,
                 )
             )
-    return Table(columns, rows, 1)
+    return Table(columns, rows, 1) if sure else Table(columns[:-1], [row[:-1] for row in rows], 1)
 
 
 def day_table(found: Any) -> Table:

@@ -7,7 +7,7 @@ from typing import Any
 
 from opsim.kpi.target import Target
 from opsim.report.labour_numbers import capital, count_words, of_mean, per_cent, plus_minus, share_words, span
-from opsim.report.words import digits, scale_of
+from opsim.report.words import digits, is_number, scale_of
 
 PARTS = {
     "staffing": "who is hired",
@@ -18,8 +18,9 @@ PARTS = {
 
 
 def answer(found: Any) -> list[str]:
-    """The answer in at most seven sentences."""
-    return [_who_or_when(found), *_loss(found), *_bought(found), *_target(found), _days(found)]
+    """The answer in at most eight sentences."""
+    warning = [found.warning] if found.warning else []
+    return [_who_or_when(found), *_loss(found), *_bought(found), *_target(found), _days(found), *warning]
 
 
 def _who_or_when(found: Any) -> str:
@@ -31,9 +32,12 @@ def _who_or_when(found: Any) -> str:
             f"the luck of the day (SD), and by at most {of_mean(staffing.high_sd, parts.mean)} with the people."
         )
     of = 100 / parts.mean if parts.mean else 0.0
+    share = parts.share("staffing")
+    of_variance = f"; {share_words(share)} of the variance" if is_number(share) else ""
     return (
         f"Who is hired moves the output by {of_mean(staffing.sd, parts.mean)} (SD; "
-        f"{span(of * staffing.low_sd, of * staffing.high_sd)} %), the luck of the day by {of_mean(run.sd, parts.mean)}."
+        f"{span(of * staffing.low_sd, of * staffing.high_sd)} %{of_variance}), the luck of the day by "
+        f"{of_mean(run.sd, parts.mean)}."
     )
 
 
@@ -83,7 +87,7 @@ def _falls_short(curve: Any, loss: float) -> str:
 
 
 def _to_be_sure(curve: Any) -> str:
-    """How many it takes until the interval is beyond the loss too."""
+    """How many it takes until the interval is beyond the loss too, with all steps held together."""
     sure = next((step for step in curve.steps if step.surely), None)
     if sure is curve.first:
         return ""
@@ -136,7 +140,16 @@ def day_unit(day: Any) -> str:
 
 def bought_reading(found: Any) -> list[str]:
     """What was tried, and what was not."""
-    said = ["'Enough' is 'yes' where the interval lies beyond the loss, 'perhaps' where only the mean does."]
+    tried = sum(len(curve.steps) for curve in found.bought.curves)
+    said = ["± is the 95 % interval of each number by itself."]
+    if found.bought.loss.low > 0:
+        said.append(
+            "'Enough' is 'yes' where the interval lies beyond the loss with all steps that were tried "
+            f"({tried}) held together (Bonferroni), since the best of many is partly lucky; 'perhaps' where only the "
+            "mean does."
+        )
+    else:
+        said.append("The loss cannot be told from nothing, so no share of it and no 'enough' is told.")
     if any(curve.kind == "skills" for curve in found.bought.curves):
         said.append(
             "A chain: each in turn learns the next station of the flow, in the order of the line. He works there at "
@@ -162,5 +175,7 @@ def reading(found: Any) -> list[str]:
         "Each number of the budget is with the source off minus as it is, of the same people on the same days; the "
         "parts and what they do to each other add up to all of them. Intervals are for other people and other days.",
         "The chance of a target has Clopper and Pearson's interval for so many independent days as the runs count for: "
-        f"runs of one workforce, or of one day, go together (here {values} runs count for {found.day.counts_as:.0f}).",
+        f"runs of one workforce, or of one day, go together (here {values} runs count for {found.day.counts_as:.0f}). "
+        "That is the least by the figure, by its rank, and by whether it meets the target.",
+        *([found.warning] if found.warning else []),
     ]

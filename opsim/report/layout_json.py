@@ -18,6 +18,8 @@ def summary(found: LayoutFound) -> dict[str, Any]:
         "best": found.asked.best.name,
         "exposure": None if found.asked.exposure is None else found.asked.exposure.name,
         "taken": None if found.taken is None else found.taken.name,
+        "gains": found.gains,
+        "losses": found.losses,
         "alike": list(found.alike),
         "fresh": {name: _numbers(one) for name, one in found.fresh.items()},
         "layouts": [_as_json(found, one) for one in found.candidates],

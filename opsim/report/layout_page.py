@@ -11,13 +11,14 @@ from opsim.report.layout_picture import Drawing, Line, layout_pictures
 from opsim.report.layout_words import answer, figure_unit
 from opsim.report.study_page import Section, StudyPage, Table
 from opsim.report.words import ABSENT, digits, half_digits, is_number, kpi_name, scale_of
+from opsim.study.layout.choose import known_mean
 from opsim.study.layout.flows import Flow, Flows
 from opsim.study.layout.judge import BEST, EXPOSURE, WALKED, Against
 from opsim.study.layout.moves import Candidate, override_text
 from opsim.study.layout.study import LayoutFound
 from opsim.study.layout.words import moved_stations, said
 
-ON_SCREEN = 4
+ON_SCREEN = 3
 MOST_LINES = 60
 """Lines drawn: what is thinner would not be seen."""
 
@@ -114,13 +115,17 @@ def _row(found: LayoutFound, one: Candidate | None) -> list[str]:
     figures = [(BEST, found.asked.best), *([(EXPOSURE, found.asked.exposure)] if found.asked.exposure else [])]
     factors = [(measure, scale_of(figure_unit(asked.kpi), None)[0]) for measure, asked in figures]
     if one is None:
-        present = [digits(float(found.now[measure].mean()) * factor) for measure, factor in factors]
-        return ["now", "", f"{found.now[WALKED].mean():,.0f}", "", *present]
+        present = [digits(known_mean(found.now[measure]) * factor) for measure, factor in factors]
+        return ["now", "", _whole_metres(known_mean(found.now[WALKED])), "", *present]
     of, what = found.compared[one.name], said(found.asked.floor.at, one, brief=True)
-    name = f"{one.name} (taken)" if one is found.taken else one.name
+    name = one.name if one is not found.taken else f"{one.name} ({'taken' if found.gains else 'best found'})"
     changes = [_change(of[measure], factor) for measure, factor in factors]
-    walked = f"{of[WALKED].then.mean:,.0f}"
+    walked = _whole_metres(of[WALKED].then.mean)
     return [name, "" if what == one.name else what, walked, _relative(of[WALKED]), *changes]
+
+
+def _whole_metres(metres: float) -> str:
+    return f"{metres:,.0f}" if is_number(metres) else ABSENT
 
 
 def _relative(one: Against) -> str:
@@ -152,7 +157,9 @@ def _unclear(one: Against) -> str:
 
 def _override(found: LayoutFound) -> Iterator[Section]:
     if found.taken is not None:
-        yield Section("To paste into the scenario", code=override_text([found.taken]), on_screen=True)
+        gained = bool(found.gains)
+        title = "To paste into the scenario" if gained else "The best layout found, to paste: it shows no clear gain"
+        yield Section(title, code=override_text([found.taken]), on_screen=gained)
     others = [one for one in found.candidates if one is not found.taken]
     if others:
         yield Section("The other layouts, to paste", code=override_text(others))
@@ -161,12 +168,10 @@ def _override(found: LayoutFound) -> Iterator[Section]:
 def _flows(found: LayoutFound) -> Iterator[Section]:
     flows = found.flows.largest_first()
     total = found.flows.walked_m_per_h
-    title = f"Flows now: {_km(total)} walked an hour by all people together"
+    title = f"Flows now: {_km(total)} walked an hour by all together"
     shown = Table(_FLOW_COLUMNS, [_flow_row(found, flow, total) for flow in flows[:ON_SCREEN]], words=2)
-    left = sum(flow.metres_per_h for flow in flows[ON_SCREEN:])
-    sentence = f"{len(flows) - ON_SCREEN} more ways: {100 * left / total:.0f} % of the metres; all are on the page."
     if len(flows) > ON_SCREEN:
-        yield Section(f"{title} (the {ON_SCREEN} largest)", [sentence], shown, on_screen=True)
+        yield Section(f"{title} ({ON_SCREEN} of {len(flows)} ways)", table=shown, on_screen=True)
         yield Section("All flows now", table=Table(_FLOW_COLUMNS, [_flow_row(found, f, total) for f in flows], words=2))
     else:
         yield Section(title, table=shown, on_screen=True)
@@ -208,7 +213,8 @@ def _words(found: LayoutFound) -> Iterator[str]:
     )
     yield (
         f"Taken is, of the layouts that no test tells from the best by {kpi_name(found.asked.best.kpi).lower()} "
-        "(paired, all together, Holm 1979), the one with the least walking."
+        "(paired, all together, Holm 1979), the one with the least walking. Those clearly worse than the present one "
+        "are left out."
     )
     yield "Mirror images of a layout, with the same distances between all stations, are one proposal."
     yield "A station takes along its buffer; stores, belts, vehicles' stands and people's homes stay where they are."

@@ -6,12 +6,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from opsim.report.words import digits, half_digits, is_number, kpi_name, listing, scale_of
+from opsim.study.layout.choose import gains
 from opsim.study.layout.judge import BEST, EACH, EXPOSURE, EXPOSURE_EACH, SHARE, WALKED, Against
 from opsim.study.layout.study import NOW, LayoutFound
 from opsim.study.layout.words import moved_stations, said
 
 SHIFT_H = 8.0
 NO_DIFFERENCE = "no clear difference"
+SAME = 0.02
+"""Of the output: a difference that is surely less than this share is told as none."""
 
 
 def answer(found: LayoutFound) -> list[str]:
@@ -72,18 +75,17 @@ def _headline(found: LayoutFound) -> Iterator[str]:
         if not found.candidates:
             yield "No layout of these places is shorter for today's trips: leave it as it is."
             return
-        yield (
-            f"Leave it as it is: simulated, none of these {len(found.candidates)} layouts is clearly better by "
-            f"{_figure(found)} or as good with less walking."
-        )
+        n = len(found.candidates)
+        none = "the other layout is not" if n == 1 else f"none of these {n} layouts is"
+        yield f"Leave it as it is: simulated, {none} clearly better by {_figure(found)} or as good with less walking."
         return
     of, do = found.fresh, said(found.asked.floor.at, taken)
-    parts = [walking(of[WALKED]) + _saved(of[WALKED]), best(found, of[BEST]), exposure(found, of)]
+    bodies = exposure(found, of)
     first = f"{do[0].upper()}{do[1:]}" if taken.proposed else f"{taken.name} ({do})" if do != taken.name else do
-    if not (of[WALKED].clear or of[BEST].clear):
+    if not found.gains:
         yield "Leave it as it is: on fresh random numbers the best layout found shows no clear gain."
         first = f"That was to {do}" if taken.proposed else f"That was {first}"
-    yield f"{first}: {', '.join(filter(None, parts[:2]))}{'; ' if parts[2] else ''}{parts[2]}."
+    yield f"{first}: {_changes(found)}{'; ' if bodies else ''}{bodies}."
     each, share = of[EACH], of[SHARE]
     yield (
         f"That is {digits(each.then.mean, each.difference.half_width)} m walked a part in place of "
@@ -96,28 +98,40 @@ def _headline(found: LayoutFound) -> Iterator[str]:
     )
 
 
+def _changes(found: LayoutFound) -> str:
+    """Walking and output; where one is better and the other worse, the good one first and a ``but`` between them."""
+    of = found.fresh
+    told = {WALKED: walking(of[WALKED]) + _saved(of[WALKED]), BEST: best(found, of[BEST])}
+    good, bad = found.gains, found.losses
+    if good and bad:
+        return f"{told[good[0]]}, but {told[bad[0]]}"
+    return ", ".join(filter(None, told.values()))
+
+
 def _saved(one: Against) -> str:
-    """The metres of a shift."""
+    """The metres of a shift, of all people together."""
     if not one.clear:
         return ""
     metres, half_m = abs(one.difference.mean) * SHIFT_H, one.difference.half_width * SHIFT_H
     factor, unit = scale_of("m", metres)
-    return f" ({digits(metres * factor, half_m * factor or 0.01 * metres)} {unit} {_way(one)} in {SHIFT_H:.0f} hours)"
+    text = f"{digits(metres * factor, half_m * factor or 0.01 * metres)} {unit} {_way(one)}"
+    return f" ({text} in {SHIFT_H:.0f} hours by all together)"
 
 
 def _by_few(found: LayoutFound) -> Iterator[str]:
     """What can be had by moving fewer stations than the one taken does."""
-    if found.taken is None:
+    if found.taken is None or not found.gains:
         return
     at = found.asked.floor.at
     of_taken = len(moved_stations(at, found.taken))
     fewer = [one for one in found.candidates if one.proposed and 0 < len(moved_stations(at, one)) < of_taken - 1]
+    good = [one for one in fewer if gains(found.compared[one.name], found.asked.best)]
     few = []
-    for one in sorted(fewer, key=lambda one: len(moved_stations(at, one)))[:2]:
+    for one in sorted(good, key=lambda one: len(moved_stations(at, one)))[:2]:
         of = found.compared[one.name]
         few.append(f"{said(at, one)}: {', '.join(filter(None, (walking(of[WALKED]), best(found, of[BEST]))))}")
     if few:
-        yield f"If less may be moved, {'; '.join(few)}."
+        yield f"If less may be moved (from the replications of the choice, not the fresh ones), {'; '.join(few)}."
 
 
 def _alike(found: LayoutFound) -> Iterator[str]:
@@ -130,8 +144,13 @@ def _alike(found: LayoutFound) -> Iterator[str]:
 
 def _caution(found: LayoutFound) -> Iterator[str]:
     one = found.fresh.get(BEST)
-    if one is not None and not one.clear and found.asked.best.kpi == "throughput_per_h" and found.fresh[WALKED].clear:
-        yield "What is saved is walking: the output is limited by something else, such as what comes in."
+    if one is None or found.asked.best.kpi != "throughput_per_h":
+        return
+    if found.fresh[WALKED].less and not one.clear and one.within(SAME):
+        yield (
+            f"What is saved is walking: the output stays the same within {100 * SAME:.0f} %, so it is limited by "
+            "something else, such as what comes in."
+        )
 
 
 def _percent(one: Against, *, plain: bool = False) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 
 from opsim.results import Key
 from opsim.study.compare import ROUNDING
-from opsim.study.interval import Interval
+from opsim.study.interval import CONFIDENCE, Interval
 from opsim.study.labour.parts import CROSSED
 from opsim.study.labour.squares import mean_interval
 
@@ -59,15 +59,17 @@ def figure_budget(
     )
 
 
-def difference_interval(apart_by: np.ndarray, of: np.ndarray, crossed: bool) -> Interval:
+def difference_interval(
+    apart_by: np.ndarray, of: np.ndarray, crossed: bool, confidence: float = CONFIDENCE
+) -> Interval:
     """Of a table of paired differences; what is only the order in which numbers were added is 0."""
     if np.abs(apart_by).max(initial=0) <= ROUNDING * np.abs(of).max(initial=0):
         apart_by = np.zeros_like(apart_by)
-    return table_interval(apart_by, crossed)
+    return table_interval(apart_by, crossed, confidence)
 
 
-def table_interval(table: np.ndarray, crossed: bool) -> Interval:
+def table_interval(table: np.ndarray, crossed: bool, confidence: float = CONFIDENCE) -> Interval:
     """``mean_interval``, or nan where something is missing: a table with holes is told as not known."""
     if not np.isfinite(table).all():
         return Interval(np.nan, np.nan, np.nan, int(np.count_nonzero(np.isfinite(table))))
-    return mean_interval(table, crossed)
+    return mean_interval(table, crossed, confidence)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.study.interval import Interval
+from opsim.study.interval import CONFIDENCE, Interval
 from opsim.study.labour.budget import difference_interval, table_interval
 from opsim.study.labour.parts import CROSSED
 
@@ -17,11 +17,14 @@ class Step:
     """So many more: what that gains, and what is then left over (more than 0) or missing, in pairs.
 
     gained : against the people as they are; beyond : against the same people without differences between them
+    sure   : the interval of ``beyond`` with all steps of all ways held together (Bonferroni), since the best of many
+             steps is partly lucky; None where this is the only one
     """
 
     count: int
     gained: Interval
     beyond: Interval
+    sure: Interval | None = None
 
     @property
     def enough(self) -> bool:
@@ -30,8 +33,8 @@ class Step:
 
     @property
     def surely(self) -> bool:
-        """Whether the interval does."""
-        return self.beyond.low >= 0
+        """Whether the interval does, with all steps that were tried held together."""
+        return (self.sure or self.beyond).low >= 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,11 +78,20 @@ def curve_of(
     full: np.ndarray,
     equal: np.ndarray,
     design: str = CROSSED,
+    tried: int | None = None,
 ) -> Curve:
-    """steps : (how many more, (W, R) rates); full, equal : rates as they are, and without differences of people."""
-    crossed = design == CROSSED
+    """steps : (how many more, (W, R) rates); full, equal : rates as they are, and without differences of people.
+
+    tried : steps of all ways, held together; by default those of this one
+    """
+    crossed, together = design == CROSSED, 1 - (1 - CONFIDENCE) / (tried or len(steps))
     made = (
-        Step(n, difference_interval(table - full, full, crossed), difference_interval(table - equal, full, crossed))
+        Step(
+            n,
+            difference_interval(table - full, full, crossed),
+            difference_interval(table - equal, full, crossed),
+            difference_interval(table - equal, full, crossed, together),
+        )
         for n, table in steps
     )
     return Curve(name, kind, tuple(made))

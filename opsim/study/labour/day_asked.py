@@ -43,7 +43,7 @@ class DayAsked:
 class DayFound:
     """values : (W, R) of the figure, in units of a day or its own; quantiles P5, P50, P95; chance of the target
 
-    counts_as : so many independent values say as much
+    counts_as : so many independent values say as much, of the chance where there is one
     """
 
     asked: DayAsked
@@ -88,4 +88,5 @@ def day_found(asked: DayAsked, key: Key, rates: np.ndarray, design: str) -> DayF
         bound = asked.target.bound
         found = chance(values, values >= bound if asked.target.at_least else values <= bound, design)
     quantiles = tuple(quantile(values, q, design) for q in QUANTILES)
-    return DayFound(asked, key, values, quantiles, found, counts_as(values, design))
+    n = counts_as(values, design) if found is None else found.counts_as
+    return DayFound(asked, key, values, quantiles, found, n)

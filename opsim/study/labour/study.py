@@ -19,7 +19,7 @@ from opsim.study.labour.candidates import Candidate, more_skills, more_workers
 from opsim.study.labour.day_asked import DayAsked, DayFound, day_asked, day_found
 from opsim.study.labour.parts import VarianceParts, variance_parts
 from opsim.study.labour.points import Points, points_of
-from opsim.study.labour.refused import refuse_nothing
+from opsim.study.labour.refused import refuse_nothing, too_few_days
 from opsim.study.labour.sources import VariabilitySource, sources_on
 from opsim.study.labour.tables import THROUGHPUT, Tables, figures_of
 
@@ -28,7 +28,7 @@ from opsim.study.labour.tables import THROUGHPUT, Tables, figures_of
 class LabourFound:
     """What a labour study found; ``parts`` by figure, throughput first; budget and bought are empty where not asked.
 
-    words : what was left out, and why
+    words : what was left out, and why; warning : why intervals are not to be trusted, "" where they are
     """
 
     design: str
@@ -40,6 +40,7 @@ class LabourFound:
     budget: tuple[FigureBudget, ...]
     bought: BoughtBack | None
     words: tuple[str, ...]
+    warning: str = ""
 
 
 def labour(block: Any, loaded: Loaded, plan: Plan, variant: str | None, answers: Answers) -> LabourFound:
@@ -67,6 +68,7 @@ def labour(block: Any, loaded: Loaded, plan: Plan, variant: str | None, answers:
         tuple(_budget(key, points, tables, block.design) for key in keys) if block.budget else (),
         _bought(points, tables, block.design),
         (*not_tried, *not_told),
+        too_few_days(block.design, block.replications),
     )
 
 
@@ -115,10 +117,11 @@ def _bought(points: Points, tables: Tables, design: str) -> BoughtBack | None:
     if not points.more:
         return None
     full, equal = (tables.of(point, THROUGHPUT) for point in (points.full, points.equal))
+    tried = sum(len(steps) for _, steps in points.more)
     curves = []
     for one, steps in points.more:
         made = [(count, tables.of(point, THROUGHPUT)) for (count, _), point in zip(one.steps, steps)]
-        curves.append(curve_of(one.name, one.kind, made, full, equal, design))
+        curves.append(curve_of(one.name, one.kind, made, full, equal, design, tried))
     return bought_back(full, equal, curves, design)
 
 

@@ -26,6 +26,7 @@ def labour_summary(found: LabourFound) -> dict[str, Any]:
         "budget": [_budget(one) for one in found.budget],
         "bought_back": None if found.bought is None else _bought(found.bought),
         "day": _day(found.day),
+        "warning": found.warning or None,
         "notes": list(found.words),
     }
 
@@ -68,7 +69,13 @@ def _bought(bought: BoughtBack) -> dict[str, Any]:
                 "kind": curve.kind,
                 "first_enough": None if curve.first is None else curve.first.count,
                 "steps": [
-                    {"more": s.count, "gained": _interval(s.gained), "beyond": _interval(s.beyond), "enough": s.enough}
+                    {
+                        "more": s.count,
+                        "gained": _interval(s.gained),
+                        "beyond": _interval(s.beyond),
+                        "enough": s.enough,
+                        "sure": s.surely,
+                    }
                     for s in curve.steps
                 ],
             }

@@ -33,6 +33,21 @@ class Against:
         return bool(self.p_together <= 1 - CONFIDENCE) and self.difference.mean != 0
 
     @property
+    def less(self) -> bool:
+        """Whether it is clearly less than now."""
+        return self.clear and self.difference.mean < 0
+
+    @property
+    def more(self) -> bool:
+        """Whether it is clearly more than now."""
+        return self.clear and self.difference.mean > 0
+
+    def within(self, share: float) -> bool:
+        """Whether the whole interval lies within +- a share of the present mean."""
+        mean, half = self.relative
+        return bool(abs(mean) + half <= share)
+
+    @property
     def identical(self) -> bool:
         """The same in every replication, but for rounding."""
         return self.difference.mean == 0 and self.difference.sd == 0
@@ -90,23 +105,6 @@ def against(
         for name, p in zip(layouts, together):
             found[name][measure] = replace(found[name][measure], p_together=float(p))
     return found
-
-
-def chosen(layouts: Mapping[str, Mapping[str, np.ndarray]], best: Asked) -> tuple[str, list[str]]:
-    """(the layout to take, those that no test tells from the best one): of these, the one with the least walking.
-
-    layouts : with the present one among them
-    """
-    sign = -1.0 if best.better == LESS else 1.0
-    names = list(layouts)
-    means = [sign * float(np.nanmean(layouts[name][BEST])) for name in names]
-    top = names[int(np.argmax(means))]
-    others = [name for name in names if name != top]
-    p = holm([paired(layouts[name][BEST].tolist(), layouts[top][BEST].tolist())[1] for name in others])
-    alike = [top, *(name for name, one in zip(others, p) if not one <= 1 - CONFIDENCE)]
-    if best.kpi == "walked_m":
-        return top, alike
-    return min(alike, key=lambda name: (float(layouts[name][WALKED].mean()), names.index(name))), alike
 
 
 def exposure_asked(outputs: Sequence[str], said: str | None) -> Asked | None:

@@ -14,9 +14,10 @@ from opsim.kpi.values import SECONDS_PER_HOUR
 from opsim.layout import Ways, ways
 from opsim.scenario.varied import Varied
 from opsim.study.jobs import Answers, Job, Point
+from opsim.study.layout.choose import chosen, gains, losses
 from opsim.study.layout.floor import Floor, Movable, NoLayout, floor_of, movable
 from opsim.study.layout.flows import Flows, flows_of
-from opsim.study.layout.judge import Against, against, chosen, exposure_asked, measures
+from opsim.study.layout.judge import Against, against, exposure_asked, measures
 from opsim.study.layout.moves import Candidate, what_ifs
 from opsim.study.layout.proposals import Proposals, proposals
 
@@ -115,6 +116,16 @@ class LayoutFound:
     fresh: Mapping[str, Against]
     flows_then: Flows | None
 
+    @property
+    def gains(self) -> list[str]:
+        """Measures by which the layout taken is clearly better on fresh replications; none: leave it as it is."""
+        return gains(self.fresh, self.asked.best) if self.fresh else []
+
+    @property
+    def losses(self) -> list[str]:
+        """Measures by which it is clearly worse there."""
+        return losses(self.fresh, self.asked.best) if self.fresh else []
+
 
 def asked_of(varied: Varied, loaded: Any, block: Any, variant: str | None, seed: int | None = None) -> LayoutAsked:
     """varied : the variant with its tree; loaded : the same, read. seed : instead of its own"""
@@ -145,7 +156,7 @@ def study_layout(asked: LayoutAsked, answers: Answers) -> LayoutFound:
     answers.ensure([job for one in candidates for job in _jobs(_point(asked, one), numbers)])
     values = {one.name: _measured(asked, answers, _point(asked, one), numbers) for one in candidates}
     now = _measured(asked, answers, base, numbers)
-    name, alike = chosen({NOW: now, **values}, asked.best)
+    name, alike = chosen({NOW: now, **values}, asked.best, NOW)
     taken = next((one for one in candidates if one.name == name), None)
     fresh, then = _again(asked, answers, base, taken)
     compared = against(values, now)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from opsim.names import natural_key
+from opsim.names import enumerated, natural_key
 from opsim.study.layout.moves import Candidate
 
-MOST_SAID = 4
+MOST_SAID, MOVE = 4, "move "
 
 
 def said(before: Mapping[str, str], candidate: Candidate, *, brief: bool = False) -> str:
@@ -21,7 +21,12 @@ def said(before: Mapping[str, str], candidate: Candidate, *, brief: bool = False
         if brief:
             return f"move {len(moved)} stations"
         return f"move {len(moved)} stations ({', '.join(f'{name} to {candidate.at[name]}' for name in moved)})"
-    return " and ".join(steps) if len(steps) < 3 else f"{', '.join(steps[:-1])} and {steps[-1]}"
+    return enumerated([_short(step, before) for before, step in zip(["", *steps], steps)])
+
+
+def _short(step: str, before: str) -> str:
+    """``saw to b4`` after another move: ``move press to a3 and saw to b4``."""
+    return step.removeprefix(MOVE) if before.startswith(MOVE) else step
 
 
 def moved_stations(before: Mapping[str, str], candidate: Candidate) -> list[str]:
@@ -41,7 +46,7 @@ def _steps(before: Mapping[str, str], candidate: Candidate) -> Iterator[str]:
             yield f"swap {name} and {other}"
     for name, place in moved.items():
         if name not in done:
-            yield f"move {name} to {place}"
+            yield f"{MOVE}{name} to {place}"
     for place, (x, y) in candidate.moved.items():
         yield f"put {place} at ({x:g} m, {y:g} m)"
     for name in candidate.added:

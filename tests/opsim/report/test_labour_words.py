@@ -1,5 +1,6 @@
 """What a labour study says, from made numbers: the sentences an engineer reads first."""
 
+from dataclasses import replace
 from types import SimpleNamespace as Made
 
 import numpy as np
@@ -9,13 +10,16 @@ from opsim.kpi.target import read_target
 from opsim.report.labour_curves import bought_svg, day_svg
 from opsim.report.labour_page import labour_page
 from opsim.report.labour_pictures import budget_svg, parts_svg
-from opsim.report.labour_words import answer
+from opsim.report.labour_tables import bought_table
+from opsim.report.labour_words import answer, reading
 from opsim.report.study_page import study_html
+from opsim.report.words import ABSENT
 from opsim.study.interval import Interval
 from opsim.study.labour.budget import FigureBudget
 from opsim.study.labour.buy_back import BoughtBack, Curve, Step
 from opsim.study.labour.day_asked import DayAsked, day_found
 from opsim.study.labour.parts import variance_parts
+from opsim.study.labour.refused import too_few_days
 from opsim.study.labour.sources import VariabilitySource
 from opsim.study.labour.study import LabourFound
 
@@ -46,7 +50,8 @@ def found(rates=RATES, curves=(), loss=8.4, target="480 a day"):
 def test_the_answer_says_who_when_what_it_costs_what_buys_it_back_and_the_target():
     ways = (curve("more like ana", "workers", 5.0, 9.5), curve("skills more", "skills", 8.7, 9.9))
     said = " ".join(answer(found(curves=ways)))
-    assert "Who is hired moves the output by ± 5 % (SD; 4.1 to 6.5 %)" in said and "the luck of the day by ± " in said
+    assert "Who is hired moves the output by ± 5 % (SD; 4.1 to 6.5 %; 97 % of the variance)" in said
+    assert "the luck of the day by ± " in said
     assert "Differences between people cost 8.4 ± 0.5 an hour: 61.0 come out, and 69.4 would" in said
     assert "Two people more like ana or one skill more (two to be sure) buy it back." in said
     assert "You reach 480 a day with a chance of" in said
@@ -63,6 +68,20 @@ def test_no_loss_is_said_and_nothing_is_bought_back():
     said = answer(found(curves=(curve("more like ana", "workers", 1.0),), loss=0.2))
     assert "What differences between people cost cannot be told from nothing: +0.2 ± 0.5 an hour." in said
     assert not any("buy" in sentence for sentence in said)
+
+
+def test_where_the_loss_may_be_nothing_no_share_of_it_is_told_and_nothing_is_enough():
+    table = bought_table(found(curves=(curve("more like ana", "workers", 1.0),), loss=0.2))
+    assert "enough" not in table.columns and table.rows[0][table.columns.index("of the loss")] == ABSENT
+    table = bought_table(found(curves=(curve("more like ana", "workers", 4.2),)))
+    assert "enough" in table.columns and table.rows[0][table.columns.index("of the loss")] == "50 %"
+
+
+def test_two_days_for_all_are_warned_of_on_the_screen_and_on_the_page():
+    assert too_few_days("crossed", 3) == too_few_days("nested", 2) == ""
+    warned = replace(found(), warning=too_few_days("crossed", 2))
+    assert answer(warned)[-1].startswith("Two days cannot tell how much days differ")
+    assert any("--design nested" in sentence for sentence in reading(warned)[-1:])
 
 
 def test_people_who_make_no_difference_are_told_so():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.special import bdtr, ndtr
+from scipy.special import bdtr, ndtr, ndtri
 
 from opsim.study.labour.day import chance, clopper_pearson, counts_as, quantile
 from tests.opsim.study.labour.test_parts import made
@@ -42,6 +42,38 @@ def test_a_chance_is_held_at_least_as_often_as_is_said(design, staffing, day, at
         found = chance(values, values <= 60 + at * spread, design)
         hits += found.low <= ndtr(at) <= found.high
     assert hits / n > 0.95 - 3 * (0.95 * 0.05 / n) ** 0.5
+
+
+def odd_days(rng, shape):
+    """People differ, days hardly do, but one in twenty goes wrong: the values hardly show that people differ."""
+    people, days = rng.standard_normal((shape[0], 1)), 0.2 * rng.standard_normal(shape)
+    return people + days - 12 * (rng.random(shape) < 0.05)
+
+
+@pytest.mark.parametrize("at", [0.0, 1.5])
+def test_a_chance_is_held_where_odd_days_hide_what_people_have_in_common(at):
+    """By the values alone it would be held 0.80 times."""
+    rng, n = np.random.default_rng(12), 200
+    held = 0.95 * ndtr(at / 1.04**0.5) + 0.05 * ndtr((at + 12) / 1.04**0.5)
+    hits = 0
+    for _ in range(n):
+        values = odd_days(rng, (40, 5))
+        found = chance(values, values <= at, "nested")
+        hits += found.low <= held <= found.high
+    assert hits / n > 0.95 - 3 * (0.95 * 0.05 / n) ** 0.5
+
+
+def test_a_median_is_held_where_odd_days_hide_what_people_have_in_common():
+    rng, n = np.random.default_rng(13), 200
+    middle = 1.04**0.5 * ndtri((0.5 - 0.05) / 0.95)
+    found = [quantile(odd_days(rng, (40, 5)), 0.5, "nested") for _ in range(n)]
+    assert np.mean([one.low <= middle <= one.high for one in found]) > 0.95 - 3 * (0.95 * 0.05 / n) ** 0.5
+
+
+def test_a_target_that_is_always_met_counts_as_its_values_do():
+    values = made(np.random.default_rng(5), (30, 4), 1.0, 0.0, 1.0, "nested")
+    always = chance(values, values > -99, "nested")
+    assert always.high == 1 and always.low > 0.9 and 30 < always.counts_as < 120
 
 
 def test_a_quantile_has_an_interval_or_says_that_there_are_too_few_runs():

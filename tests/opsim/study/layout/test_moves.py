@@ -106,6 +106,7 @@ def test_moves_in_words(floor):
     before = floor.at
     assert said(before, made(floor, "swap saw,drill")) == "swap drill and saw"
     assert said(before, made(floor, "swap saw,drill", "place pack=p4")) == "swap drill and saw and move pack to p4"
+    assert said(before, made(floor, "place pack=p4", "place saw=p2")) == "move pack to p4 and saw to p2"
     assert said(before, made(floor, "move p2=6 m, 1 m")) == "put p2 at (6 m, 1 m)"
 
 

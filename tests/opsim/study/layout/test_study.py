@@ -1,5 +1,7 @@
 """The whole study on a small floor: known answers, laws, and the same whoever computes it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,9 +10,10 @@ from opsim.report.layout_json import summary
 from opsim.report.layout_page import layout_page
 from opsim.report.study_page import study_html
 from opsim.study.jobs import Job, Point
+from opsim.study.layout.choose import chosen
 from opsim.study.layout.floor import NoLayout
 from opsim.study.layout.flows import flows_of
-from opsim.study.layout.judge import BEST, WALKED, against, chosen, exposure_asked
+from opsim.study.layout.judge import BEST, WALKED, against, exposure_asked
 from opsim.study.layout.study import NOW, study_layout
 from tests.opsim.study.layout.made_floor import FLOOR, answers, asked, written
 
@@ -38,6 +41,13 @@ def test_neighbours_are_put_beside_each_other(found):
 def test_the_layout_taken_is_better_on_fresh_numbers_in_walking_and_output(found):
     assert found.fresh[WALKED].difference.high < 0 < found.fresh[BEST].difference.low
     assert found.fresh[BEST].difference.n == 4
+
+
+def test_what_shows_no_gain_on_fresh_numbers_is_not_given_to_paste_on_the_screen(found):
+    page = layout_page(replace(found, fresh=against({"same": found.now}, found.now)["same"]))
+    assert page.answer[0].startswith("Leave it as it is") and page.answer[1].startswith("That was to ")
+    assert not any(section.code and section.on_screen for section in page.sections)
+    assert any(section.code and section.on_screen for section in layout_page(found).sections)
 
 
 def test_todays_trips_cost_what_people_walk_today(found):
@@ -103,8 +113,31 @@ def test_of_layouts_that_no_test_tells_apart_the_one_with_least_walking_is_taken
         "less": {BEST: 60 + np.roll(luck, 3), WALKED: 600 + luck},
         "least": {BEST: 51 + luck, WALKED: 100 + luck},
     }
-    name, alike = chosen(layouts, read_asked("throughput_per_h"))
+    name, alike = chosen(layouts, read_asked("throughput_per_h"), NOW)
     assert name == "less" and set(alike) == {"much", "less"}
+
+
+def test_what_is_clearly_worse_than_now_is_not_taken_for_less_walking():
+    """The best is so noisy that no test tells the short one from it; from the present one it is told."""
+    rng = np.random.default_rng(4)
+    luck, noise = rng.normal(size=20), 40 * rng.normal(size=20)
+    layouts = {
+        NOW: {BEST: 50 + luck, WALKED: 900 + luck},
+        "short": {BEST: 48 + luck, WALKED: 100 + luck},
+        "noisy": {BEST: 55 + luck + noise - noise.mean(), WALKED: 950 + luck},
+    }
+    name, alike = chosen(layouts, read_asked("throughput_per_h"), NOW)
+    assert name == NOW and set(alike) == {NOW, "noisy"}
+
+
+def test_a_layout_whose_figures_are_missing_is_not_taken():
+    luck, none = np.random.default_rng(1).normal(size=20), np.full(20, np.nan)
+    layouts = {
+        NOW: {BEST: 50 + luck, WALKED: 900 + luck},
+        "lame": {BEST: none, WALKED: none},
+        "once": {BEST: 60 + luck, WALKED: np.r_[np.nan, 800 + luck[1:]]},
+    }
+    assert chosen(layouts, read_asked("throughput_per_h"), NOW) == ("once", ["once"])
 
 
 def test_the_tests_of_a_measure_are_held_together():

@@ -1,0 +1,75 @@
+"""What a layout study says of what is better, worse, or the same: from made numbers."""
+
+from types import SimpleNamespace as Made
+
+import numpy as np
+
+from opsim.kpi.better import read_asked
+from opsim.report.layout_words import answer
+from opsim.study.compare import paired
+from opsim.study.interval import t_interval
+from opsim.study.layout.choose import gains, losses
+from opsim.study.layout.judge import BEST, EACH, SHARE, WALKED, Against
+
+RNG = np.random.default_rng(3)
+NOW, LUCK = np.linspace(98, 102, 10), RNG.standard_normal(10)
+
+
+def against(then, now=NOW):
+    difference, p, _ = paired(then, now)
+    return Against(t_interval(now), t_interval(then), difference, p, p)
+
+
+MORE, LESS, HARDLY, PERHAPS = (
+    against(NOW * 1.05 + 0.1 * LUCK),
+    against(NOW * 0.95 + 0.1 * LUCK),
+    against(NOW + 0.5 * (LUCK - LUCK.mean())),
+    against(NOW + 20 * (LUCK - LUCK.mean())),
+)
+
+
+def said(walked, best, figure="throughput_per_h"):
+    asked = Made(best=read_asked(figure), exposure=None, floor=Made(at={"saw": "a", "drill": "b"}), replications=10)
+    at = {"saw": "b", "drill": "a"}
+    taken = Made(at=at, moved={}, added=(), proposed=True, name="proposal_1")
+    fresh = {WALKED: walked, BEST: best, EACH: walked, SHARE: walked}
+    better, worse = gains(fresh, asked.best), losses(fresh, asked.best)
+    found = Made(asked=asked, taken=taken, candidates=(taken,), fresh=fresh, compared={}, alike=("proposal_1",))
+    found.gains, found.losses = better, worse
+    return answer(found)
+
+
+def test_a_gain_is_recommended():
+    words = said(LESS, MORE)
+    assert words[0].startswith("Swap drill and saw: 5.0") and "more parts an hour" in words[0]
+    assert not any(" but " in sentence or "Leave" in sentence for sentence in words)
+
+
+def test_what_is_clearly_worse_in_both_is_not_recommended():
+    words = said(MORE, LESS)
+    assert words[0].startswith("Leave it as it is") and words[1].startswith("That was to swap drill and saw: ")
+
+
+def test_more_walking_for_nothing_is_not_recommended():
+    words = said(MORE, HARDLY)
+    assert words[0].startswith("Leave it as it is") and not any("saved" in sentence for sentence in words)
+
+
+def test_a_gain_that_costs_something_says_but_and_the_gain_first():
+    few_walked, little_out = said(LESS, LESS)[0], said(MORE, MORE)[0]
+    assert few_walked.index("less walking") < few_walked.index(", but ") < few_walked.index("less parts an hour")
+    assert little_out.index("more parts an hour") < little_out.index(", but ") < little_out.index("more walking")
+
+
+def test_of_a_figure_of_which_less_is_better_less_is_the_gain():
+    assert "but" not in said(LESS, LESS, "less work_in_progress")[0]
+    assert said(MORE, MORE, "less work_in_progress")[0].startswith("Leave it as it is")
+
+
+def test_only_walking_is_saved_where_the_output_is_surely_the_same():
+    assert "the output stays the same within 2 %" in said(LESS, HARDLY)[-1]
+    assert not any("What is saved" in sentence for sentence in said(LESS, PERHAPS))
+
+
+def test_metres_of_a_shift_are_those_of_all_people_together():
+    assert "in 8 hours by all together" in said(LESS, MORE)[0]
