@@ -4,9 +4,11 @@ One thread, insertion order preserved, compression and row-group size said: the 
 """
 
 import json
+import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +22,42 @@ _NUMBERED = ("job", "performance_id", "k")
 """Counting columns in which -1 means none."""
 
 
-def connect():
-    """A DuckDB connection in memory with one thread and order kept."""
+_open: dict[int, Any] = {}
+"""By the number of the process: a database does not outlive a fork."""
+
+
+def connect() -> Any:
+    """A DuckDB connection in memory with one thread and order kept; to be closed.
+
+    NOTE: to open a database takes 30 ms, as long as all else that is done to a file. So processes made for work keep
+    theirs. Others do not, beyond ``one_database``, as its threads stand in the way of a fork (opsim/forking.py).
+    """
+    if os.getpid() in _open:
+        return _open[os.getpid()].cursor()
+    database = _database()
+    if parent_process() is None:
+        return database
+    _open[os.getpid()] = database
+    return database.cursor()
+
+
+@contextmanager
+def one_database() -> Iterator[None]:
+    """All connections inside this block are to one database, opened once. No process is to be forked inside."""
+    if os.getpid() in _open:
+        yield
+        return
+    with _database() as _open[os.getpid()]:
+        try:
+            yield
+        finally:
+            del _open[os.getpid()]
+
+
+def _database() -> Any:
     import duckdb
 
-    connection = duckdb.connect(":memory:")
-    connection.execute("SET threads = 1; SET preserve_insertion_order = true")
-    return connection
+    return duckdb.connect(":memory:", config={"threads": 1, "preserve_insertion_order": True})
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from typing import Any
 from opsim.kpi import figures, samples
 from opsim.kpi.locked import locked
 from opsim.log import EventLog, names_of
+from opsim.log_store import one_database
 from opsim.plan import Plan
 from opsim.study.pool import cores, pays, pooled
 from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned
@@ -107,7 +108,8 @@ def _results(
     if processes > 1:
         yield from pooled(runner, left, processes, meanwhile)
     elif left:
-        yield from map(runner(), left)
+        with one_database():
+            yield from map(runner(), left)
 
 
 def _that_pay(took_s: Sequence[float], left: int) -> int | None:

@@ -55,7 +55,8 @@ class Figures(Sequence[Figure]):
     def __getitem__(self, at: Any) -> Any:
         if isinstance(at, slice):
             return [Figure(*key, value) for key, value in zip(self._keys[at], self._values[at].tolist())]
-        return Figure(*self._keys[at], float(self._values[at]))
+        key: Key = self._keys[at]
+        return Figure(*key, float(self._values[at]))
 
     def __iter__(self) -> Iterator[Figure]:
         return iter(self[:])
