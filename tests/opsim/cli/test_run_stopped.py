@@ -49,7 +49,7 @@ def finished(folder):
 def children(pid):
     """Processes started by ``pid`` that do the work (the one that only keeps count of semaphores left out)."""
     listed = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    return [int(child) for child in listed if "spawn_main" in Path(f"/proc/{child}/cmdline").read_text()]
+    return [int(child) for child in listed if "tracker" not in Path(f"/proc/{child}/cmdline").read_text()]
 
 
 def gone(pid) -> bool:
