@@ -88,15 +88,15 @@ def _comparable(text: str, known: Iterable[str]) -> list[str]:
     return list(islice(alike, MOST_COMPARED))
 
 
-def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known") -> str:
-    """The hint for an unknown word: the nearest right one, or the words that are known."""
+def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known", most: int = 12) -> str:
+    """The hint for an unknown word: the nearest right one, or the words that are known, so many of them at most."""
     near = nearest(word, known := list(known))
     if near is not None:
         return f"did you mean {shown(near)}?"
     if not known or len(known) > MOST_COMPARED:
         return ""
     words = sorted(known)
-    return f"{otherwise}: {', '.join(words[:12])}{', ...' if len(words) > 12 else ''}"
+    return f"{otherwise}: {', '.join(words[:most])}{', ...' if len(words) > most else ''}"
 
 
 def _window(line: str, column: int) -> tuple[str, int]:

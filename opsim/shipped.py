@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from opsim.names import natural_key
-from opsim.problems import Problem, ScenarioError, did_you_mean
+from opsim.problems import Problem, ScenarioError, nearest, shown
+
+FEW = 5
 
 
 def shipped_folder() -> Path:
@@ -31,6 +33,18 @@ def find_scenario(path: str | Path) -> Path:
     beside = (
         [other.name for other in file.parent.glob("*.y*ml")] if "\0" not in str(path) and file.parent.is_dir() else []
     )
-    shipped = [f"{known}{file.suffix}" for known in shipped_scenarios()]
-    hint = did_you_mean(file.name, [*beside, *shipped], otherwise="known scenarios")
+    hint = _meant(file, beside)
     raise ScenarioError([Problem(str(path), 0, 0, "", "no such file, and no shipped scenario of that name", hint)])
+
+
+def _meant(file: Path, beside: list[str]) -> str:
+    """The nearest file beside it or shipped scenario, compared without ``.yaml``; else where to find one.
+
+    beside : names of the scenarios in its folder
+    """
+    names = {Path(name).stem: name for name in reversed([*beside, *(f"{s}{file.suffix}" for s in shipped_scenarios())])}
+    near = nearest(file.stem, names)
+    if near is not None:
+        return f"did you mean {shown(names[near])}?"
+    here = f"here are {', '.join(sorted(beside)[:FEW])}{', ...' if len(beside) > FEW else ''}; " if beside else ""
+    return f"{here}'opsim init --list' shows those that come with opsim"

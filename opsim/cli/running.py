@@ -67,7 +67,7 @@ def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> dict[st
     from opsim.scenario import read_scenarios
 
     changes = {} if horizon is None else {"run.horizon": horizon}
-    loaded = read_scenarios(file, list(names) or None, changes)
+    loaded = read_scenarios(file, list(names) or None, changes, "command line")
     for variant in loaded.values():
         compile_plan(variant)
     return loaded

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import wraps
@@ -63,6 +64,16 @@ def study_options(*, shards: bool = True) -> Callable[[Callable[..., Any]], Call
     return with_options
 
 
+def from_here(file: str) -> str:
+    """The path from the working folder to a file that lies in it, however it was typed; any other as it was typed."""
+    if not Path(file).is_file():
+        return file  # a shipped scenario, by its name
+    try:
+        return Path(os.path.abspath(file)).relative_to(Path.cwd()).as_posix()
+    except ValueError:
+        return file
+
+
 def typed(context: click.Context) -> tuple[str, ...]:
     """The words of a call that say what is asked, in one order however they were typed."""
     words = [context.info_name or ""]
@@ -77,7 +88,7 @@ def typed(context: click.Context) -> tuple[str, ...]:
 def _words(parameter: click.Parameter, value: Any) -> list[str]:
     values = list(value) if isinstance(value, tuple) else [value]
     if isinstance(parameter, click.Argument):
-        return [str(one) for one in values]
+        return [from_here(str(one)) if parameter.name == "file" else str(one) for one in values]
     option = max(parameter.opts, key=len)
     if isinstance(parameter, click.Option) and parameter.is_flag:
         return [option] if value else list(parameter.secondary_opts[:1])

@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from opsim.cli.study_kind import Asked, Kind, Told
-from opsim.cli.study_options import Common
+from opsim.cli.study_options import Common, from_here
 from opsim.cli.verbs import mistakes
 
 MOST_SAID = 5
@@ -29,7 +29,7 @@ def run_study(kind: Kind, file: str, common: Common, options: Mapping[str, Any])
     with stops_once():
         with mistakes():
             shard = _shard(kind, common)
-            asked = asked_by_user(kind, file, common, options)
+            asked = asked_by_user(kind, from_here(file), common, options)
             header = header_for(kind, asked, common.words, common.replications)
             out = common.out or Path("results") / f"{asked.varied.file.stem}_{kind.name.replace('-', '_')}"
         how = {

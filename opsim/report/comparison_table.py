@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from opsim.report.comparison_cells import comparison_cells, largest_of
-from opsim.report.comparison_words import BEST, CLEAR, MANY, best_of, signed, spoken_name, spoken_of
+from opsim.report.comparison_words import BEST, CLEAR, MANY, NOT_PROVEN, best_of, signed, spoken_name, spoken_of
 from opsim.report.parts import part_name
 from opsim.report.words import ABSENT, kpi_name, scale_of
 
@@ -16,7 +16,7 @@ MOST_FIGURES = 18
 MOST_ACROSS = 4
 NARROWEST, EACH = 30, 17
 """Characters of the first column and of each other one: as many stand beside each other as a screen has room for."""
-STAR = " *"
+STAR, ALONE = " *", " (*)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ def _cell(difference: Any, largest: float | None) -> str:
     if difference is None or math.isnan(difference.interval.mean):
         return ABSENT
     text = signed(comparison_cells(difference, largest)["difference"])
-    return f"{text}{STAR}" if difference.verdict in CLEAR else text
+    return text + (STAR if difference.verdict in CLEAR else ALONE if difference.verdict == NOT_PROVEN else "")
 
 
 def _first(told: Sequence[Any]) -> list[Any]:

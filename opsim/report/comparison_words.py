@@ -17,6 +17,11 @@ MANY = 6
 """Variants beyond which they are counted, and the best of them named."""
 BEST = 10
 CLEAR = ("higher", "lower")
+NOT_PROVEN = "not proven"
+TOLD = (*CLEAR, NOT_PROVEN)
+OUTPUT = ("throughput_per_h", "throughput_per_calendar_h")
+MUCH = 0.05
+"""A fall of the output that no sentence puts behind what is better, whether it is clear or not."""
 SPOKEN = {"duty_use": "busy share of the time on duty", "time_in_system_quantile_s": "time in system (quantile)"}
 VERDICTS = {
     "no clear difference": "No clear difference in ",
@@ -37,9 +42,9 @@ def answer(comparison: Any) -> list[str]:
     if len(variants) > MANY:
         return list(_counted(comparison, spoken, variants))
     by_variant = {name: [d for d in spoken if d.variant == name] for name in variants}
-    clear = [name for name, of in by_variant.items() if any(d.verdict in CLEAR for d in of)]
+    clear = [name for name, of in by_variant.items() if any(d.verdict in TOLD for d in of)]
     hours = bool(comparison.hours)
-    said = [_variant(name, by_variant[name], spoken, hours) for name in clear]
+    said = [_variant(name, by_variant[name], spoken, hours, comparison.tests) for name in clear]
     return [*said, *_unclear({name: by_variant[name] for name in variants if name not in clear}, comparison, spoken)]
 
 
@@ -82,21 +87,43 @@ def way_of(difference: Any) -> int:
     return rises if better == MORE else -rises if better == LESS else 0
 
 
-def _variant(name: str, of: Sequence[Any], spoken: Sequence[Any], hours: bool) -> str:
-    """One variant with something clear."""
-    clear = [d for d in of if d.verdict in CLEAR]
-    gains, costs = ([d for d in clear if way_of(d) == way] for way in (1, -1))
-    others = [d for d in clear if way_of(d) == 0]
-    said = []
-    if gains:
-        said.append(f"better in {_named(gains, spoken, hours)}")
-    if costs:
-        said.append(f"worse in {_named(costs, spoken, hours)}")
-    if others:
-        said.append(f"other in {_named(others, spoken, hours)}")
-    text = f"{name} is {', '.join(said)}."
-    rest = [d for d in of if d.verdict not in CLEAR]
-    return f"{text} {_rest(rest, spoken, hours)}" if rest else text
+def _variant(name: str, of: Sequence[Any], spoken: Sequence[Any], hours: bool, tests: int) -> str:
+    """One variant with something clear, or clear by itself alone; what may be worse comes before what is better.
+
+    tests : comparisons that are held together
+    """
+    clear, alone = ([d for d in of if d.verdict in some] for some in (CLEAR, (NOT_PROVEN,)))
+    rest = [d for d in of if d.verdict not in TOLD]
+    fallen = [d for d in rest if _falls_much(d)]
+    not_proven = f", but that is not proven with {tests} comparisons held together."
+    said = [f" is {_ways(clear, spoken, hours)}."] if clear else []
+    if alone:
+        first = any(way_of(d) == -1 for d in alone) and not any(map(_falls_much, clear))
+        said.insert(0 if first else len(said), f" looks {_ways(alone, spoken, hours)}{not_proven}")
+    if fallen:
+        said.insert(0, f": {_small(_rest(fallen, spoken, hours))}")
+    left = [d for d in rest if d not in fallen]
+    told = [("It" if at else name) + text for at, text in enumerate(said)]
+    return " ".join([*told, _rest(left, spoken, hours)] if left else told)
+
+
+def _ways(some: Sequence[Any], spoken: Sequence[Any], hours: bool) -> str:
+    """``better in a and b, worse in c``; what is worse first where the output falls much."""
+    gains, costs, others = ([d for d in some if way_of(d) == way] for way in (1, -1, 0))
+    ways = [("better", gains), ("worse", costs), ("other", others)]
+    if any(map(_falls_much, costs)):
+        ways[:2] = ways[1::-1]
+    return ", ".join(f"{word} in {_named(of, spoken, hours)}" for word, of in ways if of)
+
+
+def _falls_much(difference: Any) -> bool:
+    """Whether it is an output that is less by its mean, proven or not, so much that nothing better outweighs it."""
+    whole = difference.key[0] in OUTPUT and not difference.key[1] and difference.verdict != "other hours"
+    return bool(whole and difference.interval.mean < -MUCH * abs(difference.base))
+
+
+def _small(text: str) -> str:
+    return text[:1].lower() + text[1:]
 
 
 def _rest(rest: Sequence[Any], spoken: Sequence[Any], hours: bool) -> str:
@@ -116,7 +143,7 @@ def _unclear(by_variant: dict[str, Sequence[Any]], comparison: Any, spoken: Sequ
     for name, of in by_variant.items():
         if name not in same:
             rest = _rest(of, spoken, bool(comparison.hours))
-            yield f"{name}: {rest[:1].lower()}{rest[1:]}"
+            yield f"{name}: {_small(rest)}"
     if same:
         verb = "is" if len(same) == 1 else "are"
         yield f"{listing(same)} {verb} identical to {comparison.base} in every replication."

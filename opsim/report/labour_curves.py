@@ -87,7 +87,7 @@ def day_svg(day: Any) -> str:
         drawn.append(f'<path d="M{x(one.estimate):.1f} 22V{FLOOR}" stroke="{INK}" stroke-dasharray="2 3"/>')
         drawn.append(text_at(f"P{100 * one.q:.0f}", x(one.estimate), 17, INK, "middle", 12))
     if bound is not None:
-        drawn.append(f'<path d="M{x(bound):.1f} 8V{FLOOR}" stroke="{LOSS}" stroke-width="2"/>')
+        drawn.append(f'<path d="M{x(bound):.1f} 22V{FLOOR}" stroke="{LOSS}" stroke-width="2"/>')
         drawn.append(text_at("target", x(bound) + 4, 34, LOSS, "start", 12))
     said = ", ".join(f"P{100 * one.q:.0f} {one.estimate:.4g}" for one in day.quantiles)
     return svg(drawn, FLOOR + FOOT, f"{name}: {said}")

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
+from opsim.report.frontier import axis_name
 from opsim.report.words import ABSENT, digits, half_digits, is_number, scale_of
 
 MINUS, PLUS_MINUS = "\N{MINUS SIGN}", "\N{PLUS-MINUS SIGN}"
+FROM_0_TO_1 = ", from 0 (fresh) to 1"
 LEAST = 0.005
 """Per cent that are told as 0."""
 _COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+
+
+def figure_name(key: Sequence[str], unit: str) -> str:
+    """A figure in words beside numbers in ``unit``: one in per cent does not say that it goes from 0 to 1."""
+    name = axis_name(key)
+    return name.replace(FROM_0_TO_1, "") if unit == "%" else name
 
 
 def budget_cell(one: Any, interval: Any) -> str:

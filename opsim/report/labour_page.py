@@ -31,20 +31,8 @@ def labour_page(found: Any, title: str) -> StudyPage:
 def _variance(found: Any) -> list[Section]:
     """Of the page: the screen has it in the first sentence."""
     parts = next(iter(found.parts.values()))
-    first = _only(found, 1)
-    return [
-        Section("What moves the output", table=variance_table(first)),
-        Section(
-            "Of the variance, how much is whose",
-            picture=parts_svg(found.parts),
-            table=variance_table(found) if len(found.parts) > 1 else None,
-            sentences=_truncated(parts),
-        ),
-    ]
-
-
-def _only(found: Any, n: int) -> Any:
-    return replace(found, parts=dict(list(found.parts.items())[:n]))
+    title = "What moves the output: of the variance, how much is whose"
+    return [Section(title, _truncated(parts), variance_table(found), parts_svg(found.parts))]
 
 
 def _truncated(parts: Any) -> list[str]:
@@ -76,10 +64,12 @@ def _bought(found: Any) -> list[Section]:
         return []
     best = tuple(curve for kind in (WORKERS, SKILLS) if (curve := found.bought.best(kind)) is not None)
     few = replace(found, bought=replace(found.bought, curves=best))
-    all_of_them = bought_table(found) if len(found.bought.curves) > len(best) else None
+    title, every = "What buys the loss back", bought_table(found)
     return [
-        Section("What buys the loss back", table=bought_table(few), on_screen=True),
-        Section("Every way that was tried", bought_reading(found), all_of_them, bought_svg(found.bought)),
+        Section(title, table=bought_table(few), on_screen=True, on_page=False),
+        Section(
+            f"{title}: every way that was tried", bought_reading(found), every, bought_svg(found.bought)
+        ),
     ]
 
 

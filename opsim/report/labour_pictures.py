@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from opsim.report.frontier import axis_name
-from opsim.report.labour_numbers import budget_cell
+from opsim.report.labour_numbers import budget_cell, figure_name
 from opsim.report.labour_shapes import GAIN, LOSS, SIDE, WIDE, across, box, svg, text_at, whisker
 from opsim.report.labour_words import PARTS
 from opsim.report.palette import ACCENT, INK, MUTED
@@ -54,7 +54,7 @@ def budget_svg(one: Any) -> str:
     at = one.full.mean + np.concatenate([[0.0], np.cumsum([of.mean for _, of in steps])])
     ends = [*at, *(end for of in (one.full, one.all_off) for end in (of.low, of.high))]
     ends += [*(a + of.mean + s * of.half_width for a, (_, of) in zip(at, steps) for s in (-1, 1))]
-    x, axis = across(np.array(ends) * factor, ROW * (len(steps) + 2), f"{axis_name(one.key)}, {unit}")
+    x, axis = across(np.array(ends) * factor, ROW * (len(steps) + 2), f"{figure_name(one.key, unit)}, {unit}")
     drawn = [*axis, *_level("as it is", one.full, 0, x, factor)]
     for row, (start, (name, of)) in enumerate(zip(at, steps), 1):
         y, end = ROW * row, start + of.mean

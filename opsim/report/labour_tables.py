@@ -5,8 +5,17 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from opsim.report.frontier import axis_name
-from opsim.report.labour_numbers import PLUS_MINUS, budget_cell, ends, of_mean, per_cent, plus_minus, share_words, span
+from opsim.report.labour_numbers import (
+    PLUS_MINUS,
+    budget_cell,
+    ends,
+    figure_name,
+    of_mean,
+    per_cent,
+    plus_minus,
+    share_words,
+    span,
+)
 from opsim.report.labour_words import PARTS, day_unit
 from opsim.report.study_page import Table
 from opsim.report.words import ABSENT, digits, half_digits, is_number, scale_of
@@ -22,7 +31,7 @@ def variance_table(found: Any) -> Table:
             words = "none to be seen" if part.truncated else span(part.low_sd * factor, part.high_sd * factor)
             rows.append(
                 (
-                    axis_name(key) if part.name == names[0] else "",
+                    figure_name(key, unit) if part.name == names[0] else "",
                     PARTS[part.name],
                     digits(part.sd * factor, (part.high_sd - part.low_sd) * factor / 2),
                     words,
@@ -125,4 +134,5 @@ def _figure(one: Any, interval: Any) -> str:
 
 def _column(one: Any) -> str:
     _, unit = scale_of(one.key[3], one.full.mean)
-    return f"{axis_name(one.key)}, {unit}" if unit and unit != "jobs" else axis_name(one.key)
+    name = figure_name(one.key, unit)
+    return f"{name}, {unit}" if unit and unit != "jobs" else name

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from opsim.kpi.target import Target
 from opsim.report.labour_numbers import capital, count_words, of_mean, per_cent, plus_minus, share_words, span
 from opsim.report.words import digits, is_number, scale_of
 
+SHORT_DAY_H = 7.0
+"""A day of fewer hours than this is no usual shift: its hours are told beside what is asked of a day."""
 PARTS = {
     "staffing": "who is hired",
     "day": "luck of the day, for all alike",
@@ -105,13 +106,17 @@ def _target(found: Any) -> Iterator[str]:
     chance = found.day.chance
     if chance is not None:
         low, high = share_words(chance.low, ""), share_words(chance.high, "")
-        reached = _reached(found.day.asked.target, found.day.asked.days)
+        reached = _reached(found.day.asked)
         yield f"{reached} with a chance of {share_words(chance.estimate)} ({low} to {high})."
 
 
-def _reached(target: Target, days: int) -> str:
+def _reached(asked: Any) -> str:
+    target = asked.target
     if target.a_day:
-        return f"You reach {target.bound:g} a day" + (f", in the mean of {days} days," if days > 1 else "")
+        short = f" (a day is {asked.hours:.3g} h here)" if asked.hours < SHORT_DAY_H else ""
+        return f"You reach {target.bound:g} a day{short}" + (
+            f", in the mean of {asked.days} days," if asked.days > 1 else ""
+        )
     return f"{target.asked.name} is {'at least' if target.at_least else 'at most'} {target.bound:g}"
 
 

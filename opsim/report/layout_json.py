@@ -21,6 +21,7 @@ def summary(found: LayoutFound) -> dict[str, Any]:
         "gains": found.gains,
         "losses": found.losses,
         "alike": list(found.alike),
+        "all_together_left_out": found.asked.clash or None,
         "fresh": {name: _numbers(one) for name, one in found.fresh.items()},
         "layouts": [_as_json(found, one) for one in found.candidates],
         "proposals": _made(found),

@@ -8,7 +8,7 @@ from typing import Any
 from opsim.kpi.better import Asked
 from opsim.names import enumerated
 from opsim.report.layout_picture import Drawing, Line, layout_pictures
-from opsim.report.layout_words import answer, figure_unit
+from opsim.report.layout_words import NOT_MEASURED, answer, figure_unit, why_not_measured
 from opsim.report.study_page import Section, StudyPage, Table
 from opsim.report.words import ABSENT, digits, half_digits, is_number, kpi_name, scale_of
 from opsim.study.layout.choose import known_mean
@@ -79,11 +79,19 @@ def _layouts(found: LayoutFound) -> Iterator[Section]:
     sentences = []
     if found.asked.exposure is not None:
         sentences.append(f"* of {found.asked.exposure.subject or 'the worker who has most of it'}.")
+        if not any(is_number(known_mean(values)) for values in _exposures(found)):
+            sentences.append(f"{NOT_MEASURED[:1].upper()}{NOT_MEASURED[1:]}: {why_not_measured(found)}.")
     if any(cell.endswith("?") for row in rows for cell in row):
         sentences.append("?: not told from no difference.")
     title = f"Layouts, each in the same {found.asked.replications} replications"
     yield Section(title, [" ".join(sentences)] if sentences else [], Table(columns, rows, words=2), on_screen=True)
     yield Section("Where the stations stand", list(_reach(found)), _standing(found))
+
+
+def _exposures(found: LayoutFound) -> Iterator[Any]:
+    """Of the second criterion, today's values and those of each layout."""
+    yield found.now[EXPOSURE]
+    yield from ([of[EXPOSURE].then.mean] for of in found.compared.values())
 
 
 def _reach(found: LayoutFound) -> Iterator[str]:
@@ -115,13 +123,17 @@ def _row(found: LayoutFound, one: Candidate | None) -> list[str]:
     figures = [(BEST, found.asked.best), *([(EXPOSURE, found.asked.exposure)] if found.asked.exposure else [])]
     factors = [(measure, scale_of(figure_unit(asked.kpi), None)[0]) for measure, asked in figures]
     if one is None:
-        present = [digits(known_mean(found.now[measure]) * factor) for measure, factor in factors]
+        present = [_present(known_mean(found.now[measure]) * factor) for measure, factor in factors]
         return ["now", "", _whole_metres(known_mean(found.now[WALKED])), "", *present]
     of, what = found.compared[one.name], said(found.asked.floor.at, one, brief=True)
     name = one.name if one is not found.taken else f"{one.name} ({'taken' if found.gains else 'best found'})"
     changes = [_change(of[measure], factor) for measure, factor in factors]
     walked = _whole_metres(of[WALKED].then.mean)
     return [name, "" if what == one.name else what, walked, _relative(of[WALKED]), *changes]
+
+
+def _present(value: float) -> str:
+    return digits(value) if is_number(value) else NOT_MEASURED
 
 
 def _whole_metres(metres: float) -> str:
@@ -139,6 +151,8 @@ def _relative(one: Against) -> str:
 
 def _change(one: Against, factor: float) -> str:
     mean, half, of = (factor * value for value in (one.difference.mean, one.difference.half_width, one.now.mean))
+    if not one.measured:
+        return NOT_MEASURED
     if one.identical:
         return "0"
     if not is_number(half):
@@ -171,8 +185,8 @@ def _flows(found: LayoutFound) -> Iterator[Section]:
     title = f"Flows now: {_km(total)} walked an hour by all together"
     shown = Table(_FLOW_COLUMNS, [_flow_row(found, flow, total) for flow in flows[:ON_SCREEN]], words=2)
     if len(flows) > ON_SCREEN:
-        yield Section(f"{title} ({ON_SCREEN} of {len(flows)} ways)", table=shown, on_screen=True)
-        yield Section("All flows now", table=Table(_FLOW_COLUMNS, [_flow_row(found, f, total) for f in flows], words=2))
+        yield Section(f"{title} ({ON_SCREEN} of {len(flows)} ways)", table=shown, on_screen=True, on_page=False)
+        yield Section(title, table=Table(_FLOW_COLUMNS, [_flow_row(found, f, total) for f in flows], words=2))
     else:
         yield Section(title, table=shown, on_screen=True)
     if found.flows_then is not None and found.taken is not None:

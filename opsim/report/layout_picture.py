@@ -17,6 +17,7 @@ THICKEST, THINNEST, HALF_MARK = 15.0, 1.2, 13.0
 LABELLED = 5
 """Lines that carry their number: the thickest."""
 DRIVEN = "#B34E00"
+NARROW, WIDE_ONES = "iljtfrI|.,:;'() ", "mwMW@%"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,8 @@ def layout_pictures(drawings: Sequence[Drawing]) -> str:
     corners = [point for one in drawings for point in one.places.values()]
     scale = _scale(corners)
     most = max((line.trips_per_h for one in drawings for line in _drawn_lines(one)), default=1.0)
-    pictures = "".join(f"<div>{_svg(one, scale, most)}</div>" for one in drawings)
+    room = min(_room([scale.at(point) for point in one.places.values()]) for one in drawings)
+    pictures = "".join(f"<div>{_svg(one, scale, most, room)}</div>" for one in drawings)
     return f'<div class="panels">{pictures}</div>'
 
 
@@ -80,9 +82,9 @@ def _scale(corners: Sequence[Point]) -> _Scale:
     return _Scale(left_m, max(ys), px, max(LEAST_TALL, tall_m * px + 80) + HEAD + FOOT)
 
 
-def _svg(one: Drawing, scale: _Scale, most: float) -> str:
+def _svg(one: Drawing, scale: _Scale, most: float, room: float) -> str:
+    """room : pixels that a name may be wide, the same in all drawings, so that names are shortened alike."""
     at = {place: scale.at(point) for place, point in one.places.items()}
-    room = _room(list(at.values()))
     marks = {place: _mark_box(at[place], _short(_name(one, place), room)) for place in one.places}
     lines = _drawn_lines(one)
     ways = _ways(one, lines, at, list(marks.values()), most)
@@ -215,7 +217,7 @@ def _name(one: Drawing, place: str) -> str:
 
 
 def _mark_box(at: Point, short: str) -> Box:
-    half = max(18.0, LETTER * len(short) / 2 + 8)
+    half = max(18.0, _wide(short) / 2 + 8)
     return at[0] - half, at[1] - HALF_MARK, at[0] + half, at[1] + HALF_MARK
 
 
@@ -226,9 +228,28 @@ def _room(points: Sequence[Point]) -> float:
 
 
 def _short(name: str, room: float) -> str:
-    most = max(3, int((room - 16) / LETTER))
-    tail = most // 3  # the ends of names often tell them apart: station 11, station 12
-    return name if len(name) <= most else f"{name[: most - 1 - tail]}…{name[len(name) - tail :]}"
+    if _wide(name) <= room - 16:
+        return name
+    for most in range(len(name), 3, -1):
+        tail = most // 3  # the ends of names often tell them apart: station 11, station 12
+        short = f"{name[: most - 1 - tail]}…{name[len(name) - tail :]}"
+        if _wide(short) <= room - 16:
+            return short
+    return f"{name[:1]}…{name[-1:]}"
+
+
+def _wide(text: str) -> float:
+    """Pixels that a text is wide at most, in the wider fonts that browsers take where a page names none."""
+    return LETTER * sum(map(_letters, text))
+
+
+def _letters(letter: str) -> float:
+    """How wide a letter is, in ``LETTER``."""
+    if letter in NARROW:
+        return 0.7
+    if letter in WIDE_ONES or ord(letter) > 0x2000:
+        return 1.95
+    return 1.45 if letter.isupper() else 1.25
 
 
 def _aisles(points: Sequence[Point]) -> tuple[float, float]:

@@ -12,14 +12,14 @@ from opsim.study.layout.study import NOW, LayoutFound
 from opsim.study.layout.words import moved_stations, said
 
 SHIFT_H = 8.0
-NO_DIFFERENCE = "no clear difference"
+NO_DIFFERENCE, NOT_MEASURED = "no clear difference", "not measured"
 SAME = 0.02
 """Of the output: a difference that is surely less than this share is told as none."""
 
 
 def answer(found: LayoutFound) -> list[str]:
     """The most important first."""
-    return [*_headline(found), *_by_few(found), *_alike(found), *_caution(found)]
+    return [*_headline(found), *_by_few(found), *_alike(found), *_caution(found), *_clash(found)]
 
 
 def walking(one: Against) -> str:
@@ -50,6 +50,8 @@ def exposure(found: LayoutFound, of: Any) -> str:
         return ""
     name = exposure_name(found)
     name = name[:1].lower() + name[1:] if name[1:2].islower() else name
+    if not one.measured:
+        return f"{name}: {NOT_MEASURED}, because {why_not_measured(found)}"
     if not one.clear:
         return f"{name}: {NO_DIFFERENCE}"
     per_part = "" if each is None else f" (per part {_percent(each) if each.clear else NO_DIFFERENCE})"
@@ -61,6 +63,18 @@ def exposure_name(found: LayoutFound) -> str:
     asked = found.asked.exposure
     assert asked is not None
     return f"{kpi_name(asked.kpi)}, of {asked.subject or 'the worker who has most of it'}"
+
+
+def why_not_measured(found: LayoutFound) -> str:
+    """Of the second criterion, where no replication has a value of it."""
+    from opsim.kpi.names import needs_postures
+
+    asked = found.asked.exposure
+    assert asked is not None
+    whose = f"{asked.subject} does" if asked.subject else "is done here"
+    if needs_postures([asked.kpi]):
+        return f"no work that {whose} has a known posture that it could be taken from"
+    return "no replication has a value of it"
 
 
 def _figure(found: LayoutFound) -> str:
@@ -136,10 +150,23 @@ def _by_few(found: LayoutFound) -> Iterator[str]:
 
 def _alike(found: LayoutFound) -> Iterator[str]:
     """Those that no test tells from the best."""
-    others = [name for name in found.alike if name != (NOW if found.taken is None else found.taken.name)]
-    if found.taken is not None and others:
-        names = ["the present layout" if name == NOW else f"'{name}'" if " " in name else name for name in others]
-        yield f"No test tells {listing(names)} from it by {_figure(found)}; of all these it has the least walking."
+    if found.taken is None:
+        return
+    best, others = _name(found.taken.name), [_name(name) for name in found.alike if name != found.taken.name]
+    if others:
+        yield (
+            f"No test tells {listing(others)} from {best} by {_figure(found)}; of all these {best} has the least "
+            "walking."
+        )
+
+
+def _name(layout: str) -> str:
+    return "the present layout" if layout == NOW else f"'{layout}'" if " " in layout else layout
+
+
+def _clash(found: LayoutFound) -> Iterator[str]:
+    if found.asked.clash:
+        yield f"All changes together are left out, since they clash: {found.asked.clash}."
 
 
 def _caution(found: LayoutFound) -> Iterator[str]:

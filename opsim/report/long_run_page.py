@@ -39,7 +39,7 @@ def long_run_page(run: Any) -> StudyPage:
             ),
             Section(
                 "Batch means",
-                ("They should lie about their mean without a trend, and one should say nothing of the next.",),
+                ("They should scatter around their mean without a trend, and one should say nothing of the next.",),
                 picture=batches_svg(run),
                 legend=BATCH_LEGEND,
             ),

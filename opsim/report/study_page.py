@@ -9,6 +9,8 @@ from pathlib import Path
 from opsim.whole import write_text
 
 HERE = Path(__file__).parent
+WORDS, SENTENCE = 16, 40
+"""Characters beyond which the text of a column needs room on a narrow screen."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,15 @@ class Table:
     rows: Sequence[Sequence[str]]
     words: int = 1
 
+    @property
+    def kinds(self) -> list[str]:
+        """Of each column, how a page sets it: text that is long keeps room for some words in a line on a phone too."""
+        return ["number" if at >= self.words else self._kind_of_words(at) for at in range(len(self.columns))]
+
+    def _kind_of_words(self, at: int) -> str:
+        longest = max((len(row[at]) for row in self.rows if at < len(row)), default=0)
+        return "sentence" if longest > SENTENCE else "words" if longest > WORDS else ""
+
 
 @dataclass(frozen=True)
 class Section:
@@ -28,6 +39,7 @@ class Section:
     legend    : (edge, fill, words) of its marks
     code      : lines to copy into a file
     on_screen : whether the terminal shows it too; what it shows of a study fits on one screen
+    on_page   : whether the page shows it; not where another section has all of which this is the short form
     """
 
     title: str
@@ -36,6 +48,7 @@ class Section:
     picture: str = ""
     legend: Sequence[tuple[str, str, str]] = ()
     on_screen: bool = False
+    on_page: bool = True
     code: str = ""
 
 

@@ -20,9 +20,14 @@ NAME_PATTERN = r"^[^\s!-/:-@\[-^`{-~][^!-,./:-@\[-^`{-~]*$"
 """What a name may look like, for editors: as ``is_name``, with every letter outside ASCII allowed."""
 
 
-def plain_error(message: str, hint: str = "", *, on: str | int | None = None) -> PydanticCustomError:
-    """An error already in our words; ``on`` names the key inside the block that it is about."""
-    return PydanticCustomError("plain", "{message}", {"message": message, "hint": hint, "on": on})
+def plain_error(
+    message: str, hint: str = "", *, on: str | int | None = None, or_on: str | None = None
+) -> PydanticCustomError:
+    """An error already in our words; ``on`` names the key inside the block that it is about.
+
+    or_on : another key that it is about, where that one alone comes from an option or another file
+    """
+    return PydanticCustomError("plain", "{message}", {"message": message, "hint": hint, "on": on, "or_on": or_on})
 
 
 def to_sum_to_1(total: float) -> str:

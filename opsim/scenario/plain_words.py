@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import like
+from opsim.scenario.option_words import option_hint
 from opsim.scenario.positions import Node, Part, child, dotted, problem
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.schema.cycles import CYCLE_KINDS, SO_MANY
@@ -45,7 +46,7 @@ def schema_problems(error: ValidationError, tree: Node, lacking_keys: Collection
     missing: dict[tuple[Part, ...], list[str]] = {}
     meant: set[tuple[Part, ...]] = set()
     for item in error.errors(include_url=False, include_input=False):
-        loc, on = item["loc"], item.get("ctx", {}).get("on")
+        loc, on = item["loc"], _key_meant(item, tree)
         if item["type"] == "missing":
             missing.setdefault(loc[:-1], []).append(str(loc[-1]))
         else:
@@ -58,6 +59,15 @@ def schema_problems(error: ValidationError, tree: Node, lacking_keys: Collection
             yield _missing(loc, lacking, tree)
 
 
+def _key_meant(item: Any, tree: Node) -> Part | None:
+    """The key inside the block that an error is about; of two, that which comes from elsewhere, as from an option."""
+    ctx = item.get("ctx", {})
+    on, other = ctx.get("on"), ctx.get("or_on")
+    nodes = [child(tree, *_path(item["loc"]), key) for key in (on, other) if key]
+    elsewhere = [node is not None and node.place.source.file != tree.place.source.file for node in nodes]
+    return other if elsewhere == [False, True] else on
+
+
 def _path(loc: tuple[Part, ...]) -> tuple[Part, ...]:
     """A location without the marks the schema puts in: which kind of task or of gap, that it is a key."""
     return tuple(part for part in loc if part not in TASK_KINDS and part not in _MARKS)
@@ -66,7 +76,7 @@ def _path(loc: tuple[Part, ...]) -> tuple[Part, ...]:
 def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Problem:
     kind, ctx = item["type"], item.get("ctx", {})
     if kind == "extra_forbidden":
-        hint = _block_above(path) or did_you_mean(path[-1], keys_allowed(item["loc"][:-1]), otherwise="keys here")
+        hint = _block_above(path) or option_hint(path) or _nearest_key(path[-1], keys_allowed(item["loc"][:-1]))
         return problem(_key_place(tree, path), path, f"unknown key {shown(path[-1])}", hint)
     node = _deepest(tree, path)
     if kind == "plain":
@@ -75,6 +85,10 @@ def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Probl
     message, hint = _wrong_value(kind, ctx, node.value)
     hint = hint or _such_as(kind, ctx, item["loc"])
     return problem(node.name_place if node.value is None else node.place, path, message, hint)
+
+
+def _nearest_key(key: Part, known: list[str]) -> str:
+    return did_you_mean(key, known, otherwise="keys here", most=len(known))
 
 
 def _block_above(path: tuple[Part, ...]) -> str:
@@ -90,7 +104,7 @@ def _wrong_value(kind: str, ctx: dict[str, Any], value: object) -> tuple[str, st
         return f"expected {_TYPES[kind]}, {found}", _type_hint(kind, value)
     if kind in _BOUNDS:
         words, bound = _BOUNDS[kind]
-        return f"must be {words} {ctx[bound]:g}, {found}", _bound_hint(bound, ctx[bound], value)
+        return f"must be {words} {ctx[bound]:.12g}, {found}", _bound_hint(bound, ctx[bound], value)
     if kind == "literal_error":
         known = [word.strip("' ") for word in ctx["expected"].replace(" or ", ",").split(",")]
         return f"expected {_either(known)}, {found}", _near(value, known)
@@ -132,7 +146,7 @@ def _bound_hint(bound: str, limit: float, value: object) -> str:
         return f"write a number {'above' if bound == 'gt' else 'below'} {limit:g}"
     if isinstance(value, int | float) and value < 0 <= limit <= -value:
         return f"write {shown(-value)}, without the minus"
-    return f"write {limit:g} or {'more' if bound == 'ge' else 'less'}"
+    return f"write {limit:.12g} or {'more' if bound == 'ge' else 'less'}"
 
 
 def _wrong_number(kind: str, ctx: dict[str, Any]) -> str:

@@ -48,27 +48,35 @@ class Loaded:
 
 
 def read_scenarios(
-    path: str | Path, names: Sequence[str] | None = None, changes: Mapping[str, Any] | None = None
+    path: str | Path,
+    names: Sequence[str] | None = None,
+    changes: Mapping[str, Any] | None = None,
+    origin: str = "changes",
 ) -> dict[str, Loaded]:
     """The variants of a scenario file by name, in the file's order; with ``names`` those only, in that order.
 
     A path that does not exist may be the name of a shipped scenario. All variants are checked.
-    changes : dotted paths and values from elsewhere, such as {"run.horizon": "4 h"}, laid over every variant.
+    changes : dotted paths and values from elsewhere, such as {"run.horizon": "4 h"}, laid over every variant
+    origin  : where they come from, such as "command line": what is wrong with them is said to stand there
     Raises ScenarioError with every problem found.
     """
     file = find_scenario(path)
-    return scenarios_in(read_bytes(file), file, names, changes)
+    return scenarios_in(read_bytes(file), file, names, changes, origin)
 
 
 @without_collecting()
 def scenarios_in(
-    raw: bytes, file: Path, names: Sequence[str] | None = None, changes: Mapping[str, Any] | None = None
+    raw: bytes,
+    file: Path,
+    names: Sequence[str] | None = None,
+    changes: Mapping[str, Any] | None = None,
+    origin: str = "changes",
 ) -> dict[str, Loaded]:
     """As ``read_scenarios``, from the bytes of a file; ``file`` names it and places the files it mentions."""
     base, trees, problems = _trees(raw, file)
     loaded: dict[str, Loaded] = {}
     for variant, tree in trees.items():
-        tree, wrong = applied(tree, changes_node(changes or {}))
+        tree, wrong = applied(tree, changes_node(changes or {}, origin))
         problems += wrong
         scenario, tree, found_here = _checked(tree, base, file.parent)
         problems += found_here

@@ -20,7 +20,7 @@ from opsim.scenario.variants import MOST_CHECKED
 from opsim.scenario.varied import Varied
 
 STUDIES = "studies"
-FEWEST_TRIES = 20
+FEWEST_TRIES, MOST_TRIES = 20, 2000
 NO_FACTORS = {
     "name": "vary what does",
     "outputs": "say which figures are told with 'figures'",
@@ -69,7 +69,9 @@ class StudyKeys:
     def factors(self, node: Node, path: Path) -> Iterator[Problem]:
         """Every value of a list, and both ends of a range, laid over the variant by itself."""
         for name, factor in entries(node).items():
-            yield from _no_factor(name, factor, path)
+            if wrong := list(_no_factor(name, factor, path)):
+                yield from wrong
+                continue
             for value in _values(factor):
                 yield from self._changed({name: replace(value, key=factor.key)}, path)
 
@@ -119,13 +121,20 @@ class StudyKeys:
     def _changed(self, changes: Mapping[str, Node], path: Path) -> Iterator[Problem]:
         if next(self._tries, None) is None:
             return iter(())
-        return change_problems(self.varied, changes, path, but=self.base)
+        return change_problems(self._floor, changes, path, but=self.base)
+
+    @cached_property
+    def _floor(self) -> Varied:
+        """The variant without its studies, which no value decides anything of: they are long, and were checked once."""
+        tree = self.varied.tree
+        floor = {key: node for key, node in entries(tree).items() if key != STUDIES}
+        return replace(self.varied, tree=tree.with_entries(floor))
 
     @cached_property
     def _tries(self) -> Iterator[int]:
         """One for each time that the scenario may still be checked as a whole; the others are when they are run."""
         n_values = sum(1 for _ in written_paths(self.varied.tree))
-        return iter(range(max(FEWEST_TRIES, MOST_CHECKED // max(n_values, 1))))
+        return iter(range(min(MOST_TRIES, max(FEWEST_TRIES, MOST_CHECKED // max(n_values, 1)))))
 
     @cached_property
     def in_any_variant(self) -> dict[str, set[str]]:
@@ -160,10 +169,11 @@ def _texts(node: Node) -> list[Node]:
 
 
 def _added(node: Node | None, section: str) -> Iterator[str]:
-    """Names in dotted paths that begin with a section, wherever they stand in a study."""
+    """Names that a study adds to a section, wherever in it: a longer path leads to a key of what must be there."""
     for key, below in entries(node).items():
-        if key.startswith(f"{section}."):
-            yield key.removeprefix(f"{section}.").partition(".")[0]
+        name = key.removeprefix(f"{section}.")
+        if name != key and "." not in name:
+            yield name
         yield from _added(below, section)
     for below in items(node):
         yield from _added(below, section)

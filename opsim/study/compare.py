@@ -12,7 +12,12 @@ from opsim.study.no_figure import remedy
 from opsim.study.paired import FEW, ROUNDING, holm, paired
 
 __all__ = ["ROUNDING", "Comparison", "Difference", "NotComparable", "compare", "holm", "paired", "scheduled_hours"]
+NOT_PROVEN = "not proven"
 PER_SCHEDULED_HOUR, PER_CALENDAR_HOUR = ("throughput_per_h",), "throughput_per_calendar_h"
+_NOT_PROVEN_WORDS = (
+    "by itself its interval leaves 0 out, but among so many comparisons chance alone brings some that do; more "
+    "replications, or fewer figures and variants, can settle it."
+)
 
 
 class NotComparable(ValueError):
@@ -49,7 +54,10 @@ class Difference:
 
     @property
     def verdict(self) -> str:
-        """What may be said: higher, lower, no clear difference, identical, other hours, too few, or nothing."""
+        """What may be said: higher, lower, not proven, no clear difference, identical, other hours, too few, nothing.
+
+        not proven : its own interval leaves 0 out, but not clearly enough for as many comparisons as are made
+        """
         if self.other_hours:
             return "other hours"
         if self.interval.n == 0:
@@ -59,7 +67,7 @@ class Difference:
         if np.isnan(self.p_together):
             return "one replication says nothing" if self.interval.n == 1 else "too few replications to say"
         if self.p_together > 1 - CONFIDENCE:
-            return "no clear difference"
+            return "no clear difference" if self.p > 1 - CONFIDENCE else NOT_PROVEN
         return "higher" if self.interval.mean > 0 else "lower"
 
 
@@ -90,10 +98,12 @@ class Comparison:
     @property
     def short_words(self) -> tuple[str, ...]:
         """The same as ``words`` for who has read them once."""
+        alone = "(*) would be clear by itself, but is not proven among so many comparisons."
         few = f" {self.n} are few: more replications make ± smaller." if 1 < self.n < FEW else ""
         return (
-            f"± is the {100 * CONFIDENCE:.0f} % interval of a difference, from {self.pairs}.{few}",
+            f"± is the {100 * CONFIDENCE:.0f} % interval of a difference by itself, from {self.pairs}.{few}",
             f"* is clearly higher or lower, with all {self.tests} comparisons held together (Holm 1979).",
+            *([alone] if self._any_not_proven else ()),
             *self._hours_words(),
         )
 
@@ -106,9 +116,14 @@ class Comparison:
             f"Differences from {self.base} in {self.pairs}.",
             f"Each {own} interval is for its own figure alone. 'higher' and 'lower' are said so that "
             f"all comparisons together ({m}) are wrong with a chance of at most {wrong} (Holm 1979).",
+            *([f"'{NOT_PROVEN}': {_NOT_PROVEN_WORDS}"] if self._any_not_proven else ()),
             "Pairing: so many times more replications would be needed with independent random numbers.",
             *self._hours_words(),
         )
+
+    @property
+    def _any_not_proven(self) -> bool:
+        return any(d.verdict == NOT_PROVEN for d in self.differences)
 
     def _hours_words(self) -> Iterator[str]:
         others = list(dict.fromkeys(d.variant for d in self.differences if d.other_hours))

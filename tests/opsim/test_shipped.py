@@ -20,6 +20,9 @@ def test_a_shipped_scenario_is_found_by_its_name(monkeypatch, tmp_path):
         assert find_scenario(name) == tmp_path / "shipped/queue.yaml"
     with pytest.raises(ScenarioError, match=r"did you mean 'queue\.yaml'"):
         find_scenario("queu.yaml")
+    (tmp_path / "low.yaml").touch()
+    with pytest.raises(ScenarioError, match=r"here are low\.yaml; 'opsim init --list' shows those that come with"):
+        find_scenario("nope.yaml")  # only its ending is like that of the others
     with pytest.raises(ScenarioError, match="no such file"):
         find_scenario("other/queue.yaml")
     with pytest.raises(ScenarioError, match="no such file"):

@@ -82,6 +82,14 @@ class Run(Block):
     def _warm_up_ends(self) -> Run:
         if self.warm_up_s >= self.horizon_s:
             raise plain_error(
-                f"the warm-up ({self.warm_up_s:g} s) must end before the horizon ({self.horizon_s:g} s)", on="warm_up"
+                f"the warm-up ({_time(self.warm_up_s)}) must end before the horizon ({_time(self.horizon_s)})",
+                on="warm_up",
+                or_on="horizon",
             )
         return self
+
+
+def _time(seconds: float) -> str:
+    """In the largest unit that leaves a whole number, as in ``30 min``."""
+    unit, word = next(((unit, word) for unit, word in ((3600, "h"), (60, "min")) if not seconds % unit), (1, "s"))
+    return f"{seconds / unit:.12g} {word}"

@@ -32,7 +32,7 @@ def cluster(address: str) -> Iterator[Executor]:
     _answers(address, host, port)
     from distributed import Client
 
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what fails is said once, by us
+    _quiet()
     client: Any = None
     try:
         client = Client(address, timeout=CONNECT_S, set_as_default=False)
@@ -44,6 +44,16 @@ def cluster(address: str) -> Iterator[Executor]:
         yield executor
     finally:
         client.close(timeout=5)
+
+
+def _quiet() -> None:
+    """What fails is said once, by us: a worker that was lost is no news where another one takes its work.
+
+    dask gives some of its loggers levels of their own, which that of ``distributed`` does not reach.
+    """
+    for name in ("distributed", *logging.root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _read(address: str) -> tuple[str, int]:

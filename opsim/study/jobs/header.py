@@ -102,7 +102,7 @@ def differing(held: Header, now: Header) -> list[str]:
     if held.variant != now.variant:
         words.append(f"begins with variant {held.variant}, now {now.variant}")
     words += made_differ(held.made_from, now.made_from)
-    if not set(now.source.kpis) <= set(held.source.kpis):
+    if held.kind == now.kind and not set(now.source.kpis) <= set(held.source.kpis):
         missing = [kpi for kpi in now.source.kpis if kpi not in held.source.kpis]
         words.append(f"{', '.join(missing)} was not kept of its replications")
     return words

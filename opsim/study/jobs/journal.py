@@ -7,7 +7,7 @@ with its figures, ``[set, [[kpi, subject, part, unit], ...], check]``. In memory
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from hashlib import blake2b
 from pathlib import Path
 from typing import IO
@@ -16,6 +16,7 @@ from opsim.results import Key
 from opsim.study.jobs.answer import Answer, keys_in
 from opsim.study.jobs.appended import Appended
 from opsim.study.jobs.lines import Damaged, from_line, number, plain_number, to_line
+from opsim.whole import whole_file
 
 Address = tuple[str, int, int]
 """(what decides the answers of a point, replication, workforce or -1)"""
@@ -30,6 +31,8 @@ class Journal:
 
     def __init__(self, files: Iterable[Path] = (), own: Path | None = None):
         """files : read as they are now. own : made or cut behind its last whole line, and gone on with. Raises OSError.
+
+        Damaged lines of ``own`` are taken out.
 
         NOTE: nobody else may write to ``own``; see opsim/study/lock.py.
         """
@@ -46,7 +49,7 @@ class Journal:
             if own is not None:
                 own.parent.mkdir(parents=True, exist_ok=True)
                 own.touch()
-                self._own = Appended(own, self._read_file(own))
+                self._own = Appended(own, self._read_mended(own))
                 self._said = self._in_file
                 self._files.append(own.open("rb"))  # anew: what was read ahead may just have been cut off
                 self._files.pop(-2).close()
@@ -94,11 +97,34 @@ class Journal:
             file.close()
         self._files.clear()
 
+    def _read_mended(self, own: Path) -> int:
+        """As ``_read_file``; lines that are not what was written are told this once, and taken out of the file.
+
+        What cannot be taken out, as on a full disk, is told again the next time.
+        """
+        twice = list(self.twice)
+        end = self._read_file(own)
+        if not self._broken:
+            return end
+        try:
+            with whole_file(own) as mended, mended.open("wb") as file:
+                file.writelines(_whole_lines(own, end, self._broken))
+        except OSError:
+            return end
+        self._files.pop().close()
+        number_of_own, damaged, self.twice = len(self._files), self.damaged, twice
+        for point, places in self._places.items():
+            self._places[point] = {job: place for job, place in places.items() if place[0] != number_of_own}
+        end = self._read_file(own)
+        self.damaged = damaged
+        return end
+
     def _read_file(self, path: Path) -> int:
         """Learn where the answers of a file stand; the offset behind its last whole line."""
         file = path.open("rb")
         self._files.append(file)
         self._in_file: set[str] = set()
+        self._broken: set[int] = set()
         offset, unknown = 0, []
         for line_number, line in enumerate(iter(file.readline, b""), 1):
             if not line.endswith(b"\n"):
@@ -119,8 +145,10 @@ class Journal:
                 self._in_file.add(said[0])
                 return None
             point, replication, workforce, name, _ = said
-        except (Damaged, ValueError):
+        except ValueError as error:
             self.damaged.append(place)
+            if isinstance(error, Damaged):
+                self._broken.add(at)
             return None
         if name not in self._sets:
             return place, name, (point, replication, workforce), at
@@ -144,3 +172,14 @@ class Journal:
         values = from_line(self._files[file].readline())[4]
         self._files[file].seek(here)
         return keys, values
+
+
+def _whole_lines(path: Path, end: int, broken: Container[int]) -> Iterator[bytes]:
+    """The lines of a file up to an offset without those that begin at some."""
+    offset = 0
+    with path.open("rb") as file:
+        while offset < end:
+            line = file.readline()
+            if offset not in broken:
+                yield line
+            offset += len(line)

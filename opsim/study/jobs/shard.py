@@ -25,10 +25,13 @@ class Shard:
         if not found:
             raise ValueError(f"--shard: expected which of how many, such as 2/8, found {text[:40]!r}")
         number, of = map(int, found.groups())
-        if not 1 <= of <= MOST_SHARDS or not 1 <= number <= of:
+        if not 1 <= of <= MOST_SHARDS:
             raise ValueError(
-                f"--shard {text.strip()}: the first number must be from 1 to {max(of, 1)}, as in 1/{max(of, 1)}"
+                f"--shard {text.strip()}: the second number says how many parts there are, from 1 to {MOST_SHARDS:,}"
             )
+        if not 1 <= number <= of:
+            which = f"from 1 to {of}" if of > 1 else "1"
+            raise ValueError(f"--shard {text.strip()}: the first number must be {which}, as in 1/{of}")
         return cls(number, of)
 
     @classmethod

@@ -15,6 +15,8 @@ from opsim.study.jobs import Answers, Job
 WALKED, EACH, SHARE = "walked_m_per_h", "walked_m_per_part", "walking_share"
 BEST, EXPOSURE, EXPOSURE_EACH = "best", "exposure", "exposure_per_part"
 MEASURES = (BEST, WALKED, EACH, SHARE, EXPOSURE, EXPOSURE_EACH)
+WORST = "worst"
+"""The part of a figure that is of the worker who has most of it already."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +28,11 @@ class Against:
     difference: Interval
     p: float
     p_together: float
+
+    @property
+    def measured(self) -> bool:
+        """Whether both layouts have the figure in any replication that they share."""
+        return bool(np.isfinite(self.difference.mean))
 
     @property
     def clear(self) -> bool:
@@ -128,10 +135,12 @@ def _whole(keys: Sequence[tuple[str, ...]], values: np.ndarray, asked: Asked) ->
 
 
 def _worst(keys: Sequence[tuple[str, ...]], values: np.ndarray, asked: Asked) -> np.ndarray:
+    """(R,) of the worker who has most of it, of those of whom it is known; nan where it is of nobody."""
     of_each = [n for n, key in enumerate(keys) if key[0] == asked.kpi and key[1] and key[2] == asked.part]
-    if asked.subject or not of_each:
+    if asked.subject or asked.part == WORST or not of_each:
         return _whole(keys, values, asked)
-    return values[:, of_each].max(axis=1)
+    most = np.where(np.isnan(values[:, of_each]), -np.inf, values[:, of_each]).max(axis=1)
+    return np.where(np.isfinite(most), most, np.nan)
 
 
 def _mean(values: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from opsim.scenario.layout_moves import Moved, read_any_moved, read_moved
 from opsim.study.layout.adding import added_changes
 from opsim.study.layout.floor import Floor, NoLayout
 
+TOGETHER = "all together"
 WIDEST = 116
 """Letters in a line to paste."""
 
@@ -38,12 +39,13 @@ class Candidate:
 def what_ifs(floor: Floor, block: Any) -> list[Candidate]:
     """The layouts that a study's block names: each change by itself, all of them together, and those with a name.
 
+    Where each is possible, but not all of them together, that one is left out (``clash`` says why).
     Raises NoLayout with everything that is wrong with any of them.
     """
-    single = [read_moved(kind, text) for kind in ("move", "swap", "place", "add") for text in getattr(block, kind)]
+    single = _single(block)
     named = {str(moved): [moved] for moved in single}
-    if len(single) > 1:
-        named["all together"] = single
+    if len(single) > 1 and not clash(floor, block):
+        named[TOGETHER] = single
     for name, texts in block.what_ifs.items():
         named[name] = [read_any_moved(text) for text in texts]
     found, wrong = [], []
@@ -55,6 +57,19 @@ def what_ifs(floor: Floor, block: Any) -> list[Candidate]:
     if wrong:
         raise NoLayout("\n".join(dict.fromkeys(wrong)))
     return found
+
+
+def clash(floor: Floor, block: Any) -> str:
+    """Why not all changes can be made together; "" where they can."""
+    try:
+        candidate(floor, TOGETHER, _single(block))
+    except NoLayout as error:
+        return "; ".join(str(error).splitlines())
+    return ""
+
+
+def _single(block: Any) -> list[Moved]:
+    return [read_moved(kind, text) for kind in ("move", "swap", "place", "add") for text in getattr(block, kind)]
 
 
 def candidate(floor: Floor, name: str, moves: Sequence[Moved]) -> Candidate:

@@ -18,7 +18,7 @@ from opsim.study.layout.choose import chosen, gains, losses
 from opsim.study.layout.floor import Floor, Movable, NoLayout, floor_of, movable
 from opsim.study.layout.flows import Flows, flows_of
 from opsim.study.layout.judge import Against, against, exposure_asked, measures
-from opsim.study.layout.moves import Candidate, what_ifs
+from opsim.study.layout.moves import Candidate, clash, what_ifs
 from opsim.study.layout.proposals import Proposals, proposals
 
 FEWEST = 10
@@ -65,6 +65,11 @@ class LayoutAsked:
     def what_ifs(self) -> list[Candidate]:
         """Raises NoLayout with everything that is wrong with any of them."""
         return what_ifs(self.floor, self.block)
+
+    @cached_property
+    def clash(self) -> str:
+        """Why the changes asked for are not simulated all together too; "" where they are."""
+        return clash(self.floor, self.block)
 
     @cached_property
     def free(self) -> Movable | None:

@@ -62,6 +62,12 @@ def test_shards_in_any_folders_give_the_bytes_of_the_whole(tmp_path, whole):
     assert hashes(tmp_path / "merged") == whole
 
 
+def test_the_same_file_by_another_path_gives_the_same_bytes(tmp_path, whole):
+    for name, path in (("a", tmp_path / "line.yaml"), ("b", "./line.yaml")):
+        assert opsim("sweep", str(path), "-o", name, "--processes", 1)[0] == 0
+        assert hashes(tmp_path / name) == whole
+
+
 def test_shards_of_one_folder_are_merged_where_they_are(tmp_path, whole):
     swept("-o", "s", "--shard", "1/2")
     assert "and so are all others" in swept("-o", "s", "--shard", "2/2")

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -126,3 +128,36 @@ def test_most_there_may_be_is_not_said_twice():
     rula = [("rula_from_7_min_per_h", "", part, "min/h") for part in ("", "at_most")]
     table = screen_table(Comparison("base", 7, 10, tuple(difference(key=key) for key in rula)), 140)
     assert len(table.rows) == 1
+
+
+def alone(**how):
+    return replace(difference(**how), p=0.01, p_together=0.2)
+
+
+def test_what_is_clear_by_itself_but_not_among_all_comparisons_is_named_first_where_it_is_worse():
+    rula = difference(key=("rula_from_5_min_per_h", "", "", "min/h"), by=-0.5, half=0.1, base=1.0)
+    (sentence,) = said(alone(by=-8.0, half=3.0), rula, difference(key=STAY, by=0.1, p=0.5))
+    assert sentence.startswith(
+        "near looks worse in throughput (\N{MINUS SIGN}8.0 ± 3.0 per hour, \N{MINUS SIGN}40 %), but that is not proven "
+        "with 3 comparisons held together. It is better in RULA 5 or more ("
+    )
+    assert sentence.endswith("No clear difference in time in system (+0.10 ± 0.25 s, +0.5 %).")
+    gained = said(difference(), alone(key=STAY, by=-4.0, base=80.0))[0]
+    assert gained.startswith("near is better in throughput") and "It looks better in time in system" in gained
+    assert said(alone(variant="{x}"))[0].startswith("{x} looks better in throughput (+1.00 ± 0.25 per")
+
+
+def test_no_sentence_puts_a_large_fall_of_the_output_behind_what_is_better():
+    better = difference(key=STAY, by=-4.0, base=80.0)
+    (clear,) = said(better, difference(by=-8.0, half=3.0))
+    assert clear.startswith("near is worse in throughput (") and ", better in time in system (" in clear
+    (unclear,) = said(better, difference(by=-8.0, half=9.0, p=0.07))
+    assert "near: no clear difference in throughput" in unclear and "%). It is better in time in system (" in unclear
+
+
+def test_the_table_and_its_words_mark_what_is_not_proven_and_only_then():
+    comparison = Comparison("base", 7, 10, (alone(), difference(variant="far")))
+    assert screen_table(comparison, 140).rows[0][2:] == ("+1.00 ± 0.25 (*)", "+1.00 ± 0.25 *")
+    assert any(words.startswith("(*) ") for words in comparison.short_words)
+    assert any(words.startswith("'not proven'") for words in comparison.words)
+    assert "not proven" not in " ".join(Comparison("base", 7, 10, (difference(),)).words)

@@ -8,6 +8,7 @@ import pytest
 
 from opsim.kpi.target import read_target
 from opsim.report.labour_curves import bought_svg, day_svg
+from opsim.report.labour_numbers import figure_name
 from opsim.report.labour_page import labour_page
 from opsim.report.labour_pictures import budget_svg, parts_svg
 from opsim.report.labour_tables import bought_table
@@ -106,3 +107,20 @@ def test_pictures_stand_within_their_width(target):
 
 def test_days_that_are_all_alike_have_no_histogram():
     assert day_svg(Made(values=np.full((3, 2), 4.0), asked=Made(target=None, a_day=True), quantiles=())) == ""
+
+
+def test_a_short_day_is_said_beside_its_target():
+    one = found()
+    short = replace(one, day=replace(one.day, asked=replace(one.day.asked, hours=2.0)))
+    assert any(said.startswith("You reach 480 a day (a day is 2 h here) with") for said in answer(short))
+
+
+def test_a_figure_in_per_cent_does_not_say_that_it_goes_from_0_to_1():
+    key = ("fatigue_mean", "", "", "share")
+    assert figure_name(key, "%") == "Fatigue at work" and figure_name(key, "").endswith("from 0 (fresh) to 1")
+
+
+def test_the_page_shows_each_table_once_and_the_target_does_not_strike_out_a_name():
+    html = study_html(labour_page(found(curves=(curve("more like ana", "workers", 5.0, 9.5),)), "t"))
+    assert html.count("luck of the day, for all alike</td>") == 1 and html.count("more like ana</td>") == 1
+    assert " 22V" in day_svg(found().day) and " 8V" not in day_svg(found().day)

@@ -9,7 +9,7 @@ from opsim.report.layout_words import answer
 from opsim.study.compare import paired
 from opsim.study.interval import t_interval
 from opsim.study.layout.choose import gains, losses
-from opsim.study.layout.judge import BEST, EACH, SHARE, WALKED, Against
+from opsim.study.layout.judge import BEST, EACH, EXPOSURE, SHARE, WALKED, Against
 
 RNG = np.random.default_rng(3)
 NOW, LUCK = np.linspace(98, 102, 10), RNG.standard_normal(10)
@@ -28,13 +28,15 @@ MORE, LESS, HARDLY, PERHAPS = (
 )
 
 
-def said(walked, best, figure="throughput_per_h"):
+def said(walked, best, figure="throughput_per_h", clash="", alike=("proposal_1",), **more):
     asked = Made(best=read_asked(figure), exposure=None, floor=Made(at={"saw": "a", "drill": "b"}), replications=10)
+    asked.clash = clash
     at = {"saw": "b", "drill": "a"}
     taken = Made(at=at, moved={}, added=(), proposed=True, name="proposal_1")
-    fresh = {WALKED: walked, BEST: best, EACH: walked, SHARE: walked}
+    asked.exposure = read_asked("rula_from_5_min_per_h") if more else None
+    fresh = {WALKED: walked, BEST: best, EACH: walked, SHARE: walked, **more}
     better, worse = gains(fresh, asked.best), losses(fresh, asked.best)
-    found = Made(asked=asked, taken=taken, candidates=(taken,), fresh=fresh, compared={}, alike=("proposal_1",))
+    found = Made(asked=asked, taken=taken, candidates=(taken,), fresh=fresh, compared={}, alike=alike)
     found.gains, found.losses = better, worse
     return answer(found)
 
@@ -73,3 +75,20 @@ def test_only_walking_is_saved_where_the_output_is_surely_the_same():
 
 def test_metres_of_a_shift_are_those_of_all_people_together():
     assert "in 8 hours by all together" in said(LESS, MORE)[0]
+
+
+def test_what_is_not_measured_is_not_told_as_no_difference():
+    words = said(LESS, MORE, **{EXPOSURE: against(NOW * np.nan, NOW * np.nan)})[0]
+    assert "not measured, because no work that is done here has a known posture" in words
+    assert "has most of it: no clear difference" not in words
+
+
+def test_layouts_that_no_test_tells_apart_are_told_by_name():
+    words = said(LESS, MORE, alike=("now", "proposal_1", "proposal_2"))
+    assert any(
+        one.startswith("No test tells the present layout and proposal_2 from proposal_1 by throughput") for one in words
+    )
+
+
+def test_changes_that_clash_are_said_to_be_left_out():
+    assert "left out, since they clash: a and b would stand at c." in said(LESS, MORE, clash="a and b would stand at c")[-1]

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from opsim.problems import ScenarioError
 from opsim.scenario.changes_checked import change_problems
 from opsim.scenario.known_paths import keys_of
+from opsim.scenario.read import read_scenarios
 from opsim.scenario.schema.studies import Studies
 from opsim.scenario.studied import check_study, study_problems
 from opsim.scenario.varied import Varied
@@ -83,6 +84,40 @@ def test_names_of_a_layout_study_are_looked_up(tmp_path):
     ]
 
 
+def test_a_mistyped_path_adds_no_station_and_a_whole_new_one_does(tmp_path):
+    asked = "  sweep: {vary: {stations.pak.buffer: [1, 2]}}\n  layout: {fixed: [zzz]}"
+    assert [hint for *_, hint in wrong(tmp_path, asked)] == [
+        "did you mean stations.pack.buffer?",
+        "known stations: pack",
+    ]
+    added = "  sweep: {vary: {workers.cai: [{like: ana}, {like: ben}]}}\n  labour: {buy_back: {like: [cai]}}"
+    assert wrong(tmp_path, added) == []
+
+
+@pytest.mark.parametrize(
+    ("verb", "key", "hint"),
+    [
+        ("select", "best", "the key of --best is 'figure'"),
+        ("select", "among", "the key of --among is 'variants'"),
+        ("select", "most", "the key of --most is 'most_replications'"),
+        ("labour", "no-buy-back", "--no-buy-back is buy_back: off in a file"),
+        ("labour", "most_workers", "--most-workers is buy_back.most_workers in a file"),
+        ("sweep", "horizon", "--horizon is run.horizon in a file"),
+        ("sweep", "figure", "the key of --figure is 'figures'"),
+    ],
+)
+def test_an_option_among_the_keys_of_a_study_is_answered_with_its_key(tmp_path, verb, key, hint):
+    found = wrong(tmp_path, f"  {verb}: {{{key}: 1}}")
+    assert hint in [hint for _, path, _, hint in found if path.endswith(key)]
+
+
+def test_all_keys_of_a_block_are_named(tmp_path):
+    hint = next(hint for _, path, _, hint in wrong(tmp_path, "  select: {xyzzy: 1}") if path.endswith("xyzzy"))
+    assert hint.startswith("keys here: ") and set(hint.removeprefix("keys here: ").split(", ")) == {
+        *BLOCKS["select"].model_fields
+    }
+
+
 def test_variants_of_a_study_are_looked_up(tmp_path):
     asked = "  select: {indifference: 1, variants: [base, neer]}"
     assert [(path, message, hint) for _, path, message, hint in wrong(tmp_path, asked)] == [
@@ -117,6 +152,14 @@ def test_changes_from_an_option_are_said_to_stand_there():
     assert found.message.startswith("with workers: {}: stations.pack: task 'lift' needs a worker")
     (found,) = change_problems(VARIED, {"run.seed": -1}, origin="--vary")
     assert (found.file, found.path, found.message) == ("--vary", "run.seed", "must be at least 0, found -1")
+
+
+def test_a_horizon_from_an_option_that_is_shorter_than_the_warm_up_is_said_at_the_option(tmp_path):
+    warm = file_with(tmp_path, "  {}")
+    with pytest.raises(ScenarioError) as caught:
+        read_scenarios(warm, changes={"run.horizon": "10 min"}, origin="command line")
+    (found,) = {(one.file, one.path, one.message) for one in caught.value.problems}
+    assert found == ("command line", "run.horizon", "the warm-up (30 min) must end before the horizon (10 min)")
 
 
 def test_a_study_decides_neither_rows_nor_figures(tmp_path):

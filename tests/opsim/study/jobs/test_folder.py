@@ -6,7 +6,7 @@ import pytest
 from opsim.scenario.varied import Varied
 from opsim.study.jobs import Job, Point, Source
 from opsim.study.jobs.folder import OtherStudy, open_study
-from opsim.study.jobs.header import header_of, read_header
+from opsim.study.jobs.header import differing, header_of, read_header
 from opsim.study.jobs.shard import Shard
 from opsim.study.lock import Busy
 from tests.opsim.cli.calls import LINE, line
@@ -67,6 +67,8 @@ def test_a_study_of_another_kind_scenario_or_version_is_refused(tmp_path, source
     answered(tmp_path / "s", source)
     with pytest.raises(OtherStudy, match="a sweep study, now labour"), opened(tmp_path / "s", source, kind="labour"):
         pass
+    other = header_of("labour", replace(source, kpis=("walked_m",)), "base", {})
+    assert differing(header_of("sweep", source, "base", {}), other) == ["a sweep study, now labour"]
     line(tmp_path, LINE.replace("fixed: 25 s", "fixed: 26 s"))
     clear()
     with pytest.raises(OtherStudy, match="25 s, now 26 s"), opened(tmp_path / "s", source):

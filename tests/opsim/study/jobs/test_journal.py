@@ -81,6 +81,38 @@ def test_a_damaged_line_is_said_and_costs_at_most_the_answers_that_need_it(tmp_p
     assert all(place.startswith(f"{path}:") for place in damaged)
 
 
+@given(st.integers(0, len(five()) - 1), st.integers(1, 255))
+def test_a_damaged_line_is_said_once_and_nothing_else_is_lost_with_it(tmp_path_factory, at, change):
+    folder = tmp_path_factory.mktemp("journal")
+    raw = bytearray(five())
+    raw[at] ^= change
+    (folder / "all.jsonl").write_bytes(bytes(raw))
+    readable = read(folder / "all.jsonl")[0]
+    first = Journal(own=folder / "all.jsonl")
+    assert {address: bits(first.values(address)) for address in first} == {a: bits(v) for a, (_, v) in readable.items()}
+    assert first.damaged or at == len(raw) - 1
+    for number in range(5):
+        if ("point", number, -1) not in first:
+            first.add(("point", number, -1), answer(number / 3, math.nan, *([number * 1e-9] if number % 2 else [])))
+    first.close()
+    found, damaged = read(folder / "all.jsonl")
+    assert len(found) == 5 and not damaged and not list(folder.glob(".*"))
+
+
+def test_a_journal_that_cannot_be_mended_is_read_as_it_is(tmp_path, monkeypatch):
+    path = tmp_path / "all.jsonl"
+    path.write_bytes(five().replace(b"walked_m", b"wolked_m", 1))
+    before = path.read_bytes()
+
+    def full(path):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("opsim.study.jobs.journal.whole_file", full)
+    journal = Journal(own=path)
+    assert journal.damaged and path.read_bytes() == before
+    journal.close()
+
+
 def test_another_process_still_writing_is_read_up_to_its_last_whole_line_and_left_alone(tmp_path):
     (tmp_path / "shard_1_of_2.jsonl").write_bytes(five()[:-3])
     journal = Journal([tmp_path / "shard_1_of_2.jsonl"], tmp_path / "all.jsonl")

@@ -139,3 +139,16 @@ def test_a_place_that_no_path_reaches_is_refused_and_crossings_are_no_places_for
     assert movable(floor, places=["p1", "p2", "p4"]).allowed == ("p1", "p2", "p4")
     with pytest.raises(NoLayout, match="no path leads from p5 to island"):
         movable(floor, places=["p1", "p2", "island"])
+
+
+def test_changes_that_are_possible_each_but_clash_leave_out_all_together(tmp_path):
+    one = asked(written(tmp_path), place=["saw=p2"], add=["second=like drill at p2"])
+    assert [each.name for each in one.what_ifs] == ["place saw=p2", "add second=like drill at p2"]
+    assert one.clash.startswith("saw and second would stand at one place, p2")
+
+
+def test_what_is_wrong_with_one_change_is_said_once(tmp_path):
+    one = asked(written(tmp_path), place=["saw=p3", "drill=p2"])
+    with pytest.raises(NoLayout) as error:
+        one.check()
+    assert str(error.value).count("would stand at one place") == 1

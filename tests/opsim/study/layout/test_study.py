@@ -160,3 +160,10 @@ def test_flows_of_a_layout_are_the_mean_of_its_replications(file, found):
     each = [flows_of(kept, [Job(Point(NOW, {}), n)], ways).walked for n in range(3)]
     both = flows_of(kept, [Job(Point(NOW, {}), n) for n in range(3)], ways).walked
     assert np.allclose(both, np.mean(each, axis=0))
+
+
+def test_the_worker_who_has_most_of_it_is_one_of_those_of_whom_it_is_known():
+    keys = [("rula_from_5_min_per_h", name, "", "min/h") for name in ("", "ana", "ben")]
+    values = np.array([[1.0, 2.0, np.nan], [1.0, np.nan, np.nan], [3.0, 2.0, 4.0]])
+    most = _worst(keys, values, read_asked("rula_from_5_min_per_h"))
+    np.testing.assert_array_equal(most, [2.0, np.nan, 4.0])
