@@ -67,9 +67,7 @@ def _bought(found: Any) -> list[Section]:
     title, every = "What buys the loss back", bought_table(found)
     return [
         Section(title, table=bought_table(few), on_screen=True, on_page=False),
-        Section(
-            f"{title}: every way that was tried", bought_reading(found), every, bought_svg(found.bought)
-        ),
+        Section(f"{title}: every way that was tried", bought_reading(found), every, bought_svg(found.bought)),
     ]
 
 

@@ -79,19 +79,13 @@ def _layouts(found: LayoutFound) -> Iterator[Section]:
     sentences = []
     if found.asked.exposure is not None:
         sentences.append(f"* of {found.asked.exposure.subject or 'the worker who has most of it'}.")
-        if not any(is_number(known_mean(values)) for values in _exposures(found)):
+        if any(NOT_MEASURED in row for row in rows):
             sentences.append(f"{NOT_MEASURED[:1].upper()}{NOT_MEASURED[1:]}: {why_not_measured(found)}.")
     if any(cell.endswith("?") for row in rows for cell in row):
         sentences.append("?: not told from no difference.")
     title = f"Layouts, each in the same {found.asked.replications} replications"
     yield Section(title, [" ".join(sentences)] if sentences else [], Table(columns, rows, words=2), on_screen=True)
     yield Section("Where the stations stand", list(_reach(found)), _standing(found))
-
-
-def _exposures(found: LayoutFound) -> Iterator[Any]:
-    """Of the second criterion, today's values and those of each layout."""
-    yield found.now[EXPOSURE]
-    yield from ([of[EXPOSURE].then.mean] for of in found.compared.values())
 
 
 def _reach(found: LayoutFound) -> Iterator[str]:

@@ -32,7 +32,7 @@ def long_run_page(run: Any) -> StudyPage:
                 "How it settles",
                 (
                     "Where the blue line has become level the floor has settled; what comes before has to be left out. "
-                    "By eye, after Welch 1983; MSER-5 says the same by a rule (`opsim warm-up`).",
+                    "By eye, after Welch 1983; MSER-5 says the same by a rule (opsim warm-up).",
                 ),
                 picture=settling_svg(run),
                 legend=SETTLING_LEGEND,

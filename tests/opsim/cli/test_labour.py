@@ -23,7 +23,7 @@ def test_one_screen_a_page_and_a_summary(tmp_path):
     assert code == 0, err
     assert len(said.splitlines()) <= 45
     assert "Who is hired moves the output" in said or "There is no sign" in said
-    assert "You reach 20 a day with a chance of" in said
+    assert "You reach 20 a day (a day is " in said and " h here) with a chance of" in said
     summary = json.loads((out / "summary.json").read_text())
     assert summary["budget"] == [] and summary["bought_back"] is None
     assert summary["day"]["chance"]["n"] == 4

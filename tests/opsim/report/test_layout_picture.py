@@ -76,6 +76,8 @@ def test_floors_of_one_place_or_one_row_are_drawn_too(places):
 def test_long_names_stay_in_their_boxes_and_are_shortened_alike_now_and_then():
     long = {"a": "verpackung mit langem Namen", "b": "mmmmmmmmmmmmmmmmmmmmmm"}
     now, then = Drawing("Now", PLACES, long, []), Drawing("Then", {**PLACES, "e": (9.0, 0.0)}, long, [])
-    marks = re.findall(r'width="([0-9.]+)" height="26.0".*?text-anchor="middle">([^<]*…[^<]*)<', layout_pictures([now, then]))
+    marks = re.findall(
+        r'width="([0-9.]+)" height="26.0".*?text-anchor="middle">([^<]*…[^<]*)<', layout_pictures([now, then])
+    )
     assert len(marks) == 4 and [name for _, name in marks[:2]] == [name for _, name in marks[2:]]
     assert all(float(wide) > 15 * 0.6 * len(name) for wide, name in marks)

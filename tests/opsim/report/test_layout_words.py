@@ -91,4 +91,7 @@ def test_layouts_that_no_test_tells_apart_are_told_by_name():
 
 
 def test_changes_that_clash_are_said_to_be_left_out():
-    assert "left out, since they clash: a and b would stand at c." in said(LESS, MORE, clash="a and b would stand at c")[-1]
+    assert (
+        "left out, since they clash: a and b would stand at c."
+        in said(LESS, MORE, clash="a and b would stand at c")[-1]
+    )

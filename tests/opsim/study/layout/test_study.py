@@ -13,7 +13,7 @@ from opsim.study.jobs import Job, Point
 from opsim.study.layout.choose import chosen
 from opsim.study.layout.floor import NoLayout
 from opsim.study.layout.flows import flows_of
-from opsim.study.layout.judge import BEST, WALKED, against, exposure_asked
+from opsim.study.layout.judge import BEST, EXPOSURE, WALKED, _worst, against, exposure_asked
 from opsim.study.layout.study import NOW, study_layout
 from tests.opsim.study.layout.made_floor import FLOOR, answers, asked, written
 
@@ -167,3 +167,15 @@ def test_the_worker_who_has_most_of_it_is_one_of_those_of_whom_it_is_known():
     values = np.array([[1.0, 2.0, np.nan], [1.0, np.nan, np.nan], [3.0, 2.0, 4.0]])
     most = _worst(keys, values, read_asked("rula_from_5_min_per_h"))
     np.testing.assert_array_equal(most, [2.0, np.nan, 4.0])
+
+
+def test_an_exposure_that_is_not_measured_says_so_in_its_column(found):
+    block = found.asked.block.model_copy(update={"exposure": "rula_from_5_min_per_h"})
+    nothing = np.full(4, np.nan)
+    now = {**found.now, EXPOSURE: nothing}
+    unknown = against({"x": {**found.now, EXPOSURE: nothing}}, now)["x"][EXPOSURE]
+    compared = {name: {**of, EXPOSURE: unknown} for name, of in found.compared.items()}
+    made = replace(found, asked=replace(found.asked, block=block), now=now, compared=compared)
+    section = next(one for one in layout_page(made).sections if one.title.startswith("Layouts"))
+    assert all(row[-1] == "not measured" for row in section.table.rows)
+    assert "Not measured: no work that is done here has a known posture" in section.sentences[0]
