@@ -79,7 +79,7 @@ def _layouts(found: LayoutFound) -> Iterator[Section]:
     sentences = []
     if found.asked.exposure is not None:
         sentences.append(f"* of {found.asked.exposure.subject or 'the worker who has most of it'}.")
-        if any(NOT_MEASURED in row for row in rows):
+        if any(row[-1] == NOT_MEASURED for row in rows):
             sentences.append(f"{NOT_MEASURED[:1].upper()}{NOT_MEASURED[1:]}: {why_not_measured(found)}.")
     if any(cell.endswith("?") for row in rows for cell in row):
         sentences.append("?: not told from no difference.")
