@@ -83,9 +83,9 @@ def _tables(connection: Any, files: Sequence[Path], names: Collection[str] | Non
     ).fetchall()
     found: dict[str, Table] = {str(path): {} for path in files}
     alone = found[str(files[0])] if len(files) == 1 else None
-    for *key, path, replication, value in rows:
+    for kpi, subject, part, unit, path, replication, value in rows:
         table = found[path] if alone is None else alone
-        table.setdefault(tuple(key), {})[replication] = value  # type: ignore[arg-type]
+        table.setdefault((kpi, subject, part, unit), {})[replication] = value
     return [found[str(path)] for path in files]
 
 

@@ -71,8 +71,8 @@ def write_kpis(done: Sequence[Replicated], path: Path) -> None:
     keys: dict[Key, int] = {}
     codes, values = array("q"), array("d")
     for result in done:
-        for *key, value in result.figures:
-            codes.append(keys.setdefault(tuple(key), len(keys)))  # type: ignore[arg-type]
+        for kpi, subject, part, unit, value in result.figures:
+            codes.append(keys.setdefault((kpi, subject, part, unit), len(keys)))
             values.append(value)
     rows = {
         "replication": np.repeat([one.replication for one in done], [len(one.figures) for one in done]),
@@ -92,8 +92,8 @@ def write_kpis(done: Sequence[Replicated], path: Path) -> None:
 def _intervals(done: Sequence[Replicated], in_front: set[str]) -> list[dict]:
     values: dict[Key, array[float]] = {}
     for result in done:
-        for *key, value in result.figures:
-            values.setdefault(tuple(key), array("d")).append(value)  # type: ignore[arg-type]
+        for kpi, subject, part, unit, value in result.figures:
+            values.setdefault((kpi, subject, part, unit), array("d")).append(value)
     return [_row(key, found, key[0] in in_front) for key, found in values.items()]
 
 

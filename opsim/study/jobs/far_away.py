@@ -59,7 +59,7 @@ def _result(future: Future[Answer], source: Source, work: Work) -> Answer:
         raise ProcessLost("the executor has gone") from None
     except ImportError as error:
         raise OtherWorker(f"a worker lacks something that is here: {error}") from None
-    except Exception as error:
+    except Exception as error:  # what dask raises cannot be named where dask may not be installed; all else goes on
         if isinstance(error, RuntimeError) and "deserializ" in str(error):
             lacks = "has no opsim, or other versions; they need what is installed here"
             raise OtherWorker(f"the scheduler or a worker {lacks}") from None
