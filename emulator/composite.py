@@ -159,6 +159,11 @@ class CompositeEmulator:
         angles = np.median(self.sample(n, np.random.default_rng(seed)).gaps_rad(), axis=0)
         return joins_of(angles, self.labels, self.skeleton, widest_gap_rad(self.blend_s))
 
+    def _repr_html_(self) -> str:
+        from emulator.shown.models import emulator_html
+
+        return emulator_html(self)
+
     def _effect(self, part: Part, worker: Any) -> Any:
         """The worker's effect in a part's task."""
         if worker is None or isinstance(worker, str):

@@ -40,6 +40,17 @@ class CompositePerformances:
     def __getitem__(self, index: int | slice | np.ndarray) -> CompositePerformances:
         return CompositePerformances(self.model, tuple(part[index] for part in self.parts))
 
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
+        from emulator.frames import performances_frame
+
+        return performances_frame(self)
+
+    def _repr_html_(self) -> str:
+        from emulator.shown.motions import performances_html
+
+        return performances_html(self)
+
     @property
     def skeleton(self) -> Skeleton:
         return self.model.skeleton

@@ -79,6 +79,11 @@ class MotionLibrary(Mapping[str, Any]):
             raise LibraryError(f"the library has {len(self)} tasks ({', '.join(self)}); name one")
         return next(iter(self.values()))
 
+    def _repr_html_(self) -> str:
+        from emulator.shown.models import library_html
+
+        return library_html(self)
+
     def save(self, path: str | Path) -> None:
         """Write one .npz; the same library gives the same bytes."""
         arrays: dict[str, np.ndarray] = {}

@@ -258,6 +258,11 @@ class MotionEmulator:
     def channel(self) -> RootChannel:
         return RootChannel(self.skeleton)
 
+    def _repr_html_(self) -> str:
+        from emulator.shown.models import emulator_html
+
+        return emulator_html(self)
+
     def save(self, path: str | Path) -> None:
         """Write a library of this one task."""
         from emulator.library import MotionLibrary

@@ -79,6 +79,11 @@ class Motion:
         length_m = self.bone_length_m if rigid or self.stretch is None else self.bone_length_m * self.stretch
         return self.skeleton.positions(turn(self.directions, yaw[:, None]), length_m, root)
 
+    def _repr_html_(self) -> str:
+        from emulator.shown.motions import motion_html
+
+        return motion_html(self)
+
 
 def motion_from_positions(
     skeleton: Skeleton,
@@ -194,6 +199,17 @@ class MotionSet:
             motions=chosen,
             selection=" and ".join(f"({p})" for p in said) if len(said) > 1 else (said or ["all"])[0],
         )
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each: worker, trial, duration, covariates. Raises ImportError without pandas."""
+        from emulator.frames import frame
+
+        return frame(table_of(self.motions))
+
+    def _repr_html_(self) -> str:
+        from emulator.shown.motions import motion_set_html
+
+        return motion_set_html(self)
 
 
 def table_of(motions: Sequence[Motion]) -> dict[str, list[Any]]:

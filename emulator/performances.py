@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,6 +40,17 @@ class MotionPerformances:
     def __getitem__(self, index: int | slice | np.ndarray) -> MotionPerformances:
         rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
         return MotionPerformances(self.model, self.scores[rows], self.duration_s[rows], self.body_scale[rows])
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
+        from emulator.frames import performances_frame
+
+        return performances_frame(self)
+
+    def _repr_html_(self) -> str:
+        from emulator.shown.motions import performances_html
+
+        return performances_html(self)
 
     @property
     def skeleton(self) -> Skeleton:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import nan
 from struct import Struct
+from typing import Any
 
 import numpy as np
 
@@ -97,6 +98,17 @@ class EventLog:
     def clipped_s(self, from_s: float, to_s: float) -> np.ndarray:
         """(rows,) seconds of each row that lie between two times."""
         return np.maximum(np.minimum(self["end_s"], to_s) - np.maximum(self["start_s"], from_s), 0.0)
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each, names as text. Raises ImportError where pandas is absent."""
+        from opsim.frames import log_frame
+
+        return log_frame(self)
+
+    def _repr_html_(self) -> str:
+        from opsim.shown.log import log_html
+
+        return log_html(self)
 
 
 def row(

@@ -115,6 +115,11 @@ class Performance:
         """What is left after this piece, begun at an instant."""
         return replace(self, start_s=now_s, end_s=now_s, progress_from=self.progress_to)
 
+    def _repr_html_(self) -> str:
+        from opsim.shown.performance import performance_html
+
+        return performance_html(self)
+
     @property
     def _ticks(self) -> int:
         return round(self.duration_s * TICKS_PER_S)

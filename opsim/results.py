@@ -45,6 +45,17 @@ class Result:
         with plain_errors(self.kpis_file), connect() as connection:
             return _tables(connection, [self.kpis_file])[0]
 
+    def to_frame(self) -> Any:
+        """``kpis`` as a pandas DataFrame, a row for each figure of each replication. Raises ImportError, OSError."""
+        from opsim.frames import kpi_frame
+
+        return kpi_frame(self.kpis())
+
+    def _repr_html_(self) -> str:
+        from opsim.shown.result import result_html
+
+        return result_html(self)
+
     @property
     def kpis_file(self) -> Path:
         """Every figure of every replication."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -91,6 +91,13 @@ class WorkerLog:
         log = EventLog(self._replication, now_s, {name: column[order] for name, column in columns.items()}, names)
         audit_work(log)
         return log
+
+    def to_frame(self) -> Any:
+        """The rows so far as a pandas DataFrame. Raises ImportError where pandas is absent."""
+        return self.close().to_frame()
+
+    def _repr_html_(self) -> str:
+        return self.close()._repr_html_()
 
     def _open_rows(self, now_s: float) -> Iterator[tuple]:
         for name in self._workers:

@@ -209,6 +209,11 @@ class CyclicEmulator:
         middle = float(self.guide.usual(-1, 0.0)[0])
         return turns(z, self.rate_hz, (middle, middle - 0.12 * float(self.guide.high[0] - self.guide.low[0])))
 
+    def _repr_html_(self) -> str:
+        from emulator.shown.models import emulator_html
+
+        return emulator_html(self)
+
     def save(self, path: str | Path) -> None:
         """Write a library of this one task."""
         from emulator.library import MotionLibrary

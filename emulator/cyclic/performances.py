@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -46,6 +46,17 @@ class CyclicPerformances:
         rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
         own = {one.name: getattr(self, one.name) for one in fields(self)}
         return CyclicPerformances(**{name: value if name == "model" else value[rows] for name, value in own.items()})
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
+        from emulator.frames import performances_frame
+
+        return performances_frame(self)
+
+    def _repr_html_(self) -> str:
+        from emulator.shown.motions import performances_html
+
+        return performances_html(self)
 
     @property
     def skeleton(self) -> Skeleton:

@@ -107,6 +107,12 @@ class WorkExposure:
                 found &= self.ledger.key[:, KEY.index(column)] == names.index(name)
         return self.ledger.where(found)
 
+    def to_frame(self) -> Any:
+        """Its figures as a pandas DataFrame, a row each. Raises ImportError where pandas is absent."""
+        from opsim.frames import frame_of_rows
+
+        return frame_of_rows(Figure._fields, self.figures)
+
     def __str__(self) -> str:
         from opsim.kpi.exposure_table import as_text
 

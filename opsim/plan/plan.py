@@ -119,6 +119,11 @@ class Plan:
             return self.workforce
         return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
 
+    def _repr_html_(self) -> str:
+        from opsim.shown.scenario import plan_html
+
+        return plan_html(self)
+
     @property
     def operations(self) -> tuple[str, ...]:
         """Names of all operations, in natural order."""

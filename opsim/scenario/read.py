@@ -46,6 +46,11 @@ class Loaded:
     given: frozenset[str]
     resolved: dict[str, Any]
 
+    def _repr_html_(self) -> str:
+        from opsim.shown.scenario import scenario_html
+
+        return scenario_html(self.scenario, self.variant)
+
 
 def read_scenarios(
     path: str | Path,

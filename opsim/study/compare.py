@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -83,6 +84,18 @@ class Comparison:
     n: int
     differences: tuple[Difference, ...]
     hours: Mapping[str, float] = field(default_factory=dict)
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row for each figure of each variant. Raises ImportError where pandas is absent."""
+        from opsim.frames import frame_of_rows
+        from opsim.shown.comparison import COLUMNS, comparison_rows
+
+        return frame_of_rows(COLUMNS, comparison_rows(self))
+
+    def _repr_html_(self) -> str:
+        from opsim.shown.comparison import comparison_html
+
+        return comparison_html(self)
 
     @property
     def tests(self) -> int:

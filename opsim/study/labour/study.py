@@ -42,6 +42,18 @@ class LabourFound:
     words: tuple[str, ...]
     warning: str = ""
 
+    def to_frame(self) -> Any:
+        """The parts of each figure's variance as a pandas DataFrame. Raises ImportError where pandas is absent."""
+        from opsim.frames import frame_of_rows
+
+        names = ("kpi", "subject", "part", "unit", "of", "variance", "low", "high", "share")
+        rows = [
+            (*key, one.name, one.variance, one.low, one.high, found.share(one.name))
+            for key, found in self.parts.items()
+            for one in found.parts
+        ]
+        return frame_of_rows(names, rows)
+
 
 def labour(block: Any, loaded: Loaded, plan: Plan, variant: str | None, answers: Answers) -> LabourFound:
     """block : of ``studies: labour``; variant : of the file, None for its first.

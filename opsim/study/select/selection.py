@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -76,6 +77,14 @@ class Selection:
     open_limits: tuple[tuple[str, str], ...] = ()
     posterior: tuple[float, float] | None = None
     values: tuple[np.ndarray, ...] = field(default=(), compare=False, repr=False)
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row for each system. Raises ImportError where pandas is absent."""
+        from opsim.frames import frame
+
+        left = [system in self.left for system in self.systems]
+        won = [system == self.winner for system in self.systems]
+        return frame({"system": self.systems, "n": self.n, "mean": self.means, "left": left, "winner": won})
 
     @property
     def left(self) -> tuple[str, ...]:

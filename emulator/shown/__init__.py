@@ -1,0 +1,1 @@
+"""What a notebook shows of the main objects: small, escaped HTML without scripts."""

@@ -1,0 +1,120 @@
+"""Answers of ``opsim sql``: a table for people, CSV, JSON or a file; and what there is to ask."""
+
+from __future__ import annotations
+
+import csv
+import re
+import sys
+from datetime import date, datetime, time, timedelta
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import click
+
+
+def listed(results: Any, as_json: bool) -> None:
+    """Tables with their columns, and worked examples."""
+    from opsim.cli.console import print_json, print_table, say
+    from opsim.export.sql_tables import EXAMPLES, TABLES
+
+    if as_json:
+        tables = [
+            {
+                "table": table.name,
+                "says": table.says,
+                "columns": [{"name": name, "type": kind, "says": says} for name, kind, says in table.columns],
+            }
+            for table in TABLES
+        ]
+        print_json({"tables": tables, "examples": [{"asks": asks, "query": query} for asks, query in EXAMPLES]})
+        return
+    say(f"variants: {', '.join(results)}")
+    for table in TABLES:
+        say(f"{table.name}: {table.says}")
+        print_table("", ("column", "type", "what it is"), table.columns, words=3)
+    for asks, query in EXAMPLES:
+        click.echo(f"{asks}:\n{query}\n")
+
+
+def rows_table(results: Any, query: str, most: int) -> None:
+    """The first rows as a table."""
+    from opsim.cli.console import print_table
+    from opsim.export.sql import answer
+
+    columns, rows, n = answer(results, query, most)
+    words = [any(isinstance(row[at], str) for row in rows) for at in range(len(columns))]
+    left = next((at for at, is_word in enumerate(words) if not is_word), len(columns))
+    print_table("", columns, [[_shown(value) for value in row] for row in rows], words=left)
+    if n > len(rows):
+        click.echo(f"{n:,} rows, the first {len(rows)} are shown; -o FILE.csv writes all")
+    else:
+        click.echo(f"{n:,} row{'' if n == 1 else 's'}")
+
+
+def rows_csv(results: Any, query: str) -> None:
+    """All rows as CSV on stdout; text that a spreadsheet would take for a formula begins with an apostrophe."""
+    from opsim.export.spreadsheet import DANGEROUS
+    from opsim.export.sql import answer
+
+    formula = re.compile(DANGEROUS)
+
+    def cell(value: Any) -> Any:
+        return f"'{value}" if isinstance(value, str) and formula.search(value) else value
+
+    columns, rows, _ = answer(results, query)
+    out = csv.writer(sys.stdout, lineterminator="\n")
+    out.writerow(map(cell, columns))
+    out.writerows([cell(value) for value in row] for row in rows)
+
+
+def rows_json(results: Any, query: str) -> None:
+    """All rows as JSON: the columns, and a list of values of each row."""
+    from opsim.cli.console import print_json
+    from opsim.export.sql import answer
+
+    columns, rows, n = answer(results, query)
+    plain = [[_plain(value) for value in row] for row in rows]
+    print_json({"columns": columns, "rows": plain, "n": n})
+
+
+def as_file(results: Any, query: str, out: Path, as_json: bool) -> None:
+    """All rows into a file."""
+    from opsim.cli.console import print_json, printable
+    from opsim.cli.export_told import size
+    from opsim.cli.motion_files import overwritten
+    from opsim.export.rows import CSV, PARQUET
+    from opsim.export.sql import write_answer
+
+    form = {".csv": CSV, ".parquet": PARQUET}.get(out.suffix.lower())
+    if form is None:
+        raise ValueError(f"{out}: found the ending {out.suffix!r}, expected .csv or .parquet")
+    read = [file for result in results.values() for file in (result.kpis_file, *result.events_files)]
+    if wrong := overwritten(out, result=read):
+        raise ValueError("\n".join(wrong))
+    n = write_answer(results, query, out, form)
+    if as_json:
+        print_json({"out": str(out), "rows": n, "bytes": out.stat().st_size})
+    else:
+        click.echo(printable(f"{out}: {n:,} rows, {size(out.stat().st_size)}"))
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    """A value as JSON has it."""
+    if isinstance(value, Decimal):
+        return float(value)
+    if isinstance(value, timedelta):
+        return value.total_seconds()
+    if isinstance(value, date | datetime | time):
+        return value.isoformat()
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value if isinstance(value, str | int | float | bool | None) else str(value)

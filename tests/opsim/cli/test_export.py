@@ -1,0 +1,161 @@
+import json
+import sqlite3
+from contextlib import closing
+
+import duckdb
+import numpy as np
+import pytest
+
+from emulator.recordings.bvh import read_bvh, read_bvh_file
+from opsim.ergonomics.again import performance_again
+from opsim.log import WORK
+from opsim.study.reopened import reopened
+from tests.opsim.cli.calls import opsim
+from tests.opsim.export.made_results import results
+
+
+def test_one_replication_of_one_variant_is_one_ocel_file(tmp_path):
+    out = tmp_path / "log.jsonocel"
+    code, shown, _ = opsim("export", results() / "near", "-o", out)
+    rows = len(reopened(results() / "near").log())
+    assert code == 0 and f"{rows:,} events" in shown and str(out) in shown
+    read = json.loads(out.read_text(encoding="utf-8"))
+    assert len(read["events"]) == rows and read["events"][0]["time"] == "2026-01-06T06:00:00.000000Z"
+
+
+def test_several_are_a_file_each_and_machines_are_told_which(tmp_path):
+    code, shown, told = opsim("export", results(), "-o", tmp_path / "log.sqlite", "--replication", "all", "--json")
+    files = json.loads(shown)["files"]
+    assert code == 0 and "4 of 4" in told
+    assert [(one["variant"], one["replication"]) for one in files] == [
+        ("base", 0),
+        ("base", 1),
+        ("near", 0),
+        ("near", 1),
+    ]
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == [f"log_{name}_r0000{n}.sqlite" for name in ("base", "near") for n in (0, 1)]
+    for one in files:
+        with closing(sqlite3.connect(one["out"])) as connection:
+            assert connection.execute("SELECT count(*) FROM event").fetchone() == (one["events"],)
+
+
+def test_another_monday_and_an_event_type_for_each_task(tmp_path):
+    out = tmp_path / "log.json"
+    code, _, _ = opsim("export", results() / "base", "-o", out, "--date", "2026-03-02", "--by-task")
+    read = json.loads(out.read_text(encoding="utf-8"))
+    assert code == 0 and read["events"][0]["time"].startswith("2026-03-03T06:00")
+    assert {"work: lift", "work: label"} <= {kind["name"] for kind in read["eventTypes"]}
+
+
+def test_rows_and_figures_of_all_go_into_one_table(tmp_path):
+    code, shown, _ = opsim("export", results(), "-o", tmp_path / "rows.parquet")
+    runs = [reopened(results() / name) for name in ("base", "near")]
+    expected = sum(len(run.log(n)) for run in runs for n in (0, 1))
+    assert code == 0 and f"{expected:,} rows of base, near" in shown
+    assert duckdb.sql(f"SELECT count(*) FROM '{tmp_path / 'rows.parquet'}'").fetchall() == [(expected,)]
+    words = ("export", results(), "-o", tmp_path / "one.csv", "--scenario", "near", "--replication", "1")
+    code, _, _ = opsim(*words, "--date", "2026-01-05")
+    lines = (tmp_path / "one.csv").read_text(encoding="utf-8").splitlines()
+    assert code == 0 and len(lines) == 1 + len(runs[1].log(1))
+    assert lines[0].endswith("cause,start,end") and lines[1].startswith("near,1,")
+    code, _, _ = opsim("export", results(), "-o", tmp_path / "figures.csv", "--figures")
+    lines = (tmp_path / "figures.csv").read_text(encoding="utf-8").splitlines()
+    assert code == 0 and lines[0] == "variant,replication,kpi,subject,part,unit,value" and len(lines) > 10
+
+
+@pytest.fixture(scope="module")
+def run():
+    return reopened(results() / "base")
+
+
+def test_a_performance_comes_back_where_it_was(run, tmp_path):
+    log, plan = run.log(1), run.plan
+    lift = next(rank for rank, task in enumerate(plan.tasks) if task.name == "lift")
+    row = int(np.flatnonzero((log["kind"] == WORK) & (log["task"] == lift) & (log["k"] == 2))[0])
+    out = tmp_path / "ana.bvh"
+    words = ("export", results(), "--scenario", "base", "--replication", "1", "--worker", "ana", "-o", out)
+    code, shown, _ = opsim(*words, "--task", "lift", "--k", "2", "--fps", "50", "--json")
+    told = json.loads(shown)
+    performance = performance_again(log, plan, row)
+    frames = round(performance.duration_s * 50) + 1
+    assert code == 0 and told["frames"] == frames and told["start_s"] == performance.start_s
+    file = read_bvh_file(out)
+    assert len(file.values) == frames and file.frame_time_s == pytest.approx(0.02)
+    expected = performance.positions_m(times_s=np.arange(frames) / 50)
+    take = read_bvh(out)
+    order = [take.names.index(name) for name in performance.skeleton.names]
+    assert np.abs(take.positions_m[:, order] - expected).max() < 1e-6
+
+
+def test_what_is_performed_at_a_time_is_that_performance(run, tmp_path):
+    log, plan = run.log(), run.plan
+    lift = next(rank for rank, task in enumerate(plan.tasks) if task.name == "lift")
+    row = int(np.flatnonzero((log["kind"] == WORK) & (log["task"] == lift) & (log["k"] == 3))[0])
+    middle_s = float(log["start_s"][row] + log["end_s"][row]) / 2
+    words = ("export", results() / "base", "--worker", "ana")
+    for way in (("--at", f"{middle_s} s"), ("--task", "lift", "--k", "3")):
+        code, _, _ = opsim(*words, *way, "-o", tmp_path / f"{len(way)}.bvh")
+        assert code == 0
+    assert (tmp_path / "2.bvh").read_bytes() == (tmp_path / "4.bvh").read_bytes()
+
+
+def test_a_walk_goes_as_far_as_it_was_and_takes_as_long(run, tmp_path):
+    from opsim.walks import walks_of
+
+    walks = walks_of(run.log(), run.plan)
+    k = int(np.flatnonzero(np.isclose(walks.distance_m, 6.0))[1])
+    code, shown, _ = opsim(
+        "export", results() / "base", "-o", tmp_path / "walk.bvh", "--worker", "ana", "--walk", "--k", k
+    )
+    take = read_bvh(tmp_path / "walk.bvh")
+    pelvis = take.positions_m[:, take.names.index("pelvis"), :2]
+    assert code == 0 and "walk" in shown
+    assert np.linalg.norm(pelvis[-1] - pelvis[0]) == pytest.approx(6.0, abs=0.1)
+    assert (len(pelvis) - 1) / 60 == pytest.approx(walks.whole_s[k], abs=1 / 60)
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("-o", "x.bvz"), "found the ending '.bvz'"),
+        (("-o", "x.json", "--scenario", "bse"), "did you mean 'base'?"),
+        (("-o", "x.json", "--replication", "7"), "expected numbers from 0 to 1"),
+        (("-o", "x.json", "--replication", "one"), "found no number"),
+        (("-o", "x.json", "--worker", "ana"), "--worker is for bvh, not for ocel-json"),
+        (("-o", "x.json", "--date", "2026-01-06"), "found a Tuesday"),
+        (("-o", "x.json", "--figures"), "--figures is for parquet and csv"),
+        (("-o", "x.csv", "--figures", "--replication", "0"), "leave --replication out"),
+        (("-o", "x.bvh", "--worker", "ana", "--task", "lift"), "found several variants (base, near)"),
+        (("-o", "x.bvh", "--scenario", "base"), "found no --worker"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana"), "expected one of --task TASK --k N"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "anna", "--task", "lift"), "did you mean 'ana'?"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--task", "lft"), "did you mean 'lift'?"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--task", "label"), "a time without a body"),
+        (
+            ("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--task", "lift", "--k", "9999"),
+            "no performance 9999",
+        ),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "Mon 06:00"), "outside the run"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "soon"), "cannot read 'soon'"),
+    ],
+)
+def test_mistakes_are_told_in_words_and_nothing_is_written(words, says, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, _, told = opsim("export", results(), *words)
+    assert code == 2 and says in told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_mistakes_are_told_all_at_once(tmp_path):
+    words = ("-o", tmp_path / "x.bvz", "--scenario", "bse", "--date", "2026-01-07")
+    code, _, told = opsim("export", results(), *words)
+    assert code == 2 and len(told.strip().splitlines()) == 3
+
+
+def test_results_are_not_written_over(tmp_path):
+    for file in ("kpis.parquet", "events/replication_00000.parquet"):
+        code, _, told = opsim("export", results(), "-o", results() / "base" / file)
+        assert code == 2 and "found the result that is read" in told
+    code, _, told = opsim("export", tmp_path, "-o", tmp_path / "x.json")
+    assert code == 2 and "no results here" in told

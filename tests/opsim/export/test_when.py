@@ -1,0 +1,35 @@
+import pytest
+
+from opsim.export.when import run_s, said, start_of
+
+TUESDAY_SIX = 86_400.0 + 6 * 3600.0
+
+
+@pytest.mark.parametrize(
+    ("text", "found_s"),
+    [
+        ("Tue 06:00", 0.0),
+        ("Tue 10:15:30", 4 * 3600 + 15 * 60 + 30),
+        ("Tuesday 10:15:30.5", 4 * 3600 + 15 * 60 + 30.5),
+        ("tue 6:01", 60.0),
+        ("10:00", 4 * 3600.0),
+        ("05:00", 23 * 3600.0),
+        ("Wed 05:00", 23 * 3600.0),
+        ("95 min", 5700.0),
+        ("12.5 s", 12.5),
+    ],
+)
+def test_a_time_of_the_week_is_the_first_such_time_of_the_run(text, found_s):
+    assert run_s(text, TUESDAY_SIX, 86_400.0) == found_s
+
+
+@pytest.mark.parametrize("text", ["Mon 06:00", "Wed 07:00", "25 h", "Tus 06:00", "soon", "", "12"])
+def test_other_times_are_refused_in_words(text):
+    with pytest.raises(ValueError, match="--at"):
+        run_s(text, TUESDAY_SIX, 86_400.0)
+
+
+def test_start_and_clock_are_said_as_a_scenario_says_them():
+    assert start_of("Tue 06:00") == TUESDAY_SIX
+    assert said(TUESDAY_SIX) == "Tue 06:00" and said(TUESDAY_SIX + 65) == "Tue 06:01:05"
+    assert said(7 * 86_400.0 + 0.2) == "Mon 00:00" and said(86_399.9) == "Tue 00:00"
