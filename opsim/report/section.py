@@ -1,0 +1,216 @@
+"""What a section of a report is made of: data that one macro a kind draws, in the order it stands in."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+LegendEntry = tuple[str, str] | tuple[str, str, str]
+"""(colour, words), or (colour, look, words) with the look of a line (solid, dashed, dotted) or of a dot (dot)."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph; muted : what is only to be known by who asks how it was made."""
+
+    text: str
+    muted: bool = False
+    kind: str = "words"
+
+
+@dataclass(frozen=True)
+class Caution:
+    """Something that must not be overlooked."""
+
+    text: str
+    kind: str = "caution"
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """Sentences that stand one below the other."""
+
+    items: Sequence[str]
+    kind: str = "bullets"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Pairs of what it is and what it says; code : set in even letters, such as hashes, "" for none."""
+
+    rows: Sequence[tuple[str, str, str]]
+    kind: str = "facts"
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A title within a section."""
+
+    text: str
+    kind: str = "heading"
+
+
+@dataclass(frozen=True)
+class Legend:
+    """What the colours mean, of several figures at once."""
+
+    entries: Sequence[LegendEntry]
+    kind: str = "legend"
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A figure that plotly draws.
+
+    id     : of the page's element, unique on the page, of letters, digits, - and _
+    figure : {"data": ..., "layout": ...} as ``opsim.report.figures`` makes it, names in it escaped
+    said   : the same in words, for who cannot see it
+    note   : small, below it
+    """
+
+    id: str
+    figure: Mapping[str, Any]
+    said: str
+    title: str = ""
+    legend: Sequence[LegendEntry] = ()
+    note: str = ""
+    kind: str = "chart"
+
+    @property
+    def height_px(self) -> int:
+        """The room that is kept for it until it is drawn."""
+        return round(self.figure["layout"].get("height") or 300)
+
+
+@dataclass(frozen=True)
+class Svg:
+    """A picture as SVG text whose names are escaped by who draws it; wide : it scrolls sideways on a narrow screen."""
+
+    text: str
+    said: str
+    title: str = ""
+    caption: str = ""
+    legend: Sequence[LegendEntry] = ()
+    wide: bool = False
+    kind: str = "svg"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture of many shapes, as SVG bytes: an image, so that they are none of the page's elements.
+
+    aside : who or what it is shown as, beside its title; least_px : narrower than this it scrolls sideways
+    """
+
+    svg: bytes
+    said: str
+    title: str = ""
+    aside: str = ""
+    caption: str = ""
+    legend: Sequence[LegendEntry] = ()
+    least_px: int = 760
+    kind: str = "picture"
+
+    @property
+    def source(self) -> str:
+        """Of an image on a page that fetches nothing."""
+        return "data:image/svg+xml;base64," + b64encode(self.svg).decode()
+
+
+@dataclass(frozen=True)
+class Card:
+    """One thing seen from several sides. pictures : SVG text; scores : (name, value, colour) of its parts"""
+
+    title: str
+    strong: str
+    muted: str
+    pictures: Sequence[str]
+    scores: Sequence[tuple[str, str, str]]
+    caption: str
+    kind: str = "card"
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table of text; the first ``words`` columns are words, the others numbers but those whose place is in ``left``.
+
+    folded : under its title, to open; strong : the place of a column that stands out, -1 for none; tags : places of
+    columns whose cells are short remarks in a frame. An empty first cell means: of the same as the row above.
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    title: str
+    words: int = 1
+    folded: bool = False
+    left: Sequence[int] = ()
+    strong: int = -1
+    tags: Sequence[int] = ()
+    kind: str = "grid"
+
+    def look(self, place: int) -> str:
+        """The classes of a column's cells."""
+        if place == self.strong:
+            return "number mean"
+        return "unit" if place in self.left else "words" if place < self.words else "number"
+
+
+@dataclass(frozen=True)
+class Panels:
+    """Small charts, pictures or cards beside each other, as many as the screen has room for."""
+
+    blocks: Sequence[Chart | Svg | Card | Words | Panel]
+    least_px: int = 300
+    kind: str = "panels"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A title with a sentence where a chart would say nothing."""
+
+    title: str
+    text: str
+    kind: str = "panel"
+
+
+@dataclass(frozen=True)
+class Folded:
+    """Blocks under a title, to open; on_paper : whether they are printed unasked."""
+
+    title: str
+    blocks: Sequence[Block]
+    on_paper: bool = True
+    kind: str = "folded"
+
+
+Block = (
+    Words | Caution | Bullets | Facts | Heading | Legend | Chart | Svg | Picture | Card | Grid | Panels | Panel | Folded
+)
+
+
+@dataclass(frozen=True)
+class Section:
+    """One thing that a report says; where there is nothing to say, a section is not made.
+
+    id : of the page, for links; nav : its short name among the links, "" for none
+    """
+
+    id: str
+    title: str
+    blocks: Sequence[Block] = ()
+    nav: str = ""
+
+    @property
+    def charts(self) -> dict[str, Mapping[str, Any]]:
+        """The figures by the ids of their elements."""
+        return {block.id: block.figure for block in flat(self.blocks) if isinstance(block, Chart)}
+
+
+def flat(blocks: Sequence[Block]) -> Iterator[Block]:
+    """All blocks, those within others too, in the order in which they are seen."""
+    for block in blocks:
+        yield block
+        if isinstance(block, Panels | Folded):
+            yield from flat(block.blocks)
