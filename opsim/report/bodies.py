@@ -12,11 +12,13 @@ from opsim.ergonomics.shift.regions import REGIONS, Regions
 from opsim.ergonomics.shift.timeline import MINUTE_S, Minutes, Timeline
 from opsim.ergonomics.shift.worst import Worst, WorstSeen
 from opsim.kpi.names import EXPOSURE
+from opsim.log import BREAK, EventLog
 from opsim.plan import Plan
 from opsim.report.day_picture import Strip, draw_day, legend
 from opsim.report.days import CELL_S, LONGEST_S, MOST, MOST_CELLS
 from opsim.report.exposure_rows import Bar
 from opsim.report.exposure_sentences import region_sentences
+from opsim.report.material import Material
 from opsim.report.words import quantity
 from opsim.report.worst_picture import posture_cards
 
@@ -24,31 +26,26 @@ FILE = "postures.json"
 MOST_POSTURES = 4
 
 
-def bodies_section(loaded: Any, result: Any) -> dict[str, Any] | None:
-    """What the page shows: ``picture`` (SVG bytes) and ``legend`` of the day, ``postures`` of ``posture_cards``,
-    ``regions`` in sentences.
+def bodies_of(material: Material) -> dict[str, Any] | None:
+    """What there is to show: ``picture`` (SVG bytes) and ``legend`` of the day, ``postures`` of ``posture_cards``,
+    ``regions`` in sentences. The postures are also written into the results folder, for whatever wants to open them.
 
-    loaded : the variant that was read; result : its results, with the rows of its first replication. The postures are
-    also written into its folder, for whatever wants to open them.
     None where the scenario asks for nothing that needs all postures, or nothing is known of any.
-    Raises ValueError or OSError as reading does.
     """
     from opsim.ergonomics.shift.fold import fold
-    from opsim.log_store import read_events
-    from opsim.plan import compile_plan
 
-    if not {row["kpi"] for row in result.summary["kpis"]}.intersection(EXPOSURE) or not result.events_files:
+    if not {row["kpi"] for row in material.summary["kpis"]}.intersection(EXPOSURE) or material.log is None:
         return None
-    plan, log = compile_plan(loaded, seed=result.summary["seed"]), read_events(result.events_files[0])
+    plan, log = material.plan, material.log
     minutes, seen, regions = Minutes(plan), WorstSeen(), Regions(plan)
     fold(log, plan, [minutes, seen, regions])
     worst = seen.worst(log, plan, MOST_POSTURES, one_a_task=True)
-    write_postures(worst, result.folder / FILE)
+    write_postures(worst, material.result.folder / FILE)
     day = minutes.close()
     if not day.known_s.any():
         return None
     said = {"postures": posture_cards(worst), "regions": regions_said(regions)}
-    return day_of(day, plan, loaded.scenario.run.start) | said
+    return day_of(day, plan, material.summary["start"], log) | said
 
 
 def regions_said(found: Regions) -> list[str]:
@@ -59,15 +56,20 @@ def regions_said(found: Regions) -> list[str]:
     return list(region_sentences(Bar("all", seven, five, five), bars))
 
 
-def day_of(day: Timeline, plan: Plan, start: str) -> dict[str, Any]:
-    """The strips of a timeline: its window, or the first 24 hours of it."""
+def day_of(day: Timeline, plan: Plan, start: str, log: EventLog | None = None) -> dict[str, Any]:
+    """The strips of a timeline: its window, or the first 24 hours of it; with the breaks that a log says."""
     n = min(day.known_s.shape[1], round(LONGEST_S / MINUTE_S))
     every = next(
         (round(cell / MINUTE_S) for cell in CELL_S if cell >= MINUTE_S and n * MINUTE_S / cell <= MOST_CELLS), 5
     )
     from_s, to_s = float(day.edge_s[0]), float(day.edge_s[0] + n * MINUTE_S)
     strips = [
-        Strip(worker.name, _shares(day, rank, n, every), (), _shifts(worker, from_s, to_s))
+        Strip(
+            worker.name,
+            _shares(day, rank, n, every),
+            shifts=_shifts(worker, from_s, to_s),
+            pauses=() if log is None else pauses(log, rank, from_s, to_s),
+        )
         for rank, worker in enumerate(plan.workers)
     ]
     return {
@@ -97,6 +99,19 @@ def _shifts(worker: Any, from_s: float, to_s: float) -> list[tuple[float, float]
     """His shifts as shares of the time shown."""
     both = [np.clip([duty.start_s, duty.end_s], from_s, to_s) for duty in worker.duties or ()]
     return [tuple(((edges - from_s) / (to_s - from_s)).tolist()) for edges in both if edges[1] > edges[0]]
+
+
+def pauses(log: EventLog, rank: int, from_s: float, to_s: float) -> list[tuple[float, float]]:
+    """Somebody's breaks, meetings and rests as shares of the time shown; those that follow each other are one."""
+    rows = np.flatnonzero((log["kind"] == BREAK) & (log["worker"] == rank))
+    found: list[tuple[float, float]] = []
+    for begin_s, end_s in sorted(np.clip([log["start_s"][rows], log["end_s"][rows]], from_s, to_s).T.tolist()):
+        begin, end = ((at - from_s) / (to_s - from_s) for at in (begin_s, end_s))
+        if found and begin <= found[-1][1] + 1e-9:
+            found[-1] = found[-1][0], max(end, found[-1][1])
+        elif end > begin:
+            found.append((begin, end))
+    return found
 
 
 def _alt(strips: Sequence[Strip]) -> str:

@@ -15,6 +15,11 @@ WIDE, LEFT, RIGHT, STRIP, ROW, TOP = 1180, 128, 14, 22, 40, 34
 """Of the picture, in its own units: all of it, its margins, a strip, a strip with the words below it, and above all."""
 GONE = ("off",)
 """A line instead of a strip: who is not there leaves the place white, so that those who are stand out."""
+PAUSE, PAUSED = "#b9a7d6", "in a break, a meeting or at rest (hatched)"
+HATCH = (
+    '<defs><pattern id="pause" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
+    f'<rect width="6" height="6" fill="#f1edf8"/><rect width="2" height="6" fill="{PAUSE}"/></pattern></defs>'
+)
 LETTER = 6.0
 LONGEST_NAME = 18
 FONT = "system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif"
@@ -25,13 +30,15 @@ class Strip:
     """One worker. shares : by state, (C,) of each of C even stretches of the time shown; bottom first
 
     posts : (from, to, words) of stretches in which he was mostly in one place, as shares of the time shown
-    shifts : (from, to) of his shifts, as such shares
+    shifts : (from, to) of his shifts, as such shares; pauses : of his breaks, meetings and rests, where these are
+        shown as no state
     """
 
     worker: str
     shares: dict[str, np.ndarray]
     posts: Sequence[tuple[float, float, str]] = ()
     shifts: Sequence[tuple[float, float]] = ()
+    pauses: Sequence[tuple[float, float]] = ()
 
 
 def draw_day(strips: Sequence[Strip], start: str, from_s: float, to_s: float) -> bytes:
@@ -44,6 +51,7 @@ def draw_day(strips: Sequence[Strip], start: str, from_s: float, to_s: float) ->
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {tall}" width="{WIDE}" height="{tall}" '
         f'font-family="{FONT}">',
         f'<rect width="{WIDE}" height="{tall}" fill="#ffffff"/>',
+        *([HATCH] if any(strip.pauses for strip in strips) else []),
         *_clock(start, from_s, to_s, tall),
     ]
     for row, strip in enumerate(strips):
@@ -88,6 +96,9 @@ def _seconds_of_day(start: str, at_s: float) -> float:
 def _strip(strip: Strip, top: float) -> Iterator[str]:
     short = strip.worker if len(strip.worker) <= LONGEST_NAME else strip.worker[: LONGEST_NAME - 1] + "…"
     yield _text(short, LEFT - 10, top + STRIP - 6, INK, "end", 13)
+    for begin, end in strip.pauses:
+        wide = max(_x(end) - _x(begin), 1.0)
+        yield f'<rect x="{_x(begin):.1f}" y="{top}" width="{wide:.1f}" height="{STRIP}" fill="url(#pause)"/>'
     below: np.ndarray | float = 0.0
     for state, shares in strip.shares.items():
         above = below + shares
@@ -125,4 +136,5 @@ def legend(strips: Sequence[Strip]) -> list[tuple[str, str]]:
     """(colour, words) of the states that the strips show, bottom first."""
     seen = {state for strip in strips for state, shares in strip.shares.items() if shares.any()}
     order = dict.fromkeys(state for strip in strips for state in strip.shares)
-    return [(STATES.get(state, OTHER)[0], WORDS.get(state, state)) for state in order if state in seen]
+    paused = [(PAUSE, PAUSED)] if any(strip.pauses for strip in strips) else []
+    return [(STATES.get(state, OTHER)[0], WORDS.get(state, state)) for state in order if state in seen] + paused

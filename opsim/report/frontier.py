@@ -17,6 +17,7 @@ from opsim.report.parts import part_name
 from opsim.report.words import is_number, kpi_name, scale_of
 
 WIDE, TALL, LEFT, RIGHT, TOP, FOOT = 560, 430, 62, 22, 18, 60
+KEY_ROW = 22
 FRONT, BEHIND, BEATEN = "front", "behind", "beaten"
 KINDS = {
     FRONT: "no other variant beats it",
@@ -86,26 +87,50 @@ def frontier_section(frontier: Any, hours: bool = False) -> dict[str, Any]:
     }
 
 
-def frontier_svg(frontier: Any, hours: bool = False) -> str:
-    """The picture of a Frontier; variants of which a mean is not known are left out."""
+def frontier_svg(frontier: Any, hours: bool = False, here: str = "", least_px: int = 0) -> str:
+    """The picture of a Frontier; variants of which a mean is not known are left out.
+
+    here : the variant to mark, with a legend in the picture; "" for none; least_px : no narrower than this
+    """
     points = _known(frontier)
     x = _axis([point.x for point in points], frontier.x[3], LEFT, WIDE - RIGHT)
     y = _axis([point.y for point in points], frontier.y[3], TALL - FOOT, TOP)
     marks = [_mark(point, x, y) for point in points]
     named = _with_names(marks)
+    key = list(_key(marks, here)) if here else []
     drawn = [
         *_grid(x, y),
         _front(marks, frontier.better_x),
         *(part for mark in named for part in _bars(mark)),
+        *(_ring(mark.x, mark.y) for mark in marks if mark.name == here),
         *(_dot(mark) for mark in marks),
         *(_name(mark, *place) for mark, place in zip(named, _places(named))),
         *_titles(frontier, x.word, y.word, hours),
+        *key,
     ]
     said = escape("; ".join(f"{mark.name}: {KINDS[mark.kind]}" for mark in marks))
+    least = f"min-width:{least_px}px;" if least_px else ""
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {TALL}" role="img" font-size="14" '
-        f'style="width:100%;max-width:{WIDE + 100}px" aria-label="{said}">{"".join(drawn)}</svg>'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {TALL + KEY_ROW * len(key)}" role="img" '
+        f'font-size="14" style="width:100%;{least}max-width:{WIDE + 100}px" aria-label="{said}">{"".join(drawn)}</svg>'
     )
+
+
+def _key(marks: Sequence[Mark], here: str) -> Iterator[str]:
+    """What the dots and the ring mean, a row each below the picture."""
+    seen = {mark.kind for mark in marks}
+    rows: list[tuple[str, str]] = [(kind, words) for kind, words in KINDS.items() if kind in seen]
+    if any(mark.name == here for mark in marks):
+        rows.append(("", f"{shortened(here)}, this report"))
+    for row, (kind, words) in enumerate(rows):
+        x, y = LEFT + 12.0, TALL + KEY_ROW * row + 4.0
+        dot = _dot(Mark("", kind, x, y, (x, x), (y, y))) if kind else _ring(x, y)
+        yield f"<g>{dot}{_text(words, x + 18, y + 5, INK, 'start')}</g>"
+
+
+def _ring(x: float, y: float) -> str:
+    """Around the dot of the variant that a report is of."""
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="10.5" fill="none" stroke="{INK}" stroke-width="1.8"/>'
 
 
 def kind_of(point: Any) -> str:

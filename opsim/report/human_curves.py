@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,9 @@ import numpy as np
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.report.clock_curves import Curve, curves_figure, curves_legend, thinned
+from opsim.report.human_words import learned_over_all, tired_over_all
+from opsim.report.material import Material
+from opsim.report.section import Block, Chart, Section, Words
 from opsim.report.words import listing
 
 MOST = 8
@@ -18,46 +22,40 @@ PAUSE_S, PAUSES, STEPS = 600.0, 40, 16
 """In pauses longer than this, the longest so many of them, recovery is drawn at so many steps, closer at first."""
 
 
-def curves_section(loaded: Any, result: Any) -> list[dict[str, Any]]:
-    """What to show, each with ``id``, ``title``, ``words``, ``said``, ``legend`` and ``figure``; none without effects.
-
-    loaded : the variant that was read; result : its results, with the rows of its first replication
-    Raises ValueError or OSError as reading does.
-    """
-    from opsim.log_store import read_events
-    from opsim.plan import compile_plan
-
-    if not result.events_files:
-        return []
-    plan = compile_plan(loaded, seed=result.summary["seed"])
-    if plan.human.fatigue is None and plan.human.learning is None:
-        return []
-    return curves_of(read_events(result.events_files[0]), plan, loaded.scenario.run.start)
+def section(material: Material) -> Section | None:
+    """What becomes of people as they work; None where nobody tires or learns."""
+    if material.log is None or (material.plan.human.fatigue is None and material.plan.human.learning is None):
+        return None
+    curves = curves_of(material.log, material.plan, material.summary["start"])
+    more = {
+        "curve_fatigue": tired_over_all(material.rows("fatigue_most")),
+        "curve_learning": learned_over_all(material.rows("learned_share")),
+    }
+    blocks: list[Block] = []
+    for one in curves:
+        blocks += [Words(one.note), *map(Words, more[one.id]), replace(one, note="")]
+    return Section("effects", "What becomes of people as they work", blocks, "Effects") if blocks else None
 
 
-def curves_of(log: EventLog, plan: Plan, start: str) -> list[dict[str, Any]]:
-    """Of a log: fatigue where people tire, times where they learn."""
+def curves_of(log: EventLog, plan: Plan, start: str) -> list[Chart]:
+    """Of a log: fatigue where people tire, times where they learn; what it says in words is the chart's note."""
     found = []
     if plan.human.fatigue is not None:
         found.append(_shown("fatigue", "Fatigue over the clock", _fatigue(log, plan), start, _tired_words))
     if plan.human.learning is not None:
         found.append(_shown("learning", "Learning over the clock", _learning(log, plan), start, _learned_words))
-    return [one for one in found if one["legend"]]
+    return [one for one in found if one.legend]
 
 
-def _shown(name: str, title: str, curves: Sequence[Curve], start: str, words: Any) -> dict[str, Any]:
+def _shown(name: str, title: str, curves: Sequence[Curve], start: str, words: Any) -> Chart:
     top = sorted(curves, key=lambda curve: -float(np.ptp(curve.value)))[:MOST]
     kept = [curve for curve in curves if curve in top]
     left = len(curves) - len(kept)
     more = f" {left} more {'is' if left == 1 else 'are'} not shown." if left else ""
-    return {
-        "id": f"curve_{name}",
-        "title": title,
-        "words": words(curves) + more,
-        "said": "; ".join(f"{curve.name}: {curve.value[-1]:.0%} at the end" for curve in kept),
-        "legend": curves_legend(kept),
-        "figure": curves_figure(kept, start, "% of full fatigue" if name == "fatigue" else "% of the first time"),
-    }
+    unit = "% of full fatigue" if name == "fatigue" else "% of the first time"
+    said = "; ".join(f"{curve.name}: {100 * curve.value[-1]:.0f} % at the end" for curve in kept)
+    figure = curves_figure(kept, start, unit)
+    return Chart(f"curve_{name}", figure, said, title, curves_legend(kept), words(curves) + more)
 
 
 def _fatigue(log: EventLog, plan: Plan) -> list[Curve]:
@@ -112,10 +110,10 @@ def _tired_words(curves: Sequence[Curve]) -> str:
     if not curves:
         return ""
     worst = max(curves, key=lambda curve: float(curve.value.max()))
-    ends = listing([f"{curve.name} {curve.value[-1]:.0%}" for curve in curves[:MOST]])
+    ends = listing([f"{curve.name} {100 * curve.value[-1]:.0f} %" for curve in curves[:MOST]])
     return (
-        f"Most tired is {worst.name}: {worst.value.max():.0%} of full fatigue at the highest. As the last work ends it "
-        f"is: {ends}. What the model says, for the first replication; nobody measured it."
+        f"Most tired is {worst.name}: {100 * worst.value.max():.0f} % of full fatigue at the highest. As the last work "
+        f"ends it is: {ends}. What the model says, for the first replication; nobody measured it."
     )
 
 
@@ -124,6 +122,6 @@ def _learned_words(curves: Sequence[Curve]) -> str:
         return ""
     best = min(curves, key=lambda curve: float(curve.value[-1] - curve.value[0]))
     return (
-        f"Furthest comes {best.name}: from {best.value[0]:.0%} of the time of a first repetition to "
-        f"{best.value[-1]:.0%}. What the model says, for the first replication."
+        f"Furthest comes {best.name}: from {100 * best.value[0]:.0f} % of the time of a first repetition to "
+        f"{100 * best.value[-1]:.0f} %. What the model says, for the first replication."
     )

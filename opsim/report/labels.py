@@ -44,9 +44,10 @@ def _hidden(box: Box, taken: Sequence[Box], wide: float) -> float:
     """How much of others a box covers, and how far it stands out of the picture."""
     left, top, right, _ = box
     out = max(0.0, -left) + max(0.0, right - wide) + max(0.0, -top)
-    return OUTSIDE * out + sum(_shared(box, other) for other in taken)
+    return OUTSIDE * out + sum(shared(box, other) for other in taken)
 
 
-def _shared(a: Box, b: Box) -> float:
+def shared(a: Box, b: Box) -> float:
+    """The area that two boxes have in common."""
     across, down = min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1])
     return max(0.0, across) * max(0.0, down)

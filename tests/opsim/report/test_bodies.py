@@ -1,15 +1,19 @@
 import json
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from plans import ran
 
 from opsim.ergonomics.shift.regions import Regions
 from opsim.ergonomics.shift.timeline import timeline
 from opsim.ergonomics.shift.worst import worst_frames
-from opsim.report.bodies import bodies_section, day_of, regions_said, write_postures
+from opsim.log import BREAK, NAMED, WAIT, event_log
+from opsim.report.bodies import bodies_of, day_of, pauses, regions_said, write_postures
+from opsim.report.day_picture import Strip, draw_day, legend
 from opsim.report.worst_picture import pair, posture_cards
 from tests.opsim.ergonomics.shift.test_regions import CELL
+from tests.opsim.kpi.made_logs import row
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +31,21 @@ def test_a_strip_is_filled_by_the_share_of_each_minute_at_a_high_score(cell):
     assert f"{100 * share:.1f}"[:2] in section["alt"] and "RULA 5 or more" in section["alt"]
     words = [words for _, words in section["legend"]]
     assert "RULA 5 or more" in words and "at work, posture not known" in words
+
+
+def test_breaks_that_follow_each_other_are_one_stretch_of_the_strip():
+    names = dict.fromkeys(NAMED, ())
+    rows = [row(BREAK, 0, 60, worker=0), row(BREAK, 60, 90, worker=0), row(BREAK, 500, 900, worker=0)]
+    log = event_log([*rows, row(BREAK, 10, 20, worker=1), row(WAIT, 200, 300, worker=0)], 1000.0, names)
+    assert pauses(log, 0, 0.0, 600.0) == [pytest.approx((0.0, 0.15)), pytest.approx((500 / 600, 1.0))]
+    assert pauses(log, 2, 0.0, 600.0) == []
+
+
+def test_breaks_are_hatched_and_in_the_legend():
+    paused = [Strip("ana", {"rula_from_5": np.array([0.5, 0.5])}, pauses=((0.2, 0.4),))]
+    assert b"url(#pause)" in draw_day(paused, "Mon 06:00", 0.0, 600.0) and "hatched" in legend(paused)[-1][1]
+    plain = [Strip("ana", {"rula_from_5": np.array([0.5, 0.5])})]
+    assert b"pause" not in draw_day(plain, "Mon 06:00", 0.0, 600.0) and len(legend(plain)) == 1
 
 
 def test_a_card_says_who_when_and_what_drives_the_score_and_draws_two_views(cell):
@@ -61,5 +80,4 @@ def test_the_postures_are_kept_for_whoever_opens_the_folder(cell, tmp_path):
 
 
 def test_where_nobody_asked_for_postures_there_is_nothing():
-    result = SimpleNamespace(summary={"kpis": [{"kpi": "throughput_per_h"}]}, events_files=["there"])
-    assert bodies_section(None, result) is None
+    assert bodies_of(SimpleNamespace(summary={"kpis": [{"kpi": "throughput_per_h"}]}, log="there")) is None

@@ -1,0 +1,163 @@
+"""A circle at each station as large as people are there at a high score, with its name and minutes; as SVG."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from html import escape
+from itertools import combinations
+from math import hypot, isfinite, sqrt
+from typing import Any
+
+from opsim.plan.unseen import has_body
+from opsim.report.exposure_bars import FIVE, PERHAPS, SEVEN
+from opsim.report.exposure_rows import NOWHERE, Bar
+from opsim.report.floor_drawn import round_below, text_at
+from opsim.report.floor_map import FOOT, FloorMap, around
+from opsim.report.labels import Box, shared, shortened
+from opsim.report.palette import INK, MUTED
+from opsim.report.words import digits, half_digits, listing
+
+LEAST_PX, MOST_PX, UNKNOWN_PX, FOOT_PX = 12.0, 34.0, 9.0, 20.0
+"""Radius of the largest circle, by how near stations are to each other; of a sign for what is not known; of the largest
+in the key."""
+LETTER, LINE = 7.2, 15.0
+UNKNOWN = ("#ffffff", "nothing known of the postures there")
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A station in the picture. bar : minutes, None where nothing is known; open_tasks : at which nothing is known"""
+
+    name: str
+    at: tuple[float, float]
+    radius: float
+    bar: Bar | None
+    open_tasks: tuple[str, ...] = ()
+
+
+def circles_of(bars: dict[str, Bar], plan: Any, layout: Any, on: FloorMap) -> list[Circle]:
+    """One for each station at which people work; those at one place stand beside each other."""
+    most = max(bar.most for name, bar in bars.items() if name != NOWHERE)
+    largest = _largest(on)
+    by_place: dict[tuple[float, float], list[Circle]] = {}
+    for station in plan.stations:
+        tasks = [plan.tasks[rank] for rank in station.tasks if not plan.tasks[rank].automatic]
+        if tasks:
+            unseen = tuple(task.name for task in tasks if not has_body(task))
+            bar = bars.get(station.name) if len(unseen) < len(tasks) else None
+            radius = UNKNOWN_PX if bar is None else largest * sqrt(bar.most / most)
+            at = tuple(layout.places[plan.places[station.place]])
+            by_place.setdefault(at, []).append(Circle(station.name, (0.0, 0.0), radius, bar, unseen))
+    return [circle for at, here in by_place.items() for circle in _beside(here, on.at(at), on.wide)]
+
+
+def _beside(circles: Sequence[Circle], at: tuple[float, float], most_x: float) -> Iterator[Circle]:
+    """In a row about a point, within the picture."""
+    room = [2 * max(circle.radius, 3.0) + 4 for circle in circles]
+    x = max(4.0, min(at[0] - sum(room) / 2, most_x - 4 - sum(room)))
+    for circle, wide in zip(circles, room):
+        yield replace(circle, at=(x + wide / 2, at[1]))
+        x += wide
+
+
+def _largest(on: FloorMap) -> float:
+    """Radius of the largest circle: so that neighbours can be told apart."""
+    points = [on.at(spot.at) for spot in on.spots if spot.kind == "station"]
+    nearest = min((hypot(a[0] - b[0], a[1] - b[1]) for a, b in combinations(points, 2)), default=2 * MOST_PX)
+    return min(MOST_PX, max(LEAST_PX, 0.55 * nearest))
+
+
+def drawn_circles(circles: Sequence[Circle], on: FloorMap) -> Iterator[str]:
+    for circle in sorted(circles, key=lambda one: (-one.radius, one.name)):
+        yield f"<g><title>{escape(said_of(circle))}</title>{''.join(_rings(circle))}</g>"
+    yield from _labels(circles, on)
+
+
+def _rings(circle: Circle) -> Iterator[str]:
+    """The most there may be, and within it what is sure."""
+    bar = circle.bar
+    if bar is None:
+        yield _ring(circle, circle.radius, UNKNOWN[0], f' stroke="{MUTED}" stroke-width="1.5" stroke-dasharray="3 3"')
+        yield text_at("?", circle.at[0], circle.at[1] + 4.5, MUTED, "middle", 13, bold=True)
+    elif bar.most <= 0:
+        yield _ring(circle, 3.0, "#ffffff", f' stroke="{INK}" stroke-width="1.3"')
+    else:
+        if bar.is_open:
+            yield _ring(circle, circle.radius, PERHAPS[0], f' stroke="{MUTED}" stroke-dasharray="3 2"')
+        for minutes, (colour, _) in ((bar.five, FIVE), (bar.seven, SEVEN)):
+            if minutes > 0:
+                yield _ring(circle, circle.radius * sqrt(minutes / bar.most), colour, ' stroke="#ffffff"')
+
+
+def _ring(circle: Circle, radius: float, fill: str, more: str) -> str:
+    return f'<circle cx="{circle.at[0]:.1f}" cy="{circle.at[1]:.1f}" r="{radius:.1f}" fill="{fill}"{more}/>'
+
+
+def _labels(circles: Sequence[Circle], on: FloorMap) -> Iterator[str]:
+    """Name and minutes of each, where they hide least; those with most first."""
+    rings: list[Box] = [around(one.at, max(one.radius, 4.0)) for one in circles]
+    taken = list(rings)
+    for circle in sorted(circles, key=lambda one: (-(one.bar.most if one.bar else 0.0), one.name)):
+        words = [shortened(circle.name), _minutes(circle)]
+        half = LETTER * max(map(len, words)) / 2
+        (x, y), r = circle.at, max(circle.radius, 4.0)
+        offers = [
+            *((x, y + r + 13, "middle"), (x, y - r - LINE - 5, "middle")),
+            *((x + r + 5, y - 3, "start"), (x - r - 5, y - 3, "end")),
+        ]
+        boxes = [_words_box(*offer, half) for offer in offers]
+        costs = [sum(shared(box, other) for other in taken) + 50 * _out(box, on) for box in boxes]
+        best = min(range(len(offers)), key=lambda n: (costs[n], n))
+        taken.append(boxes[best])
+        at_x, at_y, anchor = offers[best]
+        yield text_at(words[0], at_x, at_y, INK, anchor, 12.5, halo=True, bold=True)
+        yield text_at(words[1], at_x, at_y + LINE - 1, INK, anchor, 12, halo=True)
+
+
+def _words_box(x: float, y: float, anchor: str, half: float) -> Box:
+    left = x - half if anchor == "middle" else x if anchor == "start" else x - 2 * half
+    return left, y - 11, left + 2 * half, y + LINE + 3
+
+
+def _out(box: Box, on: FloorMap) -> float:
+    below = max(0.0, box[3] - (on.tall - FOOT))
+    return max(0.0, -box[0]) + max(0.0, box[2] - on.wide) + max(0.0, -box[1]) + below
+
+
+def _minutes(circle: Circle) -> str:
+    """``13.3 ± 1.6``, or with what there may be: ``13.3 to 15.1``."""
+    bar = circle.bar
+    if bar is None:
+        return "not known"
+    half = (bar.high - bar.low) / 2 if isfinite(bar.low) and isfinite(bar.high) else None
+    mean = digits(bar.five, half)
+    spread = f" ± {half_digits(bar.five, half)}" if half else ""
+    return mean + spread + (" +?" if circle.open_tasks else "")
+
+
+def said_of(circle: Circle) -> str:
+    """All that is known of a station, in words."""
+    bar = circle.bar
+    if bar is None:
+        return f"{circle.name}: nothing known of the postures"
+    ends = f" ({digits(bar.low)} to {digits(bar.high)})" if isfinite(bar.low) and isfinite(bar.high) else ""
+    most = f", at most {digits(bar.most)}" if bar.is_open else ""
+    open_words = f"; nothing known of {listing(list(circle.open_tasks))}" if circle.open_tasks else ""
+    seven = f", {digits(bar.seven)} of them at 7" if bar.seven > 0 else ""
+    return f"{circle.name}: {digits(bar.five)}{ends} minutes an hour at RULA 5 or more{seven}{most}{open_words}"
+
+
+def area_key(circles: Sequence[Circle], on: FloorMap) -> Iterator[str]:
+    """How large so many minutes are."""
+    largest = max((one for one in circles if one.bar is not None), key=lambda one: one.radius)
+    most = largest.bar.most  # type: ignore[union-attr]
+    shown = most * min(1.0, (FOOT_PX / largest.radius) ** 2)
+    x, y = on.wide - 8, on.tall - FOOT_PX - 4
+    for minutes in (round_below(shown), round_below(shown / 4)):
+        radius, words = largest.radius * sqrt(minutes / most), f"{minutes:g} min"
+        x -= LETTER * len(words)
+        yield text_at(words, x, y + 4, MUTED, "start", 12)
+        x -= radius + 5
+        yield _ring(Circle("", (x, y), radius, None), radius, "none", f' stroke="{MUTED}"')
+        x -= radius + 18

@@ -1,0 +1,69 @@
+"""A heat map of presence: minutes on the floor, none lost and none made up."""
+
+import re
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from plans import loaded, ran
+
+from opsim.report import heat_map
+from opsim.report.floor_map import floor_map
+from opsim.report.floor_ways import FloorWays
+from opsim.report.heat_map import COLOURS, density_of, levels_of
+from opsim.report.presence import presence
+from opsim.report.section import Svg
+from tests.made_result import SCRIPT
+from tests.opsim.report.made_material import hostile, of_log, texts
+from tests.opsim.study.layout.made_floor import FLOOR
+
+
+@pytest.fixture(scope="module")
+def made():
+    log, plan = ran(FLOOR)
+    return of_log(log, plan, loaded(FLOOR))
+
+
+def test_the_heat_of_the_floor_is_the_time_that_people_were_there(made):
+    layout = made.loaded.scenario.layout
+    there = presence(made.log, made.plan)
+    density, cells = density_of(there, made.plan, FloorWays(layout), floor_map(made.plan, layout))
+    minutes = density.sum() * cells.cell_m**2
+    assert minutes == pytest.approx(there.total / 60) and minutes == pytest.approx(60.0 * len(made.plan.workers))
+
+
+def test_it_is_hottest_where_somebody_stands_most(made):
+    layout = made.loaded.scenario.layout
+    there = presence(made.log, made.plan)
+    density, cells = density_of(there, made.plan, FloorWays(layout), floor_map(made.plan, layout))
+    row, column = np.unravel_index(density.argmax(), density.shape)
+    x, y = cells.left_m + (column + 0.5) * cells.cell_m, cells.top_m - (row + 0.5) * cells.cell_m
+    assert (x, y) == pytest.approx(layout.places[made.plan.places[int(there.at_place.argmax())]], abs=0.4)
+
+
+@pytest.mark.parametrize("most, last", [(25.0, 10.0), (31.0, 30.0), (0.02, 0.01), (500.0, 300.0)])
+def test_levels_lie_three_times_above_each_other_and_the_last_below_the_most(most, last):
+    levels = levels_of(most)
+    assert levels[-1] == pytest.approx(last) and len(levels) == len(COLOURS)
+    assert all(2.9 < b / a < 3.4 for a, b in pairwise(levels))
+
+
+def test_the_section_says_where_and_shows_a_legend_in_words(made):
+    section = heat_map.section(made)
+    svg = next(block for block in section.blocks if isinstance(block, Svg))
+    assert "most is spent at" in section.blocks[0].text and "goes into walking" in section.blocks[0].text
+    assert len(svg.legend) == len(COLOURS) and svg.legend[-1][1].endswith("min an hour on a m²")
+    fills = re.findall(r'fill="(#\w+)" shape-rendering', svg.text)
+    assert tuple(fills) == COLOURS
+    shares = [float(row[2].rstrip(" %")) for row in section.blocks[-1].rows if row[2][0].isdigit()]
+    assert sum(shares) == pytest.approx(100, abs=3)
+
+
+def test_without_rows_there_is_no_section(made):
+    assert heat_map.section(of_log(None, made.plan, made.loaded, rows=[{"kpi": "x"}])) is None
+
+
+def test_hostile_names_do_no_harm(made):
+    section = heat_map.section(of_log(made.log, hostile(made.plan, SCRIPT), made.loaded, [{"kpi": "x"}]))
+    svg = next(block for block in section.blocks if isinstance(block, Svg))
+    assert "<script" not in svg.text and "&lt;script" in svg.text and SCRIPT[:8] in texts(section)
