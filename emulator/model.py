@@ -224,13 +224,13 @@ class MotionEmulator:
         return from_clr(self._slopes(scores), self.n_times)
 
     def _slopes(self, scores: np.ndarray) -> np.ndarray:
-        """(n, Q) log ratios of the warps' slopes, within ``_slope_limits``."""
+        """(n, Q) log ratios of the warps' slopes, within ``slope_limits``."""
         return np.minimum(
-            np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), self._slope_limits[0]), self._slope_limits[1]
+            np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), self.slope_limits[0]), self.slope_limits[1]
         )
 
     @cached_property
-    def _slope_limits(self) -> np.ndarray:
+    def slope_limits(self) -> np.ndarray:
         """(2, Q) least and largest log ratio of each knot: those of the recordings and a fifth beyond, if it has them.
 
         Else a few draws of new people would rush through a part of the task three times as fast as anybody did.

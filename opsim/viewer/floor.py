@@ -1,0 +1,167 @@
+"""The floor that a layout leaves open: benches before those who work at a place, turned to where there is room."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2, cos, exp, hypot, inf, pi, sin
+from typing import Any
+
+import numpy as np
+
+from opsim.plan import Plan
+from opsim.plan.station import CONVEYOR, STATION, STORE
+from opsim.viewer.scene import Belt, Bench, Pile
+
+Point = tuple[float, float]
+AHEAD_M, DEPTH_M, HEIGHT_M, WIDTH_M = 0.42, 0.7, 0.9, 1.4
+"""From who stands there to the edge of a bench; how deep, high and, for one who works at it, wide it is."""
+BESIDE_M, BEHIND_M = 0.8, 0.9
+"""From one to the next who stands beside or behind him."""
+FAR_M, AWAY, ALIKE, ACROSS = 2.0, 0.1, 0.3, 0.2
+"""How far things shun each other; what it counts that a bench looks away from the middle of the floor, stands as the
+nearest one does, and stands across the page."""
+SIDES = (pi / 2, -pi / 2, 0.0, pi)
+
+
+@dataclass(frozen=True)
+class Post:
+    """Where a station is worked at: its place, the way one faces, and how far to the left of the place that is."""
+
+    place: int
+    facing_rad: float
+    left_m: float
+
+
+@dataclass(frozen=True)
+class Floor:
+    """points_m : of the places; facing_rad : the way one looks who stands at each
+
+    posts : by the rank of a station; posts_at : how many there are at each place
+    """
+
+    points_m: tuple[Point, ...]
+    facing_rad: tuple[float, ...]
+    posts: dict[int, Post]
+    posts_at: tuple[int, ...]
+    benches: tuple[Bench, ...]
+    piles: tuple[Pile, ...]
+    belts: tuple[Belt, ...]
+
+    def spot_m(self, place: int, facing_rad: float, left_m: float, back_m: float = 0.0) -> Point:
+        """A point near a place, as seen by who looks that way there."""
+        (x, y), (c, s) = self.points_m[place], (cos(facing_rad), sin(facing_rad))
+        return x - left_m * s - back_m * c, y + left_m * c - back_m * s
+
+
+def floor_of(plan: Plan, layout: Any) -> Floor:
+    """The places of a layout with the benches, stores and belts of a plan."""
+    points = tuple(layout.places[name] for name in plan.places)
+    facing = _facings(points, _roads(layout))
+    posts: dict[int, Post] = {}
+    at = [0] * len(points)
+    for rank, station in enumerate(plan.stations):
+        if station.kind == STATION:
+            posts[rank] = _post(station.place, at[station.place], facing[station.place])
+            at[station.place] += 1
+    bare = Floor(points, facing, posts, tuple(at), (), (), ())
+    benches = tuple(_bench(bare, plan, rank) for rank in posts)
+    return Floor(points, facing, posts, tuple(at), benches, _piles(bare, plan), _belts(bare, plan))
+
+
+def roads_of(layout: Any) -> tuple[tuple[float, float, float, float], ...]:
+    """(x, y, x, y) of every path of a layout that has paths, in metres."""
+    return tuple((*a, *b) for a, b in _roads(layout))
+
+
+def _roads(layout: Any) -> list[tuple[Point, Point]]:
+    if layout.distance != "paths":
+        return []
+    return [(layout.places[step.start], layout.places[step.end]) for step in layout.path_steps]
+
+
+def _facings(points: Sequence[Point], roads: Sequence[tuple[Point, Point]]) -> tuple[float, ...]:
+    """The way one looks at each place: to where least stands, rather outwards, and rather as the neighbour does."""
+    middle = np.mean(np.array(points), axis=0)
+    found: list[float] = []
+    for rank, point in enumerate(points):
+        others = [other for other in points if other != point]
+        stand = [_ahead(points[k], found[k]) for k in range(rank) if points[k] != point]
+        outwards = atan2(point[1] - middle[1], point[0] - middle[0])
+        nearest = min(
+            range(rank), key=lambda k: (hypot(points[k][0] - point[0], points[k][1] - point[1]), k), default=-1
+        )
+        costs = [
+            _cost(_ahead(point, side), others, stand, roads)
+            - AWAY * cos(side - outwards)
+            - (ALIKE if nearest >= 0 and found[nearest] == side else 0.0)
+            + ACROSS * abs(cos(side))
+            for side in SIDES
+        ]
+        found.append(SIDES[min(range(len(SIDES)), key=lambda k: (round(costs[k], 6), k))])
+    return tuple(found)
+
+
+def _ahead(point: Point, facing_rad: float) -> Point:
+    far = AHEAD_M + DEPTH_M / 2
+    return point[0] + far * cos(facing_rad), point[1] + far * sin(facing_rad)
+
+
+def _cost(bench: Point, others: Sequence[Point], stand: Sequence[Point], roads: Sequence[tuple[Point, Point]]) -> float:
+    near = sum(exp(-hypot(bench[0] - x, bench[1] - y) / FAR_M) for x, y in (*others, *stand))
+    return near + sum(5.0 * exp(-_from_road_m(bench, *road) / (AHEAD_M + DEPTH_M)) for road in roads)
+
+
+def _from_road_m(point: Point, a: Point, b: Point) -> float:
+    along = (b[0] - a[0], b[1] - a[1])
+    length = along[0] ** 2 + along[1] ** 2
+    share = 0.0 if length == 0 else ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / length
+    share = min(max(share, 0.0), 1.0)
+    return hypot(a[0] + share * along[0] - point[0], a[1] + share * along[1] - point[1])
+
+
+def _post(place: int, number: int, facing_rad: float) -> Post:
+    """The first two stations of a place stand before and behind who works there, further ones beside them."""
+    side = facing_rad if number % 2 == 0 else facing_rad + pi
+    left_m = (number // 2) * (WIDTH_M + 2 * BESIDE_M)
+    return Post(place, (side + pi) % (2 * pi) - pi, left_m if number % 2 == 0 else -left_m)
+
+
+def _bench(floor: Floor, plan: Plan, rank: int) -> Bench:
+    station, post = plan.stations[rank], floor.posts[rank]
+    tasks = [plan.tasks[task] for task in station.tasks]
+    together = max([station.servers, *(task.team for task in tasks)])
+    width_m = min(WIDTH_M + BESIDE_M * (together - 1), 5 * WIDTH_M)
+    x, y = floor.spot_m(post.place, post.facing_rad, post.left_m, -AHEAD_M - DEPTH_M / 2)
+    buffer_m = floor.spot_m(post.place, post.facing_rad, post.left_m + width_m / 2 + 0.5, -AHEAD_M - DEPTH_M / 2)
+    alone = bool(tasks) and all(task.automatic for task in tasks)
+    holds = None if station.buffer == inf else int(station.buffer)
+    return Bench(
+        *(station.name, station.place, x, y, post.facing_rad, width_m, DEPTH_M, HEIGHT_M, alone, buffer_m, holds)
+    )
+
+
+def _piles(floor: Floor, plan: Plan) -> tuple[Pile, ...]:
+    """Stores lie before who comes to their place; beside the benches, where there are some."""
+    piles, lie = [], [0] * len(floor.points_m)
+    for station in plan.stations:
+        if station.kind == STORE:
+            place = station.place
+            beside = lie[place] if not floor.posts_at[place] else lie[place] + 1.5
+            x, y = floor.spot_m(place, floor.facing_rad[place], -1.4 * beside, -AHEAD_M - DEPTH_M / 2)
+            lie[place] += 1
+            piles.append(Pile(station.name, x, y, None if station.capacity == inf else int(station.capacity)))
+    return tuple(piles)
+
+
+def _belts(floor: Floor, plan: Plan) -> tuple[Belt, ...]:
+    ends = {belt.station: belt.place_to for belt in plan.conveyors}
+    return tuple(
+        Belt(station.name, (_front_m(floor, station.place), _front_m(floor, ends[rank])))
+        for rank, station in enumerate(plan.stations)
+        if station.kind == CONVEYOR
+    )
+
+
+def _front_m(floor: Floor, place: int) -> Point:
+    return _ahead(floor.points_m[place], floor.facing_rad[place])

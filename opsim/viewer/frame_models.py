@@ -1,0 +1,202 @@
+"""Codec ``frames``: performances as postures many times a second, for walks, composites and other people's emulators.
+
+A posture's directions are a mean and a few components of all that is packed; these numbers, the way of the root and
+its heading are rounded to steps too small to see, and what is kept are their second differences.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from opsim.viewer.columns import Columns
+from opsim.viewer.scene import Drawn
+from opsim.viewer.skeletons import hung, path_of, tree_of, turned, vectors_of
+
+RATES_HZ = (12.5, 20.0, 25.0, 33.0, 50.0)
+GOOD_M, SHARE = 7e-4, 0.995
+"""The fewest frames and components by which so many of all joints lie within so much of where they belong."""
+STEP, ROOT_STEP = 4e-4, 1e-4
+"""Of components (no unit), and of metres and radians: some 0.1 mm at a hand."""
+TRIED, TRIED_FRAMES, AT_ONCE = 24, 20_000, 16
+LARGEST = 32_767
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """n performances in frames. first (n + 1,); directions (F, 3B) without heading; path (F, 4) root and heading
+
+    bone_m (n, B); duration_s (n,)
+    """
+
+    first: np.ndarray
+    directions: np.ndarray
+    path: np.ndarray
+    bone_m: np.ndarray
+    duration_s: np.ndarray
+
+
+def pack_frames(drawn: Drawn, skeleton: int, columns: Columns, prefix: str) -> dict[str, Any]:
+    """The model's entry of the page's description; its columns are added under names that begin with ``prefix``."""
+    rate_hz, n_components = chosen(drawn)
+    frames = frames_of(drawn, rate_hz)
+    basis = basis_of(frames.directions, n_components)
+    channels = np.concatenate([(frames.directions - basis[0]) @ basis[1:].T, frames.path], axis=1)
+    values, scale = second_differences(channels, frames.first, n_components)
+    roles = {
+        "basis": ("f4", basis),
+        "scale": ("f4", scale),
+        "first": ("u4", frames.first),
+        "values": ("i2", values),
+        "bone_m": ("f4", frames.bone_m),
+        "duration_s": ("f4", frames.duration_s),
+    }
+    return {
+        "codec": "frames",
+        "name": drawn.name,
+        "skeleton": skeleton,
+        "rate_hz": rate_hz,
+        "n": len(drawn),
+        "sizes": {"directions": n_components},
+        "columns": {role: columns.add(f"{prefix}{role}", *column) for role, column in roles.items()},
+    }
+
+
+def frames_of(drawn: Drawn, rate_hz: float) -> Frames:
+    """All performances of a model, ``rate_hz`` frames a second from their start to past their end."""
+    parents = tree_of(drawn.skeleton)[1]
+    durations_s = np.concatenate([np.asarray(block.duration_s, dtype=float) for block in drawn.blocks])
+    first = np.cumsum([0, *(np.ceil(durations_s * rate_hz - 1e-9).astype(int) + 1)])
+    n_bones = len(parents) - 1
+    directions, path = np.empty((first[-1], 3 * n_bones)), np.empty((first[-1], 4))
+    bone_m = np.empty((durations_s.size, n_bones))
+    begin = 0
+    for some in _pieces(drawn):
+        n_frames = np.diff(first[begin : begin + len(some.duration_s) + 1])
+        times_s = np.broadcast_to(np.arange(n_frames.max()) / rate_hz, (n_frames.size, n_frames.max()))
+        local, lengths_m, ways = postures(some, times_s, parents)
+        for row, n in enumerate(n_frames.tolist()):
+            here = slice(first[begin + row], first[begin + row] + n)
+            directions[here], path[here] = local[row, :n].reshape(n, -1), ways[row, :n]
+        bone_m[begin : begin + n_frames.size] = lengths_m[:, 0]
+        begin += n_frames.size
+    return Frames(first, directions, path, bone_m, durations_s)
+
+
+def postures(some: Any, times_s: np.ndarray, parents: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Directions (n, T, B, 3) without heading, lengths (n, T, B), root and heading (n, T, 4) at times (n, T)."""
+    times_s = np.minimum(times_s, np.asarray(some.duration_s)[:, None])
+    joints = np.asarray(some.positions_m(times_s=times_s), dtype=float)
+    yaw = path_of(some, times_s)[..., 3]
+    world, length_m = vectors_of(joints, parents)
+    root = joints[..., parents.index(-1), :]
+    return turned(world, -yaw[..., None]), length_m, np.concatenate([root, yaw[..., None]], axis=-1)
+
+
+def chosen(drawn: Drawn) -> tuple[float, int]:
+    """(frames a second, components) that are enough: by some performances of the model, against themselves."""
+    parents = tree_of(drawn.skeleton)[1]
+    every = max(1, len(drawn.blocks) // (TRIED // 2))
+    some = [block[np.arange(min(len(block.duration_s), 2))] for block in drawn.blocks[::every]]
+    n = np.cumsum([0, *(len(block.duration_s) for block in some)])
+    few = Drawn(drawn.name, drawn.skeleton, some, tuple(n.tolist()))
+    rng = np.random.default_rng(0)
+    asked = [rng.uniform(0.0, 1.0, 32) * np.asarray(block.duration_s)[:, None] for block in some]
+    truth = [postures(block, at_s, parents) for block, at_s in zip(some, asked)]
+    for rate_hz in RATES_HZ:
+        frames = frames_of(few, rate_hz)
+        errors_m = _errors_m(frames, frames.directions, rate_hz, asked, truth, parents)
+        if np.quantile(errors_m, SHARE) <= GOOD_M:
+            break
+    for n_components in (8, 12, 16, 20, 24, 28, 32, 40, 50, frames.directions.shape[1]):
+        n_components = min(n_components, frames.directions.shape[1])
+        basis = basis_of(frames.directions, n_components)
+        about = basis[0] + (frames.directions - basis[0]) @ basis[1:].T @ basis[1:]
+        if np.quantile(_errors_m(frames, about, rate_hz, asked, truth, parents), SHARE) <= 1.2 * GOOD_M:
+            break
+    return rate_hz, n_components
+
+
+def _errors_m(
+    frames: Frames,
+    directions: np.ndarray,
+    rate_hz: float,
+    asked: list[np.ndarray],
+    truth: list[tuple[np.ndarray, np.ndarray, np.ndarray]],
+    parents: tuple[int, ...],
+) -> np.ndarray:
+    """How far every joint is from where it belongs, at all times asked for."""
+    found, row = [], 0
+    for times_s, (local, _, path) in zip(asked, truth):
+        for at_s, own, way in zip(times_s, local, path):
+            here = slice(frames.first[row], frames.first[row + 1])
+            unit = between(directions[here], at_s * rate_hz).reshape(at_s.size, -1, 3)
+            unit /= np.linalg.norm(unit, axis=-1, keepdims=True)
+            shown = hung(unit, frames.bone_m[row], between(frames.path[here, :3], at_s * rate_hz), parents)
+            meant = hung(own, frames.bone_m[row], way[:, :3], parents)
+            found.append(np.linalg.norm(shown - meant, axis=-1).ravel())
+            row += 1
+    return np.concatenate(found)
+
+
+def between(values: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Values (S, C) at places (S,) of frames (F, C): Catmull-Rom, end frames doubled, held before and after."""
+    last = len(values) - 1
+    place = np.clip(place, 0.0, last)
+    cell = np.minimum(place.astype(int), max(last - 1, 0))
+    u = (place - cell)[:, None]
+    a, b, c, d = (values[np.clip(cell + k, 0, last)] for k in (-1, 0, 1, 2))
+    return np.asarray(b + 0.5 * u * (c - a + u * (2 * a - 5 * b + 4 * c - d + u * (3 * (b - c) + d - a))))
+
+
+def basis_of(directions: np.ndarray, n_components: int) -> np.ndarray:
+    """(d + 1, 3B) the mean of directions (F, 3B) and their first components, as they are packed (float32)."""
+    some = directions[:: max(1, len(directions) // TRIED_FRAMES)]
+    mean = some.mean(axis=0)
+    centred = some - mean
+    vectors = np.linalg.eigh(centred.T @ centred)[1]
+    basis = vectors[:, ::-1][:, :n_components].T
+    largest = np.take_along_axis(basis, np.abs(basis).argmax(axis=1)[:, None], axis=1)
+    packed = np.concatenate([mean[None], basis * np.where(largest < 0, -1.0, 1.0)])
+    return packed.astype(np.float32).astype(float)
+
+
+def second_differences(channels: np.ndarray, first: np.ndarray, n_components: int) -> tuple[np.ndarray, np.ndarray]:
+    """(values, scale): second differences of channels (F, C) in whole steps, per performance channel by channel.
+
+    A channel whose differences would be too large gets longer steps.
+    """
+    scale = np.r_[np.full(n_components, STEP), np.full(channels.shape[1] - n_components, ROOT_STEP)]
+    rounded = _differences(channels, first, scale)
+    most = np.abs(rounded).max(axis=0, initial=0)
+    if np.any(most > LARGEST):
+        scale = scale * np.where(most > LARGEST, 1.01 * most / LARGEST, 1.0)
+        rounded = _differences(channels, first, scale)
+    parts = [rounded[begin:end].T.ravel() for begin, end in pairwise(first.tolist())]
+    return np.concatenate([np.zeros(0, np.int64), *parts]), scale.astype(np.float32).astype(float)
+
+
+def _differences(channels: np.ndarray, first: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """(F, C) second differences of whole steps, from 0 at the beginning of each performance."""
+    steps = np.rint(channels / scale).astype(np.int64)
+    for _ in range(2):
+        before = np.zeros_like(steps)
+        before[1:] = steps[:-1]
+        before[first[:-1]] = 0
+        steps = steps - before
+    return steps
+
+
+def _pieces(drawn: Drawn) -> Iterator[Any]:
+    """A few performances at a time."""
+    for block in drawn.blocks:
+        n = len(block.duration_s)
+        if n <= AT_ONCE:
+            yield block
+            continue
+        for start in range(0, n, AT_ONCE):
+            yield block[np.arange(start, min(start + AT_ONCE, n))]

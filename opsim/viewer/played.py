@@ -1,0 +1,160 @@
+"""The performances behind the rows of a window, drawn again, and which of them each row shows, from when to when."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from opsim.ergonomics.measures import has_body
+from opsim.ergonomics.pieces import Pieces, drawn_again, pieces_of, worked_rows
+from opsim.log import EventLog
+from opsim.one_thread import one_blas_thread
+from opsim.plan import Plan
+from opsim.streams import BLOCK
+from opsim.viewer.scene import Drawn, Performed
+from opsim.viewer.score_models import is_of_scores
+from opsim.viewer.skeletons import path_of
+
+FAR_M = 0.5
+"""Who goes further than this in a task is placed so that he ends before the bench."""
+LOOKED_AT = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Played:
+    """By log row (rows,): the performance it shows, or -1, and the own seconds of that at its start and end."""
+
+    performance: np.ndarray
+    from_s: np.ndarray
+    to_s: np.ndarray
+
+
+class Collected:
+    """Performances by what draws them, as they are found."""
+
+    def __init__(self) -> None:
+        self._sets: dict[Any, _Set] = {}
+        self._model: list[np.ndarray] = []
+        self._row: list[np.ndarray] = []
+        self.n = 0
+
+    def add(self, key: Any, name: str, some: Any) -> int:
+        """More performances of one model; the number of the first."""
+        own = self._sets.setdefault(key, _Set(len(self._sets), name, some.skeleton))
+        n = len(some.duration_s)
+        self._model.append(np.full(n, own.number))
+        self._row.append(own.first[-1] + np.arange(n))
+        own.blocks.append(some)
+        own.first.append(own.first[-1] + n)
+        self.n += n
+        return self.n - n
+
+    def close(self) -> Performed:
+        """All of them."""
+        drawn = tuple(Drawn(s.name, s.skeleton, tuple(s.blocks), tuple(s.first)) for s in self._sets.values())
+        model, row = (np.concatenate([np.zeros(0, int), *parts]) for parts in (self._model, self._row))
+        return Performed(drawn, model, row)
+
+
+@dataclass
+class _Set:
+    number: int
+    name: str
+    skeleton: Any
+    blocks: list[Any] = field(default_factory=list)
+    first: list[int] = field(default_factory=lambda: [0])
+
+
+def played(log: EventLog, plan: Plan, low_s: float, high_s: float, found: Collected) -> Played:
+    """Every piece of work that lies between two times; bodies are added to ``found``.
+
+    Raises ValueError where a task's model draws what is no time.
+    """
+    rows = worked_rows(log, low_s, high_s)
+    rows = rows[(log["end_s"][rows] > log["start_s"][rows]) & (log["k"][rows] >= 0)]
+    rows = rows[np.lexsort([log[name][rows] for name in ("start_s", "k", "task", "worker")])]
+    shown = Played(np.full(len(log), -1), np.zeros(len(log)), np.zeros(len(log)))
+    begin = 0
+    with one_blas_thread():
+        for block, pieces in drawn_again(pieces_of(log, rows, -np.inf, np.inf), log.replication, plan):
+            here = rows[begin : begin + pieces.k.size]
+            begin += pieces.k.size
+            if has_body(block):
+                _add(found, block, pieces, plan.tasks[int(pieces.task[0])].name, here, shown)
+    return shown
+
+
+def _add(found: Collected, block: Any, pieces: Pieces, task: str, rows: np.ndarray, shown: Played) -> None:
+    """The performances of a block that have pieces, each once."""
+    k, which = np.unique(pieces.k, return_inverse=True)
+    some = rows_of(block, k % BLOCK)
+    of_scores = is_of_scores(some)
+    first = found.add(id(some.model) if of_scores else ("task", task), task, some)
+    duration_s = np.asarray(some.duration_s, dtype=float)[which]
+    shown.performance[rows] = first + which
+    shown.from_s[rows] = pieces.progress_from * duration_s
+    shown.to_s[rows] = pieces.progress_to * duration_s
+
+
+def rows_of(block: Any, rows: np.ndarray) -> Any:
+    """Some performances of a block: itself taken apart, or, where it cannot be, a view of those rows."""
+    return block[rows] if hasattr(type(block), "__getitem__") else _Rows(block, rows)
+
+
+class _Rows:
+    """A few rows of a block of somebody's emulator that cannot be taken apart: decoded whole, then indexed."""
+
+    def __init__(self, block: Any, rows: np.ndarray):
+        self._block, self._rows = block, np.asarray(rows)
+        self.skeleton = block.skeleton
+        self.duration_s = np.asarray(block.duration_s)[self._rows]
+        for name in ("directions", "path", "root_m"):
+            if hasattr(block, name):
+                setattr(self, name, self._asked(name))
+
+    def __len__(self) -> int:
+        return self._rows.size
+
+    def __getitem__(self, index: Any) -> _Rows:
+        return _Rows(self._block, np.atleast_1d(self._rows[index]))
+
+    @property
+    def bone_length_m(self) -> np.ndarray:
+        """(n, B) metres, where the block tells."""
+        return np.asarray(self._block.bone_length_m)[self._rows]
+
+    def positions_m(self, times_s: np.ndarray) -> np.ndarray:
+        """(n, T, J, 3) at times (n, T) or (T,)."""
+        return np.asarray(self._asked("positions_m")(times_s))
+
+    def _asked(self, name: str) -> Any:
+        def asked(times_s: np.ndarray) -> np.ndarray:
+            whole = np.zeros((len(self._block.duration_s), np.shape(times_s)[-1]))
+            whole[self._rows] = times_s
+            return np.asarray(getattr(self._block, name)(times_s=whole))[self._rows]
+
+        return asked
+
+
+def travels_m(performed: Performed) -> np.ndarray:
+    """(N, 2) how far performances lead from where they begin, in their own frame; 0 of those whose model leads nowhere.
+
+    NOTE: of composites the median of a few stands for all: making a whole path takes 20 ms.
+    """
+    far = np.zeros((performed.model.size, 2))
+    for number, drawn in enumerate(performed.drawn):
+        usual = np.median(_gone_m(drawn.blocks[0][np.arange(min(len(drawn.blocks[0].duration_s), LOOKED_AT))]), axis=0)
+        if np.hypot(*usual) > FAR_M:
+            each = is_of_scores(drawn.blocks[0])
+            gone = np.concatenate([_gone_m(block) for block in drawn.blocks]) if each else usual[None]
+            mine = performed.model == number
+            far[mine] = gone[performed.row[mine] if each else np.zeros(mine.sum(), int)]
+    return far
+
+
+def _gone_m(some: Any) -> np.ndarray:
+    """(n, 2) from the first to the last place of the root."""
+    path = path_of(some, np.asarray(some.duration_s)[:, None] * np.array([0.0, 1.0]))
+    return np.asarray(path[:, 1, :2] - path[:, 0, :2])
