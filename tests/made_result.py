@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
 
 SCRIPT = "<script>window.harmed = 1</script>"
 IMAGE = '"><img src=x onerror="window.harmed = 1">'
@@ -11,10 +12,11 @@ NAMES = (SCRIPT, IMAGE, BOLD)
 
 @dataclass(frozen=True)
 class MadeResult:
-    """What ``write_report`` needs of a Result."""
+    """What a report needs of a Result."""
 
     summary: dict
     folder: Path = field(default=Path("nowhere"))
+    events_files: tuple = ()
 
 
 def kpi(name, subject="", part="", unit="s", mean=60.0, half_width=1.0, n=20, headline=False):
@@ -99,3 +101,38 @@ def summary(worker="ana", station="weld", task="lift", product="pump", scenario=
 def hostile():
     """The same with hostile names everywhere a scenario may name something."""
     return summary(worker=SCRIPT, station=IMAGE, task=BOLD, product=SCRIPT, scenario=f"{SCRIPT}{IMAGE}{BOLD}")
+
+
+def empty_plan():
+    """A plan of a floor where nothing is."""
+    from opsim.plan import Plan
+
+    return Plan("made", 7, 28800.0, 1800.0, *[()] * 7, "nearest", "leave", "home", "fixed", "as_recorded")
+
+
+@dataclass(frozen=True)
+class MadeRun:
+    """What a Material needs of a reopened run; no rows are kept of it, and its plan is empty."""
+
+    result: MadeResult
+    manifest: dict
+    loaded: object = field(default_factory=lambda: SimpleNamespace(resolved={}))
+    plan: object = field(default_factory=lambda: empty_plan())
+
+
+def material(content, folder=Path("nowhere"), manifest=None, strip=b"<svg/>", siblings=()):
+    """A Material of a made summary: its movements are drawn already."""
+    from opsim.report.material import Material
+    from opsim.report.movements import groups_of
+
+    result = MadeResult(content, folder)
+    pictures = dict.fromkeys(groups_of(content["tasks"]), strip)
+    beside = {content["variant"]: result, **dict(siblings)}
+    return Material(MadeRun(result, manifest or {}), beside, pictures)
+
+
+def page(content, **other):
+    """The report of a made summary, as text."""
+    from opsim.report.write import report_html
+
+    return report_html(material(content, **other))

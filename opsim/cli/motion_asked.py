@@ -9,6 +9,8 @@ from typing import Any
 MOST = 20
 MOST_BESIDE = 13
 """Recorded and emulated together have the letters A to Z."""
+RASTER = (".png", ".gif", ".mp4")
+"""What is drawn by matplotlib, or by Pillow, which comes with it."""
 ENDINGS = {"strips": (".png", ".svg"), "video": (".html", ".gif", ".mp4"), "beside": (".html",)}
 
 
@@ -96,11 +98,14 @@ def _person(model: Any, person: str | None) -> list[str]:
 
 
 def _written(ready: Any, out: Path, kind: str) -> list[str]:
-    """What keeps the file from being written: its folder, or no encoder for it."""
+    """What keeps the file from being written: its folder, or that nothing here can draw it or encode it."""
+    from opsim.report.extras import need_matplotlib
     from opsim.report.video_mp4 import missing_encoder
 
     try:
         ready(out, *ENDINGS[kind])
+        if out.suffix.lower() in RASTER:
+            need_matplotlib(f"{out.suffix[1:].upper()} files")
     except ValueError as error:
         return [str(error)]
     return list(filter(None, [missing_encoder(out)]))

@@ -26,6 +26,7 @@ from opsim.cli.verbs import mistakes
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use.  [default: as many as pay]")
 @click.option("--horizon", metavar="TIME", help="Instead of the file's own, such as '8 h'.")
 @click.option("--overwrite", is_flag=True, help="Remove what the results folder holds of another run (or of this one).")
+@click.option("--replay", is_flag=True, help="Write replay.html too, as 'opsim view' does: the first replication.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
     file: str,
@@ -33,21 +34,25 @@ def command(
     names: tuple[str, ...],
     horizon: str | None,
     wanted: tuple[str, ...],
+    replay: bool,
     as_json: bool,
     **how: Any,
 ) -> None:
     """Run a scenario FILE: its variants, each replicated, into one folder a variant with events, figures and report."""
+    from shlex import quote
+
     from opsim.cli.console import print_json
     from opsim.cli.run_table import print_results
     from opsim.cli.running import run_variants
 
     with mistakes():
         how["precision"] = _precisions(wanted)
-    _, variants, results = run_variants(file, out, names=names, horizon=horizon, **how)
-    with mistakes(OSError):
+    out, variants, results = run_variants(file, out, names=names, horizon=horizon, **how)
+    with mistakes(OSError, ValueError):
         reports = _reports(variants, results)
+    replays = _replays(variants, results) if replay else {}
     if as_json:
-        print_json({"results": [_as_json(name, results[name], reports[name]) for name in results]})
+        print_json({"results": [_as_json(name, results[name], reports[name], replays) for name in results]})
         return
     print_results(next(iter(variants.values())).scenario.name, results)
     for name, result in results.items():
@@ -58,6 +63,11 @@ def command(
             click.echo(f"warning: {name}: {warning}", err=True)
     for name, report in reports.items():
         click.echo(f"report {name}: {report}")
+    for name, drawn in replays.items():
+        for line in drawn.words():
+            click.echo(line.replace("replay:", f"replay {name}:", 1))
+    if not replay:
+        click.echo(f"to see it move: opsim view {quote(str(out))}")
 
 
 def _precisions(wanted: tuple[str, ...]) -> list[Any]:
@@ -75,23 +85,28 @@ def _reached(variant: str, one: dict[str, Any], n: int) -> str:
 
 
 def _reports(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Path]:
-    """Write the report of each variant that has none of just these results; strips of one model are drawn once."""
-    from opsim.report import bodies_section, curves_section, days_section, scenario_strips, walks_section, write_report
+    """Write the reports, unless each is there of just these results: one that is new stands in all of them."""
+    from opsim.cli.reporting import write_reports
+    from opsim.study.reopened import opened
 
-    reports: dict[str, Path] = {}
-    drawn: dict[tuple[str, str], bytes] = {}
-    for name, result in results.items():
-        reports[name] = path = result.folder / "report.html"
-        if path.exists():
-            continue
-        strips = scenario_strips(variants[name], result.summary["tasks"], drawn)
-        walks = walks_section(variants[name], result)
-        days = days_section(variants[name], result)
-        bodies = bodies_section(variants[name], result)
-        curves = curves_section(variants[name], result)
-        write_report(result, path, strips, walks, days, bodies, curves)
-    return reports
+    paths = {name: result.folder / "report.html" for name, result in results.items()}
+    if not all(path.exists() for path in paths.values()):
+        write_reports({name: opened(of, variants[name]) for name, of in results.items()}, results, paths)
+    return paths
 
 
-def _as_json(name: str, result: Any, report: Path) -> dict[str, Any]:
-    return {"variant": name, "folder": str(result.folder), "report": str(report), "summary": result.summary}
+def _replays(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Any]:
+    """Of the first replication of each variant, a page each."""
+    from opsim.cli.replay_drawn import draw_replay
+    from opsim.cli.view_asked import Wanted
+    from opsim.study.reopened import opened
+
+    runs = {name: opened(result, variants[name]) for name, result in results.items()}
+    return {
+        name: draw_replay(Wanted({name: run}, 0, None, run.result.folder / "replay.html")) for name, run in runs.items()
+    }
+
+
+def _as_json(name: str, result: Any, report: Path, replays: dict[str, Any]) -> dict[str, Any]:
+    said = {"variant": name, "folder": str(result.folder), "report": str(report)}
+    return said | ({"replay": str(replays[name].wanted.out)} if name in replays else {}) | {"summary": result.summary}

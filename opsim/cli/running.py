@@ -133,8 +133,9 @@ def _report_modules() -> None:
     """What the end of ``opsim run`` takes long to import, while other processes compute."""
     from importlib import import_module
 
+    from opsim.report.contents import modules
     from opsim.report.offline import template
 
-    for name in ("rich.table", "opsim.report.bodies", "opsim.report.days", "opsim.report.write"):
+    for name in ("rich.table", "opsim.report.write", *modules()):
         import_module(name)
     template("report.html.jinja")

@@ -13,6 +13,8 @@ from typing import Any, NoReturn
 import click
 
 INTERRUPTED = 130
+EXTRAS = dict.fromkeys(("matplotlib", "PIL"), "'pip install opsim[matplotlib]'")
+"""What not everybody has installed, by the module that is missed."""
 
 
 class Mistake(click.ClickException):
@@ -68,6 +70,11 @@ class Verbs(click.Group):
         except (click.Abort, KeyboardInterrupt):
             click.echo("stopped", err=True)
             sys.exit(INTERRUPTED)
+        except ModuleNotFoundError as missing:
+            if missing.name not in EXTRAS:
+                raise
+            click.echo(f"this needs {missing.name}, which is not installed; {EXTRAS[missing.name]} brings it", err=True)
+            sys.exit(Mistake.exit_code)
         except BrokenPipeError:  # the reader of a pipe has gone, as with `| head`
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)

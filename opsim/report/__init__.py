@@ -6,23 +6,13 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "bodies_section": "opsim.report.bodies",
-    "curves_section": "opsim.report.human_curves",
-    "days_section": "opsim.report.days",
+    "Material": "opsim.report.material",
     "draw_strips": "opsim.report.strips",
-    "scenario_strips": "opsim.report.emulated",
-    "walks_section": "opsim.report.walked",
+    "materials": "opsim.report.material",
+    "report_html": "opsim.report.write",
     "write_report": "opsim.report.write",
 }
-__all__ = [
-    "bodies_section",
-    "curves_section",
-    "days_section",
-    "draw_strips",
-    "scenario_strips",
-    "walks_section",
-    "write_report",
-]
+__all__ = ["Material", "draw_strips", "materials", "report_html", "write_report"]
 
 
 def __getattr__(name: str) -> Any:

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from opsim.report.body import STEADY_M, body
 from opsim.report.camera import camera_of
 from opsim.report.offline import asset, policy, template
 from opsim.report.staged import RATE_HZ, Card
@@ -75,9 +74,11 @@ def page_of(
 ) -> str:
     """A page with the player, made from the template ``name`` with ``words``; more for its ``scripts`` in ``film``.
 
-    Names are escaped by jinja2, and in JSON by ``tojson``.
+    The people are those of the replay, whose script draws them. Names are escaped by jinja2, in JSON by ``tojson``.
     """
-    texts = [asset("animated.js"), *map(asset, scripts)]
+    from opsim.viewer.write import page_script
+
+    texts = [page_script(), *map(asset, scripts)]
     return str(
         template(name).render(
             {"first_apart": False, **words},
@@ -96,8 +97,7 @@ def _film(cards: Sequence[Card], skeleton: Any) -> dict[str, Any]:
         "rate_hz": RATE_HZ,
         "hold_s": HOLD_S,
         "joints": len(skeleton.names),
-        "body": body(skeleton),
-        "steady_m": STEADY_M,
+        "skeleton": {"names": list(skeleton.names), "parents": [int(parent) for parent in skeleton.parents]},
         "camera": camera_of([card.positions_m for card in cards], skeleton).as_dict(),
         "cards": [_packed(card.positions_m) for card in cards],
     }

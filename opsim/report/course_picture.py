@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -10,8 +11,8 @@ import numpy as np
 
 from opsim.ergonomics.scores.levels import OWAS, REBA, RULA, Level
 from opsim.ergonomics.shift.movement import ScoredMovement
+from opsim.report.extras import need_matplotlib
 from opsim.report.palette import GRID, INK, MUTED
-from opsim.report.strips import render
 
 WIDE_IN, SLIM_IN, PANEL_IN, ROW_IN = 10.6, 4.6, 0.95, 0.17
 """SLIM_IN is for telephones: labels stay as large as they are."""
@@ -31,8 +32,9 @@ def course_svg(scored: Sequence[ScoredMovement], letters: Letters, wide_in: floa
     """The scores of the movement of the first letter along time, above RULA of the first 40 movements, as SVG.
 
     Shaded between at least and at most; the colours are action levels. In rows the lower half is at least, the upper
-    half at most.
+    half at most. Raises ValueError where matplotlib is not installed.
     """
+    need_matplotlib("scores along time")
     from matplotlib.figure import Figure
 
     first = next(iter(letters), (0, 0))[0]
@@ -55,7 +57,17 @@ def course_svg(scored: Sequence[ScoredMovement], letters: Letters, wide_in: floa
             else f"RULA of the first {len(rows)} of {len(scored)}"
         )
         figure.text(left, tops[6] + 0.12 / sum(heights), said, size=10, weight="bold", color=INK, va="bottom")
-    return render(figure, "svg")
+    return _svg(figure)
+
+
+def _svg(figure: Any) -> bytes:
+    """The bytes of a figure: the same whenever and wherever it is drawn."""
+    import matplotlib
+
+    stream = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": "opsim", "svg.fonttype": "path"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": "opsim"})
+    return stream.getvalue()
 
 
 def level_colour(name: str, value: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,9 @@ from opsim.kpi.states import STATES, states_of_rows
 from opsim.log import SETUP, WORK, EventLog
 from opsim.plan import Plan
 from opsim.report.day_picture import Strip, draw_day, legend
-from opsim.report.palette import WORDS
+from opsim.report.material import Material
+from opsim.report.palette import WORDS as STATE_WORDS
+from opsim.report.section import Picture, Section, Words
 from opsim.report.words import quantity
 
 LONGEST_S = 24 * 3600.0
@@ -26,23 +28,32 @@ MOSTLY = 0.6
 """Share of the work of some time that makes a station the place where somebody mostly was."""
 
 
-def days_section(loaded: Any, result: Any) -> dict[str, Any] | None:
-    """What the page shows of people through the day: ``picture`` (SVG bytes), ``legend``, and in words what is shown.
-
-    loaded : the variant that was read; result : its results, with the rows of its first replication
-    None where there are no workers or no rows. Raises ValueError or OSError as reading does.
-    """
-    from opsim.log_store import read_events
-    from opsim.plan import compile_plan
-
-    if not loaded.scenario.workers or not result.events_files:
+def section(material: Material) -> Section | None:
+    """People through the day; None where there are no workers or no rows."""
+    if material.log is None or not material.plan.workers:
         return None
-    plan = compile_plan(loaded, seed=result.summary["seed"])
-    return day_of(read_events(result.events_files[0]), plan, loaded.scenario.run.start)
+    return section_of(day_of(material.log, material.plan, material.summary["start"]))
+
+
+def section_of(day: Mapping[str, Any]) -> Section:
+    """The words and the picture. day : as ``day_of`` makes it"""
+    cut = ", its first 24 hours after the warm-up" if day["cut"] else ""
+    shifts = " A dark line marks his shift: what stands beside it is overtime." if day["shifts"] else ""
+    text = (
+        f"The first replication{cut}. Each stretch of {day['stretch']} is filled from below by what somebody did in "
+        f"it, so that the height of a colour is its share; below it the station at which he mostly worked.{shifts}"
+    )
+    picture = Picture(day["picture"], day["alt"], caption=left_out(day["more"]), legend=day["legend"])
+    return Section("days", "People through the day", [Words(text), picture], "Day")
+
+
+def left_out(n: int) -> str:
+    """How many workers a picture has no room for, in words."""
+    return f"{n} more {'worker is' if n == 1 else 'workers are'} not shown." if n else ""
 
 
 def day_of(log: EventLog, plan: Plan, start: str) -> dict[str, Any]:
-    """The section of a log: its window, or the first 24 hours of it."""
+    """What is shown of a log (24 hours of its window at most): ``picture`` (SVG bytes), ``legend``, and words."""
     from_s, high = plan.window_s
     to_s = min(high, from_s + LONGEST_S)
     strips = strips_of(log, plan, from_s, to_s)
@@ -65,7 +76,7 @@ def _alt(strips: Sequence[Strip]) -> str:
     """The picture in words: what share of the time shown each worker did what."""
     return "; ".join(
         f"{strip.worker}: "
-        + ", ".join(f"{WORDS.get(s, s)} {quantity(float(of.mean()), 'share')}" for s, of in strip.shares.items())
+        + ", ".join(f"{STATE_WORDS.get(s, s)} {quantity(float(of.mean()), 'share')}" for s, of in strip.shares.items())
         for strip in strips[:MOST]
     )
 

@@ -1,4 +1,4 @@
-"""What bodies went through: the section of the report, from the figures of the summary."""
+"""What bodies went through, from the figures of the summary."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from opsim.report.exposure_bars import legend, level_bars, said
 from opsim.report.exposure_rows import REGION, Bar, bars_by, bars_of_regions, bars_of_workers
 from opsim.report.exposure_sentences import exposure_sentences
 from opsim.report.exposure_words import REGIONS
+from opsim.report.section import Block, Chart, Legend, Panels, Words
 
 Row = Mapping[str, Any]
 MOST = 30
@@ -22,22 +23,27 @@ TITLES = {
 }
 
 
-def exposure_section(rows: Sequence[Row], drawn: dict[str, Any]) -> dict[str, Any] | None:
-    """What the page says of exposure, its figures added to ``drawn``; None where no RULA was asked for.
+def exposure_blocks(rows: Sequence[Row], confidence: float) -> list[Block]:
+    """Sentences and small charts of exposure; none where no RULA was asked for.
 
     rows : of the summary; each figure appears only where it tells of more than one
     """
     sentences = exposure_sentences(rows)
     if not sentences:
-        return None
-    shown = [_figure(name, bars, drawn) for name, bars in _bars(rows).items() if _tells(name, bars)]
-    everything = [bar for bars in _bars(rows).values() for bar in bars]
-    return {
-        "sentences": sentences,
-        "figures": shown,
-        "legend": legend(everything),
-        "regions": bool(_bars(rows)[REGION]),
-    }
+        return []
+    bars = _bars(rows)
+    panels = [_chart(name, of) for name, of in bars.items() if _tells(name, of)]
+    note = (
+        f"Minutes of an hour, means over the replications; the black line is the {100 * confidence:.0f} % interval of "
+        "the minutes at RULA 5 or more."
+    )
+    key = Legend(legend([bar for of in bars.values() for bar in of]))
+    return [*map(Words, sentences), key, Panels(panels), Words(note, muted=True)]
+
+
+def has_regions(rows: Sequence[Row]) -> bool:
+    """Whether the figures say from which regions of the body high scores come."""
+    return bool(bars_of_regions(rows)) and bool(exposure_sentences(rows))
 
 
 def _bars(rows: Sequence[Row]) -> dict[str, list[Bar]]:
@@ -62,6 +68,5 @@ def _tells(name: str, bars: Sequence[Bar]) -> bool:
     return bool(bars) and (name == "exposure_workers" or len(bars) > 1)
 
 
-def _figure(name: str, bars: Sequence[Bar], drawn: dict[str, Any]) -> dict[str, str]:
-    drawn[name] = level_bars(bars, upright=name == "exposure_by_hour")
-    return {"id": name, "title": TITLES[name], "words": said(bars)}
+def _chart(name: str, bars: Sequence[Bar]) -> Chart:
+    return Chart(name, level_bars(bars, upright=name == "exposure_by_hour"), said(bars), TITLES[name])

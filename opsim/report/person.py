@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 LEFT, RIGHT, TRUNK = "#0072B2", "#D55E00", "#33373d"
+TORSO_GREY = "#cdd2d9"
+HEAD_M, ROUND = 0.1, np.linspace(0.0, 2 * np.pi, 25)[:-1]
 TORSO = ("left_shoulder", "right_shoulder", "right_hip", "left_hip")
 
 
@@ -36,13 +38,13 @@ def _limb(name: str) -> str:
 
 def draw_person(axes: Any, flat: np.ndarray, nearness: np.ndarray, at_m: float, skeleton: Any) -> None:
     """Far limbs first, each on a thin white rim, so that a near arm stands clear of the body behind it."""
-    from matplotlib.patches import Circle, Polygon
-
     names = list(skeleton.names)
     x, z = flat[:, 0] + at_m, flat[:, 1]
     if set(TORSO) <= set(names) and np.isfinite(flat[[names.index(name) for name in TORSO]]).all():
-        corners = [(x[names.index(name)], z[names.index(name)]) for name in TORSO]
-        axes.add_patch(Polygon(corners, facecolor="#cdd2d9", edgecolor="#cdd2d9", lw=6, joinstyle="round", zorder=10))
+        corners = [names.index(name) for name in TORSO]
+        axes.fill(
+            x[corners], z[corners], facecolor=TORSO_GREY, edgecolor=TORSO_GREY, lw=6, joinstyle="round", zorder=10
+        )
     middle = nearness[skeleton.parents.index(-1)]
     for line in chains(skeleton):
         colour = _limb(names[line[-1]])
@@ -53,4 +55,5 @@ def draw_person(axes: Any, flat: np.ndarray, nearness: np.ndarray, at_m: float, 
         axes.plot(x[line], z[line], color=colour, lw=3.0, zorder=layer + 0.001, **style)
     head = names.index("head") if "head" in names else None
     if head is not None and np.isfinite(flat[head]).all():
-        axes.add_patch(Circle((x[head], z[head]), 0.1, facecolor="#f4f5f7", edgecolor=TRUNK, lw=2.2, zorder=12))
+        across, up = HEAD_M * np.cos(ROUND), HEAD_M * np.sin(ROUND)
+        axes.fill(x[head] + across, z[head] + up, facecolor="#f4f5f7", edgecolor=TRUNK, lw=2.2, zorder=12)

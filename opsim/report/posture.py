@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from opsim.report import figures
+from opsim.report.material import Material
+from opsim.report.section import Chart, Section, Words
 from opsim.report.sentence import find, with_interval
 from opsim.report.words import is_number, quantity
 
@@ -13,14 +15,15 @@ SHARES = "trunk_flexion_share"
 Row = Mapping[str, Any]
 
 
-def posture_section(rows: Sequence[Row], drawn: dict[str, Any]) -> dict[str, Any] | None:
-    """What the page says of trunks, its figure added to ``drawn``; None where the run's postures were not asked for."""
+def section(material: Material) -> Section | None:
+    """What is said of trunks; None where the run's postures were not asked for."""
+    rows = material.summary["kpis"]
     shares = [row for row in rows if row["kpi"] == SHARES and row["subject"]]
     if not shares:
         return None
-    drawn[SHARES] = figures.states(shares)
     said = "; ".join(f"{row['subject']} {row['part']} {quantity(row['mean'], 'share')}" for row in shares)
-    return {"id": SHARES, "legend": figures.legend(shares), "words": said, "sentences": _sentences(rows)}
+    chart = Chart(SHARES, figures.states(shares), said, legend=figures.legend(shares))
+    return Section("bodies", "How bent people worked", [*map(Words, _sentences(rows)), chart], "Trunks")
 
 
 def _sentences(rows: Sequence[Row]) -> list[str]:

@@ -136,8 +136,9 @@ class Card:
 class Grid:
     """A table of text; the first ``words`` columns are words, the others numbers but those whose place is in ``left``.
 
-    folded : under its title, to open; strong : the place of a column that stands out, -1 for none; tags : places of
-    columns whose cells are short remarks in a frame. An empty first cell means: of the same as the row above.
+    said : what it is, where it has no title; folded : under its title, to open; strong : the place of a column that
+    stands out, -1 for none; tags : places of columns whose cells are short remarks in a frame. An empty first cell
+    means: of the same as the row above.
     """
 
     columns: Sequence[str]
@@ -148,6 +149,7 @@ class Grid:
     left: Sequence[int] = ()
     strong: int = -1
     tags: Sequence[int] = ()
+    said: str = ""
     kind: str = "grid"
 
     def look(self, place: int) -> str:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from opsim.report.person import LEFT, RIGHT, TRUNK, draw_person
+from opsim.report.svg_axes import figure_of
 from opsim.report.view import Stage, Strip, stage_of
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def draw_strips(
         skeleton = getattr(model, "skeleton", skeleton)
         mark_names = mark_names or tuple(getattr(model, "mark_names", ()))
         model = strips_of(model, n_samples=n_samples, seed=seed)
-    picture = render(_figure(model, skeleton, mark_names, title, n_figures), ending)
+    picture = render(_figure(model, skeleton, mark_names, title, n_figures, ending), ending)
     if path is not None:
         Path(path).write_bytes(picture)
     return picture
@@ -95,9 +96,9 @@ def _mean_strip(performances: Any, duration_s: float, n_times: int) -> Strip:
     return Strip("mean performance", skeleton.positions(mean, bones, root), duration_s, share * duration_s)
 
 
-def _figure(strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], title: str, n_figures: int) -> Any:
-    from matplotlib.figure import Figure
-
+def _figure(
+    strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], title: str, n_figures: int, ending: str = "svg"
+) -> Any:
     if skeleton is None:
         raise ValueError("strips need the skeleton of their postures")
     stage = stage_of(strips, skeleton, n_figures)
@@ -112,7 +113,7 @@ def _figure(strips: Sequence[Strip], skeleton: Any, mark_names: Sequence[str], t
     below_m = max(0.55, _first_line_m(line_m) + (n_lines + 1) * line_m)
     tall_m = height_m + 0.07 + below_m
     title_in = 0.42 if title else 0.08
-    figure = Figure(figsize=(WIDE_IN, inches * tall_m * len(strips) + title_in), facecolor="white")
+    figure = figure_of(ending, (WIDE_IN, inches * tall_m * len(strips) + title_in))
     share = 1.0 - title_in / figure.get_figheight()
     for row, strip in enumerate(strips):
         axes = figure.add_axes((0.0, share * (1 - (row + 1) / len(strips)), 1.0, share / len(strips)))
@@ -207,11 +208,9 @@ def _seconds(at_s: float) -> str:
 
 
 def render(figure: Any, ending: str) -> bytes:
-    import matplotlib
-
+    """The bytes of a sheet of ``figure_of``."""
+    if ending == "svg":
+        return bytes(figure.svg())
     stream = io.BytesIO()
-    fixed: Any = {"svg.hashsalt": "opsim", "svg.fonttype": "path"}
-    metadata = {"Date": None, "Creator": "opsim"} if ending == "svg" else {"Software": "opsim"}
-    with matplotlib.rc_context(fixed):
-        figure.savefig(stream, format=ending, dpi=150, metadata=metadata)
+    figure.savefig(stream, format=ending, dpi=150, metadata={"Software": "opsim"})
     return stream.getvalue()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from opsim.report.person import LEFT, RIGHT, TRUNK, draw_person
+from opsim.report.svg_axes import SvgFigure
 
 SIDES = ("left", "right")
 COLOURS = (LEFT, RIGHT)
@@ -98,12 +98,10 @@ class Walk:
 
 def draw_walk(walk: Walk, wide_m: float = SHORTEST_M) -> bytes:
     """The picture as SVG; ``wide_m`` is how much of the way fits, so that several pictures have one scale."""
-    from matplotlib.figure import Figure
-
     wide_m = float(np.clip(wide_m, SHORTEST_M, LONGEST_M))
     inch = 11.0 / (wide_m + BEFORE_M + AFTER_M)
     tall_m, plan_m = float(walk.along_m[..., 2].max()) + 0.42, 0.95
-    figure = Figure(figsize=(11.0, inch * (tall_m + plan_m)), facecolor="white")
+    figure = SvgFigure((11.0, inch * (tall_m + plan_m)))
     share = plan_m / (tall_m + plan_m)
     above = figure.add_axes((0.0, share, 1.0, 1.0 - share))
     below = figure.add_axes((0.0, 0.0, 1.0, share))
@@ -112,7 +110,7 @@ def draw_walk(walk: Walk, wide_m: float = SHORTEST_M) -> bytes:
         axes.axis("off")
     _side_view(above, walk, wide_m)
     _plan_view(below, walk, wide_m)
-    return _svg(figure)
+    return figure.svg()
 
 
 def _side_view(axes: Any, walk: Walk, wide_m: float) -> None:
@@ -151,13 +149,3 @@ def _plan_view(axes: Any, walk: Walk, wide_m: float) -> None:
     for metre in range(int(wide_m) + 1):
         axes.plot([metre] * 2, [-0.3, -0.27], color=LINE, lw=1.0)
         axes.text(metre, -0.32, f"{metre} m", ha="center", va="top", size=8, color=PALE)
-
-
-def _svg(figure: Any) -> bytes:
-    import matplotlib
-
-    stream = io.BytesIO()
-    fixed: Any = {"svg.hashsalt": "opsim", "svg.fonttype": "path"}
-    with matplotlib.rc_context(fixed):
-        figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": "opsim"})
-    return stream.getvalue()

@@ -2,32 +2,52 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from opsim.report.material import Material
+from opsim.report.movements import LIMBS, origin_of
+from opsim.report.section import Picture, Section, Words
 from opsim.report.walk_picture import Walk, draw_walk
 
 MOST = 6
 """Workers shown: those who walk furthest."""
+SAID = (
+    "A walk of each worker over the way he takes most often, drawn again from the first replication, to scale. Below, "
+    "where his feet bear, seen from above, at thirty moments a second: a foot that does not slide leaves one print, "
+    "rolling from heel to toe."
+)
 RATE_HZ = 60.0
 """Of what is looked at: a foot goes over from its heel to its toe within a few hundredths of a second."""
 
 
-def walks_section(loaded: Any, result: Any) -> dict[str, Any] | None:
-    """What the page shows of walking: ``walks`` (worker, picture as SVG bytes, words), and how many more walk.
+def section(material: Material) -> Section | None:
+    """How people walk; None where the scenario names no walking emulator or nobody walks."""
+    if material.log is None or material.plan.walking is None:
+        return None
+    walks, n_more = usual_walks(material.plan, material.log)
+    return section_of(walks, n_more, material.summary.get("walking", {})) if walks else None
 
-    loaded : the variant that was read; result : its results, with the rows of its first replication
-    None where the scenario names no walking emulator or nobody walks. Raises ValueError or OSError as reading does.
+
+def section_of(walks: Sequence[Walk], n_more: int, source: Mapping[str, Any]) -> Section:
+    """The pictures of some walks, and what they were learned from.
+
+    n_more : how many more people walk; source : of the summary: model, library, source, licence, counts
     """
-    if loaded.scenario.walking is None or not result.events_files:
-        return None
-    walks, n_more = usual_walks(loaded, result)
-    if not walks:
-        return None
     wide_m = max(walk.distance_m for walk in walks)
-    shown = [{"worker": walk.worker, "picture": draw_walk(walk, wide_m), "words": words(walk)} for walk in walks]
-    return {"source": result.summary.get("walking", {}), "walks": shown, "more": n_more}
+    pictures = [
+        Picture(draw_walk(walk, wide_m), said_of(walk), caption=f"{walk.worker}: {words(walk)}.") for walk in walks
+    ]
+    more = [Words(f"{n_more} more walk, less far.", muted=True)] if n_more else []
+    learned = Words(origin_of(source["model"], source), muted=True)
+    return Section("walking", "How people walk", [Words(SAID), LIMBS, *pictures, *more, learned], "Walking")
+
+
+def said_of(walk: Walk) -> str:
+    """The picture in words."""
+    return f"{walk.worker} walking, seen from the side, with footprints seen from above"
 
 
 def words(walk: Walk) -> str:
@@ -40,14 +60,10 @@ def words(walk: Walk) -> str:
     )
 
 
-def usual_walks(loaded: Any, result: Any) -> tuple[list[Walk], int]:
+def usual_walks(plan: Any, log: Any) -> tuple[list[Walk], int]:
     """A walk of each worker over his most usual way in the first replication; how many more workers walk."""
-    from opsim.log_store import read_events
-    from opsim.plan import compile_plan
     from opsim.walks import walks_of
 
-    plan = compile_plan(loaded, seed=result.summary["seed"])
-    log = read_events(result.events_files[0])
     walks = walks_of(log, plan)
     whole = walks.end_s - walks.start_s >= walks.whole_s - 1e-9
     metres = np.bincount(walks.worker, walks.distance_m, len(plan.workers))

@@ -46,14 +46,14 @@ def draw_walks(
     ending = "svg" if path is None else Path(path).suffix.lower().lstrip(".")
     if ending not in ("png", "svg"):
         raise ValueError(f"walks are drawn as .png or .svg, found {str(path)!r}")
-    picture = render(_figure(walks, skeleton, title, every_s), ending)
+    picture = render(_figure(walks, skeleton, title, every_s, ending), ending)
     if path is not None:
         Path(path).write_bytes(picture)
     return picture
 
 
-def _figure(walks: Sequence[Walk], skeleton: Any, title: str, every_s: float | None) -> Any:
-    from matplotlib.figure import Figure
+def _figure(walks: Sequence[Walk], skeleton: Any, title: str, every_s: float | None, ending: str) -> Any:
+    from opsim.report.svg_axes import figure_of
 
     root = skeleton.parents.index(-1)
     far = max(FEWEST_M, max(float(walk.positions_m[:, root, 0].max()) for walk in walks)) + 0.75
@@ -61,7 +61,7 @@ def _figure(walks: Sequence[Walk], skeleton: Any, title: str, every_s: float | N
     low, left = -0.62, -0.75
     inches = WIDE_IN / (far - left)
     row_in, title_in = inches * (tall - low), 0.42 if title else 0.05
-    figure = Figure(figsize=(WIDE_IN, row_in * len(walks) + title_in), facecolor="white")
+    figure = figure_of(ending, (WIDE_IN, row_in * len(walks) + title_in))
     high = figure.get_figheight()
     for row, walk in enumerate(walks):
         axes = figure.add_axes((0.0, 1 - (title_in + (row + 1) * row_in) / high, 1.0, row_in / high))

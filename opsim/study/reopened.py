@@ -44,6 +44,11 @@ class Reopened:
         return read_events(files[replication], digest(self.manifest))
 
 
+def opened(result: Result, loaded: Any) -> Reopened:
+    """A run that has just ended, as it was read. Raises OSError or ValueError where its manifest cannot be read."""
+    return Reopened(result, loaded, _manifest(result.folder))
+
+
 def reopened(folder: Path) -> Reopened:
     """The results of one variant of a run.
 
@@ -55,12 +60,19 @@ def reopened(folder: Path) -> Reopened:
     from opsim.scenario import read_scenarios
 
     result = Result.load(folder)
-    manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    manifest = _manifest(folder)
     loaded = next(iter(read_scenarios(folder / RESOLVED).values()))
     loaded = replace(loaded, variant=result.summary["variant"])
     if changed := _changed(manifest, manifest_of(loaded, result.summary["seed"])):
         raise ValueError(f"{folder}: {'; '.join(changed)} since it was run; run it again, or put back what there was")
     return Reopened(result, loaded, manifest)
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    if not isinstance(manifest, dict):
+        raise ValueError(f"{folder / MANIFEST}: not the manifest of a run")
+    return manifest
 
 
 def _changed(held: dict[str, Any], now: dict[str, Any]) -> list[str]:

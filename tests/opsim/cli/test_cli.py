@@ -30,7 +30,7 @@ def test_the_verbs_are_these():
     assert set(VERBS) == {
         *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",)),
         *(("sweep",), ("select",), ("labour",), ("layout",), ("long-run",), ("merge",)),
-        *(("schema",), ("effects",), ("doctor",)),
+        *(("report",), ("view",), ("export",), ("sql",), ("schema",), ("effects",), ("doctor",)),
         *(
             ("motion", verb)
             for verb in ("import", "clean", "segment", "fit", "sample", "show", "score", "judge", "people")
@@ -72,7 +72,7 @@ def test_the_version_is_that_of_the_package():
     [
         (["rum"], "did you mean 'run'?"),
         (["motion", "sampel"], "did you mean 'sample'?"),
-        (["xyzzy"], "known: init, check, run, compare, sweep, select, labour, layout, merge, warm-up, long-run, fit"),
+        (["xyzzy"], "known: init, check, run, report, view, compare, sweep, select, labour, layout, merge, warm-up"),
         (["run"], "Missing argument 'FILE'"),
         (["run", "x.yaml", "--replications", "0"], "--replications"),
         (["run", "x.yaml", "--seed", "-1"], "--seed"),

@@ -145,7 +145,7 @@ def test_sample_refuses_what_it_cannot_use(tmp_path, monkeypatch, words, said):
     assert code == 2 and said in complaint and list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("ending, begins", [("png", b"\x89PNG"), ("svg", b"<?xml")])
+@pytest.mark.parametrize("ending, begins", [("png", b"\x89PNG"), ("svg", b"<svg ")])
 def test_show_draws_a_picture_and_names_its_source(tmp_path, ending, begins):
     path = tmp_path / f"reach.{ending}"
     code, shown, _ = opsim("motion", "show", BENCH, "reach", "-n", 1, "-o", path)

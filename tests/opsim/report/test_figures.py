@@ -1,8 +1,8 @@
 import pytest
 
-from opsim.report.figures import histogram, label, legend, states, wrong_sums
+from opsim.report.figures import label, legend, states, wrong_sums
 from opsim.report.palette import STATES, in_order
-from tests.made_result import SCRIPT, distribution
+from tests.made_result import SCRIPT
 from tests.made_result import states as state_rows
 
 
@@ -36,15 +36,3 @@ def test_no_two_states_have_one_colour():
 def test_labels_cannot_be_read_as_markup():
     assert label(SCRIPT[:15]) == "&lt;script&gt;window."
     assert "<" not in label(SCRIPT) and label("x" * 40).endswith("…")
-
-
-def test_a_histogram_shows_shares_of_all_values_not_only_of_those_inside_the_edges():
-    figure = histogram(distribution("duration_s", "lift"))
-    assert figure["data"][0]["y"] == [20.0, 50.0, 27.0]
-    assert figure["data"][0]["width"] == [2.5, 2.5, 5.0]
-
-
-def test_a_histogram_marks_the_median_and_the_tenths():
-    figure = histogram(distribution("duration_s", "lift"))
-    assert [shape["x0"] for shape in figure["layout"]["shapes"]] == [2.0, 5.0, 8.0]
-    assert [flag["text"] for flag in figure["layout"]["annotations"]] == ["P10", "median", "P90"]

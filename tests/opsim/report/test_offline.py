@@ -18,7 +18,7 @@ def test_a_name_that_the_page_needs_and_nobody_gives_is_an_error():
         template("animated.html.jinja").render()
 
 
-@pytest.mark.parametrize("name", ["report.css", "report.js", "animated.css", "animated.js"])
+@pytest.mark.parametrize("name", ["report.css", "report.js", "animated.css", "guess.js"])
 def test_our_scripts_and_styles_fetch_nothing(name):
     text = asset(name)
     assert "</script" not in text and "</style" not in text

@@ -1,8 +1,7 @@
 """Parts of figures in words, and which are shown."""
 
 from opsim.report.parts import is_shown, part_name, without_again
-from opsim.report.write import report_html
-from tests.made_result import kpi, summary
+from tests.made_result import kpi, page, summary
 
 FATES = {"resumed": 0.5, "by_another": 0.0, "handed_over": 0.0}
 
@@ -24,16 +23,16 @@ def test_a_part_that_is_nothing_everywhere_is_left_out_and_the_total_never():
 
 def test_the_report_lists_of_interruptions_what_there_was():
     rows = [kpi("interruptions_per_h", unit="1/h", mean=0.5, half_width=0.0), *broken_off("", **FATES)]
-    page = report_html(summary(kpis=[*rows, *broken_off("weld", **FATES)]), {}, {})
-    assert page.count("gone on with by the same one") == 2 and "weld · gone on with by the same one" in page
-    assert "by_another" not in page and "gone on with by another" not in page and "handed over" not in page
+    text = page(summary(kpis=[*rows, *broken_off("weld", **FATES)]))
+    assert text.count("gone on with by the same one") == 2 and "weld · gone on with by the same one" in text
+    assert "by_another" not in text and "gone on with by another" not in text and "handed over" not in text
 
 
 def test_nothing_of_a_figure_that_has_parts_alone_is_an_answer_and_the_unknown_none():
     for name in ("rest_allowance_share", "iso_11226_min_per_h", "exposure_gini"):
         assert is_shown(name, "murrell", [{"mean": 0.0}]) and not is_shown(name, "murrell", [{"mean": None}])
     rows = [kpi("iso_11226_min_per_h", "ana", "trunk", "min/h", 0.0, 0.0)]
-    assert "Held beyond ISO 11226" in report_html(summary(kpis=rows), {}, {})
+    assert "Held beyond ISO 11226" in page(summary(kpis=rows))
 
 
 def test_what_there_is_at_most_is_left_out_where_it_is_what_there_is_at_least():
@@ -47,5 +46,5 @@ def test_what_there_is_at_most_is_left_out_where_it_is_what_there_is_at_least():
 
 def test_the_report_leaves_them_out_too():
     rows = [kpi("rula_mean", "ana", part, "", 3.0) for part in ("", "at_most")]
-    page = report_html(summary(kpis=[*rows, kpi("rula_p90", "ana", "", "", 3.0)]), {}, {})
-    assert "at most" not in page and "Other figures: bodies" in page and "Other figures: flow" not in page
+    text = page(summary(kpis=[*rows, kpi("rula_p90", "ana", "", "", 3.0)]))
+    assert "at most" not in text and "Other figures: bodies" in text and "Other figures: flow" not in text

@@ -1,8 +1,9 @@
 import pytest
 
-from opsim.report.posture import posture_section
-from opsim.report.write import report_html
-from tests.made_result import SCRIPT, kpi, summary
+from opsim.report.posture import section
+from opsim.report.section import Words
+from tests import made_result
+from tests.made_result import SCRIPT, kpi, material, summary
 
 
 def rows(worker="ana", measured=0.4, beyond=(0.5, 3.0)):
@@ -19,24 +20,26 @@ def rows(worker="ana", measured=0.4, beyond=(0.5, 3.0)):
     return found
 
 
+def sentences(kpis):
+    return [block.text for block in section(material(summary(kpis=kpis))).blocks if isinstance(block, Words)]
+
+
 def said(**more):
-    return " ".join(posture_section(rows(**more), {})["sentences"])
+    return " ".join(sentences(rows(**more)))
 
 
 def page(*more):
     made = summary()
-    return report_html({**made, "kpis": [*made["kpis"], *more]}, {}, {})
+    return made_result.page({**made, "kpis": [*made["kpis"], *more]})
 
 
 def test_the_section_is_there_only_where_postures_were_asked_for():
     assert 'id="bodies"' not in page() and 'id="bodies"' in page(*rows())
-    assert posture_section(summary()["kpis"], {}) is None
+    assert section(material(summary())) is None
 
 
 def test_each_worker_has_a_bar_whose_parts_sum_to_one():
-    drawn = {}
-    posture_section(rows(), drawn)
-    bars = drawn["trunk_flexion_share"]["data"]
+    bars = section(material(summary(kpis=rows()))).charts["trunk_flexion_share"]["data"]
     assert len(bars) == 5 and sum(bar["x"][0] for bar in bars) == pytest.approx(1)
     assert all(bar["customdata"] == ["ana"] for bar in bars)
 
@@ -71,17 +74,17 @@ WALKED = [
 
 
 def test_walking_is_said_where_it_has_postures():
-    words = " ".join(posture_section([*rows(), *WALKED], {})["sentences"])
+    words = " ".join(sentences([*rows(), *WALKED]))
     assert "Walking takes 12.0 minutes of each hour of a worker (11.5 to 12.5), 1,400 (1,360 to 1,440) steps" in words
     assert "trunk flexed 4.20° (4.10 to 4.30) on average." in words
     assert "Walking takes" not in said()
 
 
 def test_who_is_most_bent_is_said_of_work_alone():
-    words = " ".join(posture_section([*rows(), *WALKED], {})["sentences"])
+    words = " ".join(sentences([*rows(), *WALKED]))
     assert "Trunk flexed 20° or more: ana for longest, 3.00" in words
 
 
 def test_walking_is_said_too_where_no_work_has_a_body():
-    words = posture_section([*rows(measured=0.0, beyond=(None, None)), *WALKED], {})["sentences"]
+    words = sentences([*rows(measured=0.0, beyond=(None, None)), *WALKED])
     assert len(words) == 2 and words[0].startswith("No task that was worked on has a body")

@@ -157,11 +157,11 @@ def test_the_words_of_marks_near_each_other_take_lines_of_their_own_and_none_is_
 
 def test_marks_for_whose_words_there_is_no_room_are_counted_in_the_picture():
     strip = Strip("one", moving("left_wrist", [1, 0, 0]), 9.0, np.linspace(4.0, 4.1, MOST_LINES + 3))
-    said = [text.get_text() for text in _figure([strip], Skeleton(), (), "", 11).axes[0].texts]
+    said = [text.get_text() for text in _figure([strip], Skeleton(), (), "", 11, "png").axes[0].texts]
     assert "and 3 more marks, for whose words there is no room" in said
 
 
 def test_the_words_of_marks_stay_out_of_the_row_below():
     strip = Strip("one", moving("left_wrist", [1, 0, 0]), 9.0, np.linspace(4.0, 4.1, MOST_LINES))
-    axes = _figure([strip, strip], Skeleton(), (), "", 11).axes[0]
+    axes = _figure([strip, strip], Skeleton(), (), "", 11, "png").axes[0]
     assert min(text.get_position()[1] for text in axes.texts) - 0.05 > axes.get_ylim()[0]

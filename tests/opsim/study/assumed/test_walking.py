@@ -91,16 +91,18 @@ def test_the_resolved_scenario_runs_again_from_its_folder_alone(results, tmp_pat
 
 
 def test_the_report_shows_a_walk_of_the_run(results, tmp_path):
-    from opsim.report import walks_section, write_report
+    from opsim.report import materials, write_report
+    from opsim.report.walked import section
+    from opsim.study.reopened import opened
 
-    loaded = read(CELL, results["on"].folder)
-    section = walks_section(loaded, results["on"])
-    (walk,) = section["walks"]
-    assert walk["worker"] == "ana" and walk["words"].startswith("1.00 m/s, steps of 0.50 m, ")
-    assert "slide by at most 0.0 mm" in walk["words"] and section["more"] == 0
-    page = write_report(results["on"], tmp_path / "report.html", {}, section).read_text()
+    runs = {"on": opened(results["on"], read(CELL, results["on"].folder))}
+    runs["off"] = opened(results["off"], read(WITHOUT, results["off"].folder))
+    of = dict(materials(runs, results))
+    (walk,) = (block for block in section(of["on"]).blocks if block.kind == "picture")
+    assert walk.caption.startswith("ana: 1.00 m/s, steps of 0.50 m, ") and "slide by at most 0.0 mm" in walk.caption
+    page = write_report(of["on"], tmp_path / "report.html").path.read_text()
     assert 'id="walking"' in page and "12 made repetitions of 3 made-up people" in page
-    assert walks_section(read(WITHOUT, results["off"].folder), results["off"]) is None
+    assert section(of["off"]) is None
 
 
 @pytest.mark.parametrize(

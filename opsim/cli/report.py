@@ -1,0 +1,82 @@
+"""``opsim report``: the report of a run once more, from what lies in its folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from opsim.cli.verbs import mistakes
+
+
+@click.command("report")
+@click.argument("folder", metavar="RESULTS", type=click.Path(path_type=Path))
+@click.option("--scenario", "names", multiple=True, metavar="NAME", help="Only this variant; may be given again.")
+@click.option(
+    "-o", "--out", metavar="FILE", type=click.Path(path_type=Path), help="Of one variant.  [default: its report.html]"
+)
+@click.option("--svg", metavar="FOLDER", type=click.Path(path_type=Path), help="Write every figure as an SVG file too.")
+@click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
+def command(folder: Path, names: tuple[str, ...], out: Path | None, svg: Path | None, as_json: bool) -> None:
+    """Write the report of each variant in the RESULTS of a run (or of one of its variants) again; nothing is run."""
+    from opsim.cli.console import print_json
+    from opsim.cli.reporting import write_reports
+    from opsim.study.reopened import reopened
+
+    with mistakes():
+        beside, chosen = _variants(folder, names)
+        paths = _paths(chosen, out)
+        folders = None if svg is None else {name: svg / name if len(chosen) > 1 else svg for name in chosen}
+        if svg is not None:
+            from opsim.report.extras import need_matplotlib
+
+            need_matplotlib("figures as SVG files")
+        runs = {name: reopened(result.folder) for name, result in chosen.items()}
+        drawn = write_reports(runs, beside, paths, folders)
+    if as_json:
+        print_json({"reports": [_as_json(name, paths[name], drawn.get(name)) for name in paths]})
+        return
+    for name, path in paths.items():
+        click.echo(f"report {name}: {path}")
+        if folders is not None:
+            click.echo(f"figures {name}: {len(drawn[name])} files in {folders[name]}")
+
+
+def _variants(folder: Path, names: tuple[str, ...]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """(all variants of the run, those whose reports are wanted). Raises ValueError for names that are not there."""
+    from opsim.problems import did_you_mean
+    from opsim.results import variants_in
+
+    found = variants_in(folder)
+    if wrong := [name for name in names if name not in found]:
+        raise ValueError("\n".join(f"{folder}: no variant {name!r}; {did_you_mean(name, found)}" for name in wrong))
+    alone = (folder / "summary.json").is_file()
+    beside = _beside(folder, next(iter(found.values()))) if alone else found
+    return beside, {name: found[name] for name in found if name in names or not names}
+
+
+def _beside(folder: Path, one: Any) -> dict[str, Any]:
+    """The variants of the run that a variant's folder belongs to, as the folders beside it tell."""
+    from opsim.results import variants_in
+
+    same = ("scenario", "file", "seed")
+    return {
+        name: result
+        for name, result in variants_in(folder.resolve().parent).items()
+        if all(result.summary.get(key) == one.summary.get(key) for key in same)
+    }
+
+
+def _paths(chosen: dict[str, Any], out: Path | None) -> dict[str, Path]:
+    if out is None:
+        return {name: result.folder / "report.html" for name, result in chosen.items()}
+    if len(chosen) > 1:
+        names = ", ".join(chosen)
+        raise ValueError(f"-o {out} is for one report, and there are {len(chosen)}: {names}; --scenario says which")
+    return dict.fromkeys(chosen, out)
+
+
+def _as_json(name: str, path: Path, drawn: list[Path] | None) -> dict[str, Any]:
+    figures = {} if drawn is None else {"figures": [str(one) for one in drawn]}
+    return {"variant": name, "report": str(path), **figures}

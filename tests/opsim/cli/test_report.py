@@ -1,0 +1,131 @@
+"""``opsim report``: the same page again from what lies in a run's folder, and its figures as files."""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from opsim.report import contents
+from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.test_view import CELL, cell
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """Results of both variants, which no test changes."""
+    folder = tmp_path_factory.mktemp("report")
+    code, _, complaint = opsim("run", cell(folder), "-o", folder / "out", "--processes", 1)
+    assert code == 0 and "could not be made" not in complaint, complaint
+    return folder / "out"
+
+
+@pytest.fixture
+def results(run, tmp_path):
+    """The same in a folder of one's own."""
+    return shutil.copytree(run, tmp_path / "out")
+
+
+def pages(folder):
+    return {path.parent.name: path.read_bytes() for path in folder.glob("*/report.html")}
+
+
+def test_the_report_made_again_is_the_one_the_run_made(results):
+    made = pages(results)
+    for path in results.glob("*/report.html"):
+        path.unlink()
+    code, shown, complaint = opsim("report", results)
+    assert code == 0 and complaint == "" and f"report together: {results / 'together' / 'report.html'}" in shown
+    assert pages(results) == made and len(made) == 2
+
+
+def test_the_report_of_a_variants_own_folder_knows_what_stands_beside_it(results):
+    made = pages(results)["alone"]
+    (results / "alone" / "report.html").unlink()
+    code, *_ = opsim("report", results / "alone")
+    assert code == 0 and pages(results)["alone"] == made
+
+
+def test_one_variant_goes_into_the_file_that_is_asked_for(results, tmp_path):
+    code, shown, _ = opsim("report", results, "--scenario", "alone", "-o", tmp_path / "deep" / "mine.html", "--json")
+    assert code == 0 and (tmp_path / "deep" / "mine.html").read_bytes() == pages(results)["alone"]
+    assert json.loads(shown) == {"reports": [{"variant": "alone", "report": str(tmp_path / "deep" / "mine.html")}]}
+
+
+def test_every_figure_of_the_report_becomes_an_svg_file_of_the_same_bytes_again(results, tmp_path):
+    pytest.importorskip("matplotlib")
+    written = []
+    for name in ("first", "again"):
+        code, shown, _ = opsim("report", results, "--scenario", "alone", "--svg", tmp_path / name, "--json")
+        assert code == 0 and len(json.loads(shown)["reports"][0]["figures"]) > 5
+        written.append({path.name: path.read_bytes() for path in (tmp_path / name).iterdir()})
+    assert written[0] == written[1] and {"worker_states.svg", "movements-1.svg"} <= set(written[0])
+
+
+def test_figures_of_several_variants_have_a_folder_each(results, tmp_path, monkeypatch):
+    monkeypatch.setattr("opsim.report.drawn.chart.chart_svg", lambda chart, legend=(): b"<svg/>")
+    code, shown, _ = opsim("report", results, "--svg", tmp_path / "svg")
+    assert code == 0 and f"files in {tmp_path / 'svg' / 'together'}" in shown
+    assert {path.name for path in (tmp_path / "svg").iterdir()} == {"alone", "together"}
+
+
+def test_without_matplotlib_it_is_said_how_to_get_it_before_anything_is_written(results, tmp_path, monkeypatch):
+    monkeypatch.setattr("opsim.report.extras.find_spec", lambda name: None)
+    code, _, complaint = opsim("report", results, "--svg", tmp_path / "svg")
+    assert code == 2 and "pip install opsim[matplotlib]" in complaint and not (tmp_path / "svg").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--scenario", "alonne", "--scenario", "x"), "no variant 'alonne'; did you mean 'alone'?"),
+        (("-o", "one.html"), "is for one report, and there are 2: alone, together; --scenario says which"),
+    ],
+)
+def test_mistakes_are_said_in_words(results, words, said):
+    code, _, complaint = opsim("report", results, *words)
+    assert code == 2 and said in complaint
+
+
+def test_what_is_no_run_is_said_to_be_none(tmp_path):
+    code, _, complaint = opsim("report", tmp_path)
+    assert code == 2 and "no results here" in complaint
+
+
+def test_another_library_than_that_of_the_run_is_refused(results):
+    library = results / "alone" / "bench_work.npz"
+    library.write_bytes(library.read_bytes() + b"\0")
+    code, _, complaint = opsim("report", results, "--scenario", "alone")
+    assert code == 2 and "the library bench has changed since it was run" in complaint
+
+
+def test_a_section_that_cannot_be_made_is_a_warning_and_the_report_is_there(results, monkeypatch):
+    from opsim.report import gantt
+
+    def broken(material):
+        raise ValueError("no clock here")
+
+    monkeypatch.setattr(gantt, "section", broken)
+    code, _, complaint = opsim("report", results, "--scenario", "alone")
+    assert code == 0
+    assert complaint == "warning: alone: the report lacks gantt, which could not be made: no clock here\n"
+    assert b"This report lacks gantt" in pages(results)["alone"]
+
+
+def test_every_section_of_the_contents_can_be_imported_and_is_named_once():
+    names = [name for of in contents.PARTS.values() for name in of]
+    assert len(names) == len(set(names))
+
+
+def test_a_run_and_its_report_need_no_matplotlib(tmp_path):
+    cell(tmp_path, CELL)
+    script = (
+        "import sys; sys.modules['matplotlib'] = None\n"
+        "from opsim.cli import main\n"
+        f"main(['run', {str(tmp_path / 'cell.yaml')!r}, '-o', {str(tmp_path / 'out')!r}, '--scenario', 'alone', "
+        "'--replications', '1', '--processes', '1'])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert b"Movements behind the times" in pages(tmp_path / "out")["alone"]
