@@ -47,12 +47,15 @@ class Watched:
         self.page = chromium.new_page(viewport={"width": width, "height": 900})
         self.requests, self.complaints = [], []
         self.page.on("request", lambda request: self.requests.append(request.url))
-        self.page.on(
-            "console", lambda said: self.complaints.append(said.text) if said.type in ("error", "warning") else None
-        )
+        self.page.on("console", self._heard)
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.goto(path.as_uri())
         self.page.wait_for_selector("html[data-drawn]")
+
+    def _heard(self, said):
+        """Errors and warnings; not that a picture of WebGL is slow to read, which only a browser without a GPU says."""
+        if said.type in ("error", "warning") and "GPU stall due to ReadPixels" not in said.text:
+            self.complaints.append(said.text)
 
     def __call__(self, script):
         return self.page.evaluate(script)

@@ -1,0 +1,82 @@
+// Bodies kept as frames of a few numbers: walks, composites, other people's emulators. Catmull-Rom between frames.
+
+/** A model of codec "frames": the same two ways in as ScoresModel. */
+export class FramesModel {
+  constructor(model, columns, skeleton) {
+    this.columns = columns;
+    this.skeleton = skeleton;
+    this.rateHz = model.rate_hz;
+    this.nDirections = model.sizes.directions;
+    this.nBones = skeleton.bones.length;
+    this.channels = new Float64Array(this.nDirections + 4);
+  }
+
+  performance(row) {
+    const { first, bone_m: bones, duration_s: durations } = this.columns,
+      B = this.nBones;
+    const frames = first[row + 1] - first[row],
+      lengths = Float64Array.from(bones.subarray(row * B, (row + 1) * B));
+    return { model: this, frames, lengths, values: this.valuesOf(first[row], frames), durationS: durations[row] };
+  }
+
+  /** Channels (d + 4) x frames, whole steps of `scale`: second differences along time undone. */
+  valuesOf(first, frames) {
+    const channels = this.nDirections + 4,
+      start = first * channels;
+    const values = new Int32Array(channels * frames),
+      stored = this.columns.values;
+    for (let c = 0; c < channels; c++) {
+      let step = 0,
+        value = 0;
+      for (let f = 0; f < frames; f++) {
+        step += stored[start + c * frames + f];
+        value += step;
+        values[c * frames + f] = value;
+      }
+    }
+    return values;
+  }
+
+  pose(performance, ownS, directions, root) {
+    const { channels, nDirections: d } = this,
+      { basis } = this.columns;
+    this.between(performance, ownS);
+    for (let k = 0; k < 4; k++) root[k] = channels[d + k];
+    const width = 3 * this.nBones;
+    for (let i = 0; i < width; i++) {
+      let sum = basis[i];
+      for (let k = 0; k < d; k++) sum += channels[k] * basis[(k + 1) * width + i];
+      directions[i] = sum;
+    }
+    normalise(directions, width);
+  }
+
+  between({ values, frames, durationS }, ownS) {
+    const place = Math.min(Math.max(Math.min(ownS, durationS) * this.rateHz, 0), frames - 1);
+    const cell = Math.max(Math.min(Math.floor(place), frames - 2), 0),
+      u = place - cell,
+      { scale } = this.columns;
+    const before = Math.max(cell - 1, 0),
+      next = Math.min(cell + 1, frames - 1),
+      after = Math.min(cell + 2, frames - 1);
+    for (let c = 0; c < this.channels.length; c++) {
+      const row = c * frames,
+        a = values[row + before],
+        b = values[row + cell],
+        e = values[row + next],
+        g = values[row + after];
+      const value = b + 0.5 * u * (e - a + u * (2 * a - 5 * b + 4 * e - g + u * (3 * (b - e) + g - a)));
+      this.channels[c] = value * scale[c];
+    }
+  }
+}
+
+/** Unit length for each three numbers of the first `width`. */
+export function normalise(vectors, width) {
+  for (let i = 0; i < width; i += 3) {
+    const length = Math.max(Math.hypot(vectors[i], vectors[i + 1], vectors[i + 2]), 1e-12);
+    vectors[i] /= length;
+    vectors[i + 1] /= length;
+    vectors[i + 2] /= length;
+  }
+}
