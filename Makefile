@@ -1,13 +1,16 @@
-# make demo | test | test-fast | lint | known-answers | motion-evidence | take-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | test-fast | test-slow | lint | page | known-answers | motion-evidence | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
+OCEL := .venv-ocel
 RUN := $(VENV)/bin/python
 READY := $(VENV)/.ready
 MOTION ?= ../shared/data/motion
+BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
+PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test test-fast test-slow lint known-answers motion-evidence take-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests test-fast test-slow lint page page-packages known-answers motion-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -21,18 +24,22 @@ $(READY): requirements.lock pyproject.toml
 demo: $(READY)
 	$(VENV)/bin/opsim run scenarios/repack_cell.yaml --overwrite
 
-test: lint test-fast test-slow
+test: lint tests
 
 lint: $(READY)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
 
+# All at once, the longest files first (tests/conftest.py): two processes that share slow and quick ones end together.
+tests: $(READY)
+	$(RUN) -m pytest $(BY_FILE)
+
 test-fast: $(READY)
-	$(RUN) -m pytest -n 2 -m "not slow"
+	$(RUN) -m pytest $(BY_FILE) -m "not slow"
 
 test-slow: $(READY)
-	$(RUN) -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m slow
+	$(RUN) -m pytest $(BY_FILE) -m slow
 
 bench: $(READY)
 	$(RUN) -m pytest tests/bench -p no:xdist -q -s
@@ -52,6 +59,15 @@ bench-peers: $(PEERS)/.ready
 	$(PEERS)/bin/python -m pytest tests/bench/test_bvh.py -p no:xdist -q -s -k package
 	$(PEERS)/bin/python -m pytest tests/bench/test_stltsa.py -p no:xdist -q -s -k plain
 
+# What the offline pages run is built from $(PAGE): needs node and npm; tests/test_asset.py compares.
+$(PAGE)/node_modules/.package-lock.json: $(PAGE)/package-lock.json $(PAGE)/package.json
+	cd $(PAGE) && npm ci --no-audit --no-fund
+
+page-packages: $(PAGE)/node_modules/.package-lock.json
+
+page: page-packages
+	cd $(PAGE) && node build.mjs
+
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show
 
@@ -61,6 +77,15 @@ motion-evidence: $(READY)
 take-evidence: $(READY)
 	PYTHONPATH=tests:. $(RUN) -m take_evidence.show -o build/take_evidence
 
+$(OCEL)/.ready: tests/ocel_evidence/requirements.txt
+	@echo "Setting up $(OCEL) with readers of OCEL 2.0, apart from everything else (once) ..."
+	test -x $(OCEL)/bin/python || $(PYTHON) -m venv $(OCEL)
+	$(OCEL)/bin/python -m pip install --quiet --disable-pip-version-check -r tests/ocel_evidence/requirements.txt
+	@touch $@
+
+ocel-evidence: $(READY) $(OCEL)/.ready
+	PYTHONPATH=tests:. $(RUN) -m ocel_evidence.show --reader $(OCEL)/bin/python -o build/ocel_evidence
+
 libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
 	$(RUN) -m emulator.synthetic -o scenarios/libraries/bench_work.npz
@@ -69,11 +94,11 @@ libraries: $(READY)
 lock:
 	test -x $(RUN) || $(PYTHON) -m venv $(VENV)
 	$(RUN) -m pip install --quiet pip-tools
-	$(VENV)/bin/pip-compile --quiet --extra dev,cluster,sensitivity,search --generate-hashes --strip-extras --allow-unsafe --no-header \
+	$(VENV)/bin/pip-compile --quiet --extra dev,cluster,sensitivity,search,matplotlib,frames --generate-hashes --strip-extras --allow-unsafe --no-header \
 	  --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o requirements.lock pyproject.toml
 
 wheel: $(READY)
 	$(RUN) -m pip wheel --quiet --no-deps --no-build-isolation -w dist .
 
 clean:
-	rm -rf $(VENV) $(PEERS) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(PEERS) $(OCEL) $(PAGE)/node_modules build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

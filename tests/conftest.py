@@ -1,6 +1,12 @@
-"""Machines are shared: hypothesis asks what is true, not how long it takes."""
+"""Machines are shared: hypothesis asks what is true, not how long it takes, and test processes take a core each."""
+
+import os
 
 from hypothesis import settings
+
+if "PYTEST_XDIST_WORKER" in os.environ:  # NOTE: two BLAS threads in each of two processes: up to six times slower
+    for library in ("OPENBLAS", "MKL", "OMP"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 settings.register_profile("shared", deadline=None)
 settings.load_profile("shared")
@@ -10,10 +16,14 @@ LONG_FIRST = (
     "test_readme.py",
     "test_known_staffing.py",
     "test_random_people.py",
+    "test_truth.py",
+    "test_random_blocks.py",
     "test_validation.py",
-    "test_motion_judge.py",
+    "test_examples.py",
+    "test_people_truth.py",
+    "test_study_killed.py",
 )
-"""Files whose slow tests take longest: begun first, so that no process is left alone with one of them at the end."""
+"""Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 
 
 def pytest_collection_modifyitems(items):

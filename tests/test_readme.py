@@ -1,5 +1,6 @@
 """What README.md shows is run as it stands, in a folder that holds the files it names."""
 
+import csv
 import re
 import shlex
 import subprocess
@@ -17,6 +18,8 @@ from emulator.synthetic import make
 from opsim.cli import main
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
+from tests.browser.axe import serious
+from tests.browser.chromium import browser
 
 README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
@@ -51,14 +54,19 @@ def squats():
     }
 
 
-@pytest.fixture
-def folder(tmp_path, squats):
+def with_the_files(folder, squats):
     """The files that README.md names: its own scenario, a recording, and a long take of six reaches as BVH."""
-    (tmp_path / "two_benches.yaml").write_text(next(text for language, text in BLOCKS if language == "yaml"))
-    np.savez(tmp_path / "deep_squat.npz", **squats)
+    (folder / "two_benches.yaml").write_text(next(text for language, text in BLOCKS if language == "yaml"))
+    np.savez(folder / "deep_squat.npz", **squats)
     motions = [replace(motion, mark_s=np.zeros(0)) for motion in make("reach", 1, 6)[0].motions]
-    write_bvh(long_take(motions, np.random.default_rng(0))[0], tmp_path / "take.bvh")
-    return tmp_path
+    write_bvh(long_take(motions, np.random.default_rng(0))[0], folder / "take.bvh")
+    return folder
+
+
+def opened(chromium, path, width):
+    page = chromium.new_page(viewport={"width": width, "height": 900})
+    page.goto(path.as_uri())
+    return page
 
 
 def test_there_is_something_to_run():
@@ -66,15 +74,51 @@ def test_there_is_something_to_run():
 
 
 @pytest.mark.parametrize("block", PYTHON, ids=range(len(PYTHON)))
-def test_a_python_block_runs_as_it_stands(block, folder):
-    done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True)
+def test_a_python_block_runs_as_it_stands(block, tmp_path, squats):
+    done = subprocess.run(
+        [sys.executable, "-c", block], cwd=with_the_files(tmp_path, squats), capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
 
 
+@pytest.fixture(scope="module")
+def answers(tmp_path_factory, squats):
+    """The folder, and what each command answered there, one after the other; compiled code is loaded once for all."""
+    folder = with_the_files(tmp_path_factory.mktemp("readme"), squats)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        return folder, {line: CliRunner().invoke(main, shlex.split(line, comments=True)[1:]) for line in COMMANDS}
+
+
 @pytest.mark.slow
-def test_the_commands_run_as_they_stand_one_after_the_other(folder, monkeypatch):
-    """All in this process: what each has to load, such as compiled code, is loaded once."""
-    monkeypatch.chdir(folder)
-    for line in COMMANDS:
-        done = CliRunner().invoke(main, shlex.split(line, comments=True)[1:])
-        assert done.exit_code == 0, f"{line}\n{done.output}"
+@pytest.mark.parametrize("line", COMMANDS, ids=lambda line: line.partition("  #")[0].rstrip())
+def test_a_command_runs_as_it_stands_after_those_above_it(line, answers):
+    answer = answers[1][line]
+    assert answer.exit_code == 0, answer.output
+
+
+@pytest.mark.slow
+def test_all_tables_and_figures_of_the_paper_are_made(answers):
+    """What ``opsim motion judge --paper`` writes; made here because it takes long."""
+    folder, said = answers
+    assert "judge: deep_squat: two levels" in next(one.stderr for line, one in said.items() if " --paper " in line)
+    made = folder / "judged"
+    assert {path.name for path in (made / "deep_squat").iterdir()} == {
+        *(f"table_{n}.csv" for n in range(1, 6)),
+        *(f"figure_{n}.svg" for n in (4, 5, 7, 8, 9, 10, 13, 14, 15, 16, 19)),
+    }
+    tables = [list(csv.reader((made / "deep_squat" / f"table_{n}.csv").open()))[1:] for n in range(1, 6)]
+    assert [len(table) for table in tables] == [3, 3, 2, 6, 6]
+    assert all(0 < float(p) <= 1 for row in tables[1] for p in row[1:])
+    assert "Figure 19" in (made / "index.html").read_text()
+
+
+@pytest.mark.slow
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [1280, 390])
+def test_no_page_that_they_write_has_a_serious_fault_for_keyboard_or_screen_reader(answers, width):
+    pages = sorted(answers[0].rglob("*.html"))
+    assert len(pages) >= 10
+    with browser() as chromium:
+        faults = {path.name: serious(opened(chromium, path, width)) for path in pages}
+    assert {name: said for name, said in faults.items() if said} == {}

@@ -21,7 +21,7 @@ HERE = [case for case in CASES if (case.file, case.variant) not in LONG]
 @pytest.fixture(scope="module")
 def runs():
     HERE[0].answer()
-    return simulate(HERE, few=True, processes=2)
+    return simulate(HERE, few=True)
 
 
 @pytest.mark.parametrize(("mean_s", "phases", "rate"), [

@@ -1,8 +1,15 @@
 import numpy as np
 import pytest
-from threadpoolctl import threadpool_info
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from opsim.one_thread import one_blas_thread
+
+
+@pytest.fixture(autouse=True)
+def two_threads():
+    """As on a machine of two cores, however many there are here."""
+    with threadpool_limits(limits=2, user_api="blas"):
+        yield
 
 
 def threads():
@@ -11,18 +18,17 @@ def threads():
 
 
 def test_blas_has_one_thread_inside_and_what_it_had_outside():
-    before = threads()
+    assert threads() == {2}
     with one_blas_thread():
         with one_blas_thread():
             assert threads() == {1}
         assert threads() == {1}
-    assert threads() == before
+    assert threads() == {2}
 
 
 def test_a_failure_inside_gives_the_threads_back():
-    before = threads()
     with pytest.raises(KeyError), one_blas_thread():
         raise KeyError("whatever")
-    assert threads() == before
+    assert threads() == {2}
     with one_blas_thread():
         assert threads() == {1}
