@@ -1,4 +1,4 @@
-"""``opsim init``: a scenario to begin with, a copy of a shipped one, and the schema by which editors help with it."""
+"""``opsim init``: a short scenario to put own numbers into, or a shipped one, and the schema by which editors help."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import click
 
 from opsim.cli.verbs import Mistake, mistakes
 
-DEFAULT = "repack_cell"
+DEFAULT = "starter"
 
 
 @click.command("init")
@@ -17,7 +17,10 @@ DEFAULT = "repack_cell"
 @click.option("--list", "only_list", is_flag=True, help="Show the templates, write nothing.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(template: str | None, out: Path | None, only_list: bool, as_json: bool) -> None:
-    """Begin a scenario from a TEMPLATE: one of the shipped scenarios.  [default: repack_cell]"""
+    """Begin a scenario: a short commented one to put your own numbers into, which runs as it stands.
+
+    TEMPLATE: instead one of the shipped scenarios, such as repack_cell; --list shows them.
+    """
     from opsim.cli.console import print_json, print_table
 
     templates = _templates()

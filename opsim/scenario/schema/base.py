@@ -1,6 +1,9 @@
 """The common ground of all blocks of the language."""
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
+
+DIST = Field(description="which distribution")
+"""Of the key that tells distributions apart."""
 
 
 class Block(BaseModel):

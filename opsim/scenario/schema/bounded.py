@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from opsim.scenario.fields import Seconds, SecondsOrZero, plain_error
+from opsim.scenario.schema.base import DIST
 from opsim.scenario.schema.distributions import MEAN, SHARE, Cv, between_words
 from opsim.scenario.schema.tasks import TaskBlock
 from opsim.variability import within_cv
@@ -32,7 +33,7 @@ def _inside(what: str, value_s: float, low_s: float, high_s: float) -> None:
 class Uniform(TaskBlock):
     """Anything from low to high, equally likely."""
 
-    dist: Literal["uniform"]
+    dist: Literal["uniform"] = DIST
     low_s: SecondsOrZero = _LOW
     high_s: Seconds = _HIGH
 
@@ -53,7 +54,7 @@ class Uniform(TaskBlock):
 class Triangular(TaskBlock):
     """From low to high, most likely the mode."""
 
-    dist: Literal["triangular"]
+    dist: Literal["triangular"] = DIST
     low_s: SecondsOrZero = _LOW
     mode_s: SecondsOrZero = Field(alias="mode", description="the time that is most likely", examples=["18 s"])
     high_s: Seconds = _HIGH
@@ -100,7 +101,7 @@ class _Spread(TaskBlock):
 class Normal(_Spread):
     """Normal, cut off below ``low``; mean and spread are those that remain after the cut."""
 
-    dist: Literal["normal"]
+    dist: Literal["normal"] = DIST
     low_s: SecondsOrZero = Field(0.0, alias="low", description="no time is shorter", examples=["0 s"])
 
     @property
@@ -119,7 +120,7 @@ class Normal(_Spread):
 class Beta(_Spread):
     """From low to high with the given mean and spread. With ``between_share`` a worker's bounds shift with his pace."""
 
-    dist: Literal["beta"]
+    dist: Literal["beta"] = DIST
     low_s: SecondsOrZero = _LOW
     high_s: Seconds = _HIGH
 
@@ -140,7 +141,7 @@ class Beta(_Spread):
 class Empirical(TaskBlock):
     """Drawn from the smoothed distribution of the values: linear between them, none beyond the smallest and largest."""
 
-    dist: Literal["empirical"]
+    dist: Literal["empirical"] = DIST
     values_s: Annotated[list[Seconds], Field(min_length=2, max_length=100_000)] = Field(
         alias="values", description="times that were seen", examples=["[18 s, 20 s, 25 s]"]
     )

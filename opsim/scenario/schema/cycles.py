@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Tag, model_validator
 
 from opsim.scenario.fields import Whole, plain_error
-from opsim.scenario.schema.base import Block
+from opsim.scenario.schema.base import DIST, Block
 
 MOST_CYCLES = 1_000_000_000
 
@@ -15,14 +15,14 @@ MOST_CYCLES = 1_000_000_000
 class GeometricCycles(Block):
     """The same chance, one in `mean`, after each cycle."""
 
-    dist: Literal["geometric"]
+    dist: Literal["geometric"] = DIST
     mean: float = Field(ge=1, le=MOST_CYCLES, description="cycles on average", examples=[100])
 
 
 class UniformCycles(Block):
     """Any number of cycles from low to high, equally likely: what wears out in use."""
 
-    dist: Literal["uniform"]
+    dist: Literal["uniform"] = DIST
     low: Whole = Field(ge=1, le=MOST_CYCLES, description="fewest cycles", examples=[400])
     high: Whole = Field(ge=1, le=MOST_CYCLES, description="most cycles", examples=[500])
 

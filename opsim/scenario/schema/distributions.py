@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from opsim.scenario.fields import Seconds, Whole, plain_error
+from opsim.scenario.schema.base import DIST
 from opsim.scenario.schema.tasks import TaskBlock
 from opsim.variability import log_variance, within_cv
 
@@ -21,7 +22,9 @@ def _cv(value: float) -> float:
 
 
 MEAN = Field(alias="mean", description="mean over all workers", examples=["20 s"])
-SHARE = Field(0.0, ge=0, le=1, description="share of the variance of log time, ln(1 + cv^2), between workers")
+SHARE = Field(
+    0.0, ge=0, le=1, description="share of the variance of log time, ln(1 + cv^2), between workers", examples=[0.3]
+)
 Cv = Annotated[float, Field(ge=0, le=10, description="sd / mean; 0: always the same time"), AfterValidator(_cv)]
 
 
@@ -33,7 +36,7 @@ def between_words(between_share: float) -> str:
 class Exponential(TaskBlock):
     """Memoryless: standard deviation equal to the mean."""
 
-    dist: Literal["exponential"]
+    dist: Literal["exponential"] = DIST
     mean_s: Seconds = MEAN
 
     @property
@@ -44,7 +47,7 @@ class Exponential(TaskBlock):
 class Erlang(TaskBlock):
     """The sum of k exponential phases: cv = 1 / sqrt(k)."""
 
-    dist: Literal["erlang"]
+    dist: Literal["erlang"] = DIST
     mean_s: Seconds = MEAN
     k: Whole = Field(ge=1, le=1_000_000, description="number of phases", examples=[2])
 
@@ -56,7 +59,7 @@ class Erlang(TaskBlock):
 class Geometric(TaskBlock):
     """A whole number of steps, with the same chance to end after each: the exponential of a clock that ticks."""
 
-    dist: Literal["geometric"]
+    dist: Literal["geometric"] = DIST
     mean_s: Seconds = MEAN
     step_s: Seconds = Field(alias="step", description="time of one step, at most the mean", examples=["1 s"])
 
@@ -87,25 +90,25 @@ class Shared(TaskBlock):
 class Lognormal(Shared):
     """Lognormal, by its mean and cv."""
 
-    dist: Literal["lognormal"]
+    dist: Literal["lognormal"] = DIST
 
 
 class Gamma(Shared):
     """Gamma, by its mean and cv."""
 
-    dist: Literal["gamma"]
+    dist: Literal["gamma"] = DIST
 
 
 class Weibull(Shared):
     """Weibull, by its mean and cv."""
 
-    dist: Literal["weibull"]
+    dist: Literal["weibull"] = DIST
 
 
 class Hyperexponential(Shared):
     """One of two exponentials with balanced means: each gives half of the mean; cv at least 1."""
 
-    dist: Literal["hyperexponential"]
+    dist: Literal["hyperexponential"] = DIST
 
     @model_validator(mode="after")
     def _more_than_exponential(self) -> Hyperexponential:

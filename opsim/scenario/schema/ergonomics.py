@@ -127,7 +127,9 @@ class Owas(Block):
 class Ergonomics(Block):
     """How postures are scored. Each of these is a choice that changes figures; the assumption sheet names it."""
 
-    rate_hz: float = Field(12.0, alias="rate", ge=1, le=60, description="postures looked at in a second of work")
+    rate_hz: float = Field(
+        12.0, alias="rate", ge=1, le=60, description="postures looked at in a second of work", examples=[30]
+    )
     arm_reference: Literal["trunk", "gravity"] = Field(
         "trunk",
         description="what the upper arm's angles are taken against: an arm that hangs in a stoop is flexed against the "

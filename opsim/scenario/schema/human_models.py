@@ -83,7 +83,7 @@ def _field(one: Parameter) -> tuple[Any, Any]:
         return or_never(kind) if one.endless else kind, Field(default, alias=alias, **more)
     bounds = {"ge": one.at_least, "gt": one.above, "le": one.at_most, "lt": one.below}
     more |= {key: bound for key, bound in bounds.items() if abs(bound) != inf}
-    return float, Field(default, **more)
+    return float, Field(default, examples=None if one.required else [default], **more)
 
 
 def _names_one(effect: str, names: tuple[str, ...]) -> Callable[[object], object]:

@@ -24,19 +24,29 @@ class Station(Block):
 
     at: NameText = Field(description="a place of the layout", examples=["bench"])
     tasks: list[NameText] = Field(description="done here, in this order; [] where jobs only pass", examples=["[label]"])
-    servers: Whole = Field(1, ge=1, le=100_000, description="jobs in work at once")
+    servers: Whole = Field(1, ge=1, le=100_000, description="jobs in work at once", examples=[2])
     buffer: Annotated[Whole | None, BeforeValidator(unlimited)] = Field(
-        None, ge=0, le=1_000_000_000, description="jobs that can wait in front; absent or 'unlimited': no limit"
+        None,
+        ge=0,
+        le=1_000_000_000,
+        description="jobs that can wait in front; absent or 'unlimited': no limit",
+        examples=[4, "unlimited"],
     )
     buffer_after: Whole = Field(
-        0, ge=0, le=1_000_000_000, description="finished jobs that can wait here for room downstream, off the servers"
+        0,
+        ge=0,
+        le=1_000_000_000,
+        description="finished jobs that can wait here for room downstream, off the servers",
+        examples=[2],
     )
     blocking: Blocking | None = Field(
         None,
         description="after: a finished job keeps its server until there is room downstream; before: a job is begun "
         "only when its place downstream is sure; absent: as flow.blocking",
     )
-    dispatch: NameText | None = Field(None, description="which waiting job is next; absent: as flow.dispatch")
+    dispatch: NameText | None = Field(
+        None, description="which waiting job is next; absent: as flow.dispatch", examples=["spt"]
+    )
     preempt: Literal["resume", "restart"] | None = Field(
         None,
         description="a job of higher priority takes the server of a lower one, which goes on where it was later "
@@ -64,12 +74,16 @@ class Station(Block):
         {}, description="so many of each tool, all at once, from the server until the job leaves the station"
     )
     yield_share: Yield | None = Field(
-        None, alias="yield", description="share of jobs that the work here leaves without a defect; absent: all"
+        None,
+        alias="yield",
+        description="share of jobs that the work here leaves without a defect; absent: all",
+        examples=[0.97],
     )
     scrap_share: LessThanAll | None = Field(
         None,
         alias="scrap",
         description="share of jobs that the work here spoils; they, and those that came with a defect, are scrapped",
+        examples=[0.02],
     )
     inspect: Inspect | None = Field(
         None, description="a look at each job when its work here is done", examples=["{finds: 0.98, then: scrap}"]
@@ -87,7 +101,11 @@ class Station(Block):
     )
 
     priority: Whole = Field(
-        0, ge=-1000, le=1000, description="workers go to stations of a higher one first, before the rule of allocation"
+        0,
+        ge=-1000,
+        le=1000,
+        description="workers go to stations of a higher one first, before the rule of allocation",
+        examples=[1],
     )
     share: Share | None = Field(
         None,
@@ -117,7 +135,9 @@ def _steps(value: object) -> object:
 class Product(Block):
     """What is made: its share of the jobs, and its way through the stations: a route, or a routing by probability."""
 
-    share: float = Field(1.0, gt=0, le=1, description="share of all jobs; the shares of the products sum to 1")
+    share: float = Field(
+        1.0, gt=0, le=1, description="share of all jobs; the shares of the products sum to 1", examples=[0.6]
+    )
     route: Annotated[list[str | list[str]], BeforeValidator(_steps)] | None = Field(
         None, description="stations in order; a list inside: one of them does it", examples=["[unload, repack]"]
     )
@@ -128,7 +148,11 @@ class Product(Block):
     )
 
     lot: Whole = Field(
-        1, ge=1, le=MOST_PIECES, description="units in a job; tasks are done for each unit, those 'per: lot' once"
+        1,
+        ge=1,
+        le=MOST_PIECES,
+        description="units in a job; tasks are done for each unit, those 'per: lot' once",
+        examples=[10],
     )
     family: NameText | None = Field(
         None, description="products of one family go together (batches, set-ups); absent: by itself", examples=["big"]
@@ -148,7 +172,9 @@ class Product(Block):
     mass_kg: MostLoad | None = Field(
         None, alias="mass", description="of one piece, for who carries it; absent: nobody's limit", examples=["8 kg"]
     )
-    priority: Whole = Field(0, ge=-1000, le=1000, description="jobs of a higher one go first, before any dispatch rule")
+    priority: Whole = Field(
+        0, ge=-1000, le=1000, description="jobs of a higher one go first, before any dispatch rule", examples=[1]
+    )
     due_s: Seconds | None = Field(
         None, alias="due", description="from the arrival of a job to its due date", examples=["4 h"]
     )

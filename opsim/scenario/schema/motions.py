@@ -24,7 +24,7 @@ class Step(Block):
     walk_m: WalkLength | None = Field(
         None, alias="walk", description="a walk of this length, as in 'walking:'", examples=["3 m"]
     )
-    repeat: Whole = Field(1, ge=1, le=MOST_MOTIONS, description="how often, each with a draw of its own")
+    repeat: Whole = Field(1, ge=1, le=MOST_MOTIONS, description="how often, each with a draw of its own", examples=[2])
 
     @property
     def words(self) -> str:

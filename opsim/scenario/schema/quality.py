@@ -17,7 +17,9 @@ _THEN = {
         {"const": _SCRAP},
         {
             "type": "object",
-            "properties": {"rework": {"type": "string", "description": "the station that puts it right"}},
+            "properties": {
+                "rework": {"type": "string", "description": "the station that puts it right", "examples": ["solder"]}
+            },
             "required": ["rework"],
             "additionalProperties": False,
         },
@@ -59,8 +61,8 @@ class Inspect(Block):
     A job is good or bad as a whole, a lot too. What was reworked is good until some operation leaves a defect anew.
     """
 
-    finds: Probability = Field(1.0, description="share of bad jobs that are found to be bad")
-    false_alarms: LessThanAll = Field(0.0, description="share of good jobs that are held to be bad")
+    finds: Probability = Field(1.0, description="share of bad jobs that are found to be bad", examples=[0.95])
+    false_alarms: LessThanAll = Field(0.0, description="share of good jobs that are held to be bad", examples=[0.02])
     rework: Annotated[str | None, BeforeValidator(_then), WithJsonSchema(_THEN)] = Field(
         None,
         alias="then",
@@ -69,7 +71,11 @@ class Inspect(Block):
         examples=["scrap", "{rework: solder}"],
     )
     most: Whole | None = Field(
-        None, ge=1, le=1_000_000, description="so many reworks of a job, then scrap; absent: as many as it takes"
+        None,
+        ge=1,
+        le=1_000_000,
+        description="so many reworks of a job, then scrap; absent: as many as it takes",
+        examples=[2],
     )
 
     @model_validator(mode="after")

@@ -39,7 +39,9 @@ class Release(Block):
         description="poisson: mean time between two arrivals; renewal: where that time comes from",
         examples=["55 s"],
     )
-    at_once: Whole = Field(1, ge=1, le=MOST_AT_ONCE, description="so many jobs at each arrival (poisson, renewal)")
+    at_once: Whole = Field(
+        1, ge=1, le=MOST_AT_ONCE, description="so many jobs at each arrival (poisson, renewal)", examples=[5]
+    )
     file: NameText | None = Field(
         None,
         description="schedule: a CSV file in the scenario's folder with the columns time (seconds, or h:mm:ss from the "
@@ -47,7 +49,9 @@ class Release(Block):
         examples=["orders.csv"],
     )
     store: NameText | None = Field(
-        None, description="base_stock: the store that is filled; the job is of the product whose route ends there"
+        None,
+        description="base_stock: the store that is filled; the job is of the product whose route ends there",
+        examples=["wheels"],
     )
     level: Whole | None = Field(
         None, ge=0, le=1_000_000, description="base_stock: pieces of the product that are kept there", examples=[4]

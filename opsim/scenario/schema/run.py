@@ -48,8 +48,10 @@ class Run(Block):
     warm_up_s: SecondsOrZero = Field(
         0.0, alias="warm_up", description="time at the start that does not count", examples=["30 min"]
     )
-    replications: Whole = Field(10, ge=1, le=1_000_000, description="how often it is simulated, each with other luck")
-    seed: Whole = Field(0, ge=0, lt=2**63, description="the same seed gives the same numbers")
+    replications: Whole = Field(
+        10, ge=1, le=1_000_000, description="how often it is simulated, each with other luck", examples=[30]
+    )
+    seed: Whole = Field(0, ge=0, lt=2**63, description="the same seed gives the same numbers", examples=[1])
     staffing: Literal["fixed", "redrawn"] = Field(
         "fixed", description="fixed: the same people in every replication; redrawn: other people in each"
     )

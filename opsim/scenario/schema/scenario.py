@@ -75,7 +75,9 @@ class Scenario(Block):
         min_length=1, max_length=200, description="title of tables and report", examples=["Repacking cell"]
     )
     run: Run = Field(description="how long, how often, with which luck", examples=["{horizon: 8 h}"])
-    libraries: dict[Name, str] = Field({}, description="motion libraries by the name tasks use")
+    libraries: dict[Name, str] = Field(
+        {}, description="motion libraries by the name tasks use", examples=["{moves: libraries/public_movements.npz}"]
+    )
     layout: Layout = Field(
         description="where things are, and how far apart", examples=["{places: {bench: [4 m, 1 m]}}"]
     )
@@ -133,7 +135,9 @@ class Scenario(Block):
         examples=["{learner: {pace: 0.8, quality: 0.95}, expert: 1.15}"],
     )
     workforce: Workforce | None = Field(None, description="workers drawn beside the named ones", examples=["{n: 12}"])
-    workers: dict[Name, Worker] = Field({}, description="the people who work here")
+    workers: dict[Name, Worker] = Field(
+        {}, description="the people who work here", examples=["{ana: {skills: {pack: 1.0}}}"]
+    )
     rotations: dict[Name, Rotation] = Field(
         {},
         description="people who change posts, by name",
@@ -165,7 +169,9 @@ class Scenario(Block):
         examples=["{learning: {model: wright, rate: 0.85}}"],
     )
     outputs: list[Annotated[str, BeforeValidator(_known_output)]] = Field(
-        list(USUAL), description="the figures wanted, first those that matter most"
+        list(USUAL),
+        description="the figures wanted, first those that matter most",
+        examples=["[throughput_per_h, worker_states]"],
     )
     frontier: Frontier | None = Field(
         None,
@@ -175,6 +181,11 @@ class Scenario(Block):
     studies: Studies | None = Field(
         None, description="what is asked of it beside running it: opsim sweep, select, labour, layout"
     )
+
+    def _repr_html_(self) -> str:
+        from opsim.shown.scenario import scenario_html
+
+        return scenario_html(self)
 
 
 BLOCKS: dict[str, type[Block]] = {

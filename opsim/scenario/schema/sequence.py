@@ -54,7 +54,9 @@ class Setup(Block):
     by: Literal["product", "family"] = Field("product", description="what is told apart: products, or their families")
     attended: bool = Field(True, description="true: a worker with the station's skill does it; false: it runs alone")
     first: NameText | None = Field(
-        None, description="what the servers are set up for at the start; absent: for whatever comes first"
+        None,
+        description="what the servers are set up for at the start; absent: for whatever comes first",
+        examples=["carton"],
     )
 
     @model_validator(mode="after")

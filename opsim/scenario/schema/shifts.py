@@ -52,7 +52,9 @@ class Pause(Block):
         examples=["15 min"],
     )
     place: NameText | None = Field(
-        None, description="where it is spent, a place of the layout: he walks there and back; absent: where he stands"
+        None,
+        description="where it is spent, a place of the layout: he walks there and back; absent: where he stands",
+        examples=["canteen"],
     )
     days: Days | None = Field(
         None, description="only in shifts that begin on these days; absent: in all", examples=["[Mon]"]

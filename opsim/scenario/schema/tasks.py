@@ -32,13 +32,20 @@ class TaskBlock(Block):
         description="what no posture tells: grip, force, forearm, support",
         examples=["{grip: fair, force: repeated}"],
     )
-    repeat: Whole = Field(1, ge=1, le=10_000, description="how often it is done, each with a draw of its own")
+    repeat: Whole = Field(
+        1, ge=1, le=10_000, description="how often it is done, each with a draw of its own", examples=[3]
+    )
     automatic: Automatic = Field(
         False,
         description="true: the station does it alone, no worker; attended: the station's time, and a worker stays",
+        examples=[True],
     )
     team: Whole = Field(
-        1, ge=1, le=100, description="workers at once; none is sent before so many are free, the slowest ends it"
+        1,
+        ge=1,
+        le=100,
+        description="workers at once; none is sent before so many are free, the slowest ends it",
+        examples=[2],
     )
     needs: Needs = Field({}, description="so many of each tool, from when its worker sets out until the task is done")
     hold: Hold | None = Field(
@@ -136,7 +143,7 @@ class Recorded(TaskBlock):
     """
 
     recorded: str = Field(description="a CSV file in the scenario's folder", examples=["times.csv"])
-    column: str | None = Field(None, description="needed where the file has several columns")
+    column: str | None = Field(None, description="needed where the file has several columns", examples=["seconds"])
     by: Literal["resample", "trace", "smooth"] = Field(
         "resample", description="drawn again; in the file's order; or drawn from the smoothed distribution"
     )

@@ -46,8 +46,12 @@ Needs = Annotated[
 class Moments(Block):
     """From one moment of a performance to another."""
 
-    start: Mark = Field(0.0, alias="from", description="a mark of the movement, or a share of the performance")
-    end: Mark = Field(1.0, alias="to", description="a mark of the movement, or a share of the performance")
+    start: Mark = Field(
+        0.0, alias="from", description="a mark of the movement, or a share of the performance", examples=["grasp", 0.25]
+    )
+    end: Mark = Field(
+        1.0, alias="to", description="a mark of the movement, or a share of the performance", examples=["release", 0.75]
+    )
 
     @model_validator(mode="after")
     def _some_time(self) -> Moments:

@@ -32,10 +32,10 @@ class Transporter(Block):
     Vehicles do not meet on the road.
     """
 
-    n: Whole = Field(1, ge=1, le=MOST_VEHICLES, description="how many vehicles")
+    n: Whole = Field(1, ge=1, le=MOST_VEHICLES, description="how many vehicles", examples=[2])
     at: NameText = Field(description="the place where they stand at the start", examples=["dock"])
     speed_m_per_s: Speed = Field(alias="speed", description="how fast they drive", examples=["2 m/s"])
-    capacity: Whole = Field(1, ge=1, le=100_000, description="jobs that a vehicle carries at once")
+    capacity: Whole = Field(1, ge=1, le=100_000, description="jobs that a vehicle carries at once", examples=[4])
     load_s: SecondsOrZero = Field(0.0, alias="load", description="time to load a job", examples=["10 s"])
     unload_s: SecondsOrZero = Field(0.0, alias="unload", description="time to unload a job", examples=["10 s"])
     legs: list[Leg] = Field(

@@ -82,7 +82,9 @@ class Person(Block):
         description="repetitions behind him at the start, by task; for learning",
         examples=["{pick_up: 200}"],
     )
-    home: NameText | None = Field(None, description="the place where the worker stands at the start")
+    home: NameText | None = Field(
+        None, description="the place where the worker stands at the start", examples=["bench"]
+    )
     patrol: list[NameText] | None = Field(
         None, min_length=1, description="stations to go round when idle, in this order", examples=["[pack, check]"]
     )

@@ -23,13 +23,25 @@ def test_the_schema_lies_beside_it_and_is_named_in_the_first_line(tmp_path):
     assert (tmp_path / "mine" / "opsim.schema.json").read_text(encoding="utf-8") == schema_text()
 
 
-def test_without_a_template_the_repacking_cell_is_begun_with(tmp_path, monkeypatch):
+def test_without_a_template_it_is_a_short_commented_one(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert json.loads(opsim("init", "--json")[1]) == {
-        "scenario": "repack_cell.yaml",
-        "template": "repack_cell",
+        "scenario": "starter.yaml",
+        "template": "starter",
         "schema": "opsim.schema.json",
     }
+    lines = (tmp_path / "starter.yaml").read_text(encoding="utf-8").splitlines()
+    assert len(lines) < 40
+    sections = [line for line in lines if (line[:1].isalpha() and line.endswith(":")) or "  # " in line]
+    assert sections and all("  # " in line for line in sections)  # each section says what goes there
+
+
+def test_the_short_one_is_checked_and_runs_as_it_stands(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    opsim("init", "-o", "my.yaml")
+    assert opsim("check", "my.yaml")[0] == 0
+    assert opsim("run", "my.yaml", "-o", "out", "--replications", 2)[0] == 0
+    assert {one.parent.name for one in tmp_path.glob("out/*/report.html")} == {"base", "busy", "busy_with_three"}
 
 
 def test_no_file_is_written_over(tmp_path):

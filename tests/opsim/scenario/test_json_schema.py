@@ -111,20 +111,59 @@ def test_the_editor_finds_what_is_wrong(text, said):
     assert any(one.startswith(said) for one in wrong(text)), wrong(text)
 
 
+def keys_in(node, place=""):
+    """(place, what is said of it) of every key that a scenario can have, at any depth; conditions say nothing new."""
+    if isinstance(node, list):
+        for number, one in enumerate(node):
+            yield from keys_in(one, f"{place}[{number}]")
+    elif isinstance(node, dict):
+        for key, one in node.get("properties", {}).items():
+            yield f"{place}.{key}", one
+            yield from keys_in(one, f"{place}.{key}")
+        for name, one in node.get("definitions", {}).items():
+            yield from keys_in(one, name)
+        for word in ("additionalProperties", "items", "anyOf"):
+            yield from keys_in(node.get(word), place)
+
+
+KEYS = dict(keys_in(SCHEMA))
+
+
+def listed(one):
+    """Whether an editor can offer every value by itself, or asks the block that is referred to."""
+    ways = one.get("anyOf", [one])
+    return "$ref" in one or all(way.get("type") == "boolean" or {"enum", "const", "$ref"} & {*way} for way in ways)
+
+
+def test_there_are_keys_at_every_depth():
+    assert len(KEYS) > 500 and {".run", "Run.horizon", "Inspect.then[1].rework", ".defaults.stations"} <= {*KEYS}
+
+
 def test_every_key_says_what_it_is():
-    keys = [
-        (name, key, one) for name, model in SCHEMA["definitions"].items() for key, one in model["properties"].items()
-    ]
-    keys += [("", key, one) for key, one in SCHEMA["properties"].items()]
-    assert not [(name, key) for name, key, one in keys if "description" not in one and key != "dist"]
+    assert not [place for place, one in KEYS.items() if not one.get("description", "").strip()]
+
+
+def test_every_key_has_an_example_unless_its_values_are_listed():
+    assert not [place for place, one in KEYS.items() if "examples" not in one and not listed(one)]
+
+
+def test_every_quantity_says_its_units():
+    patterns = {units.pattern(kind): kind for kind in units.UNITS}
+    for place, one in KEYS.items():
+        kind = patterns.get(one.get("pattern", ""))
+        assert kind is None or f"in {', '.join(units.UNITS[kind])}" in one["description"], place
 
 
 def test_examples_and_defaults_are_what_the_schema_allows():
-    for model in SCHEMA["definitions"].values():
-        for key, one in model["properties"].items():
-            for value in [*one.get("examples", []), *([one["default"]] if "default" in one else [])]:
-                told = {word: said for word, said in one.items() if word not in ("examples", "default")}
-                assert not list(complaints(value, told, SCHEMA)), (key, value)
+    for place, one in KEYS.items():
+        for value in [*one.get("examples", []), *([one["default"]] if "default" in one else [])]:
+            told = {word: said for word, said in one.items() if word not in ("examples", "default")}
+            assert not list(complaints(value, told, SCHEMA)), (place, value)
+
+
+def test_it_says_which_language_it_describes_and_in_which_draft():
+    assert SCHEMA["$schema"] == "http://json-schema.org/draft-07/schema#"
+    assert SCHEMA["$id"] == "urn:opsim:scenario:1" and SCHEMA["title"] == "opsim scenario"
 
 
 @given(st.sampled_from(sorted(units.UNITS)), st.text("0123456789.:+-eE smhind/kgft", max_size=12))

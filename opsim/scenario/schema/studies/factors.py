@@ -17,7 +17,9 @@ class Range(Block):
 
     low: Any = Field(alias="from", description="the least value, with its unit", examples=["40 s"])
     high: Any = Field(alias="to", description="the largest value, with its unit", examples=["60 s"])
-    levels: Whole | None = Field(None, ge=2, le=1000, description="of a grid: so many values, both ends among them")
+    levels: Whole | None = Field(
+        None, ge=2, le=1000, description="of a grid: so many values, both ends among them", examples=[3]
+    )
 
     @model_validator(mode="after")
     def _is_a_range(self) -> Range:

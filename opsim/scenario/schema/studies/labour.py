@@ -56,9 +56,11 @@ Target = Annotated[str, BeforeValidator(_known_target)]
 class BuyBack(Block):
     """What may buy back that people differ: more people, or more skills for those who are there."""
 
-    most_workers: Whole = Field(2, ge=0, le=MOST_MORE, description="so many people more at most; 0: none is tried")
+    most_workers: Whole = Field(
+        2, ge=0, le=MOST_MORE, description="so many people more at most; 0: none is tried", examples=[3]
+    )
     most_skills: Whole = Field(
-        6, ge=0, le=MOST_MORE, description="so many steps of cross-training at most; 0: none is tried"
+        6, ge=0, le=MOST_MORE, description="so many steps of cross-training at most; 0: none is tried", examples=[4]
     )
     like: list[NameText] | None = Field(
         None,
@@ -71,10 +73,10 @@ class Labour(Block):
     """What differences between people cost, and what buys it back."""
 
     workforces: Annotated[Whole, _WORKFORCES] = Field(
-        40, le=MOST_WORKFORCES, description="how many other sets of people are hired"
+        40, le=MOST_WORKFORCES, description="how many other sets of people are hired", examples=[40]
     )
     replications: Annotated[Whole, _REPLICATIONS] = Field(
-        4, le=MOST_REPLICATIONS, description="days of each workforce, each with other luck"
+        4, le=MOST_REPLICATIONS, description="days of each workforce, each with other luck", examples=[4]
     )
     design: Literal["crossed", "nested"] = Field(
         "crossed",

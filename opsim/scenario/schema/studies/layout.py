@@ -58,12 +58,13 @@ class LayoutStudy(Block):
         "of the layout that nobody uses (with distance: paths only where stations stand now)",
         examples=["[bay_1, bay_2, bay_3]"],
     )
-    proposals: Whole = Field(5, ge=0, le=MOST_PROPOSALS, description="how many are made and simulated")
+    proposals: Whole = Field(5, ge=0, le=MOST_PROPOSALS, description="how many are made and simulated", examples=[5])
     replications: Whole | None = Field(
         None,
         ge=FEWEST_REPLICATIONS,
         description="of each layout, and as many fresh ones of the one taken and of the present one; absent: those of "
         "run, but at least 10",
+        examples=[20],
     )
     best: WayFigureText = Field(
         "throughput_per_h", description="by which figure the best is taken: a KPI, or 'less KPI'", examples=["walked_m"]

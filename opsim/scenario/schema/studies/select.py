@@ -52,7 +52,9 @@ class Select(Block):
         description="a difference too small to matter, with the figure's unit where it has one; 1 %: of the base",
         examples=[2, "1 %", "20 s"],
     )
-    confidence: float = Field(0.95, gt=0, lt=1, description="the chance at least that the choice is right")
+    confidence: float = Field(
+        0.95, gt=0, lt=1, description="the chance at least that the choice is right", examples=[0.99]
+    )
     procedure: Procedure = Field(
         "kn",
         description="kn: side by side, whoever is clearly beaten is out; rinott, dudewicz-dalal: two stages with "
@@ -71,17 +73,33 @@ class Select(Block):
     search: bool = Field(
         False, description="true: an optimiser looks for good values of what is varied; false: every combination"
     )
-    trials: Whole | None = Field(None, ge=2, le=100_000, description="of a search: points tried; 60 where nobody says")
-    trial_replications: Whole = Field(3, ge=1, le=10_000, description="of a search: replications of each point tried")
-    finalists: Whole = Field(5, ge=1, le=100, description="of a search: how many of the best points go on")
+    trials: Whole | None = Field(
+        None, ge=2, le=100_000, description="of a search: points tried; 60 where nobody says", examples=[60]
+    )
+    trial_replications: Whole = Field(
+        3, ge=1, le=10_000, description="of a search: replications of each point tried", examples=[3]
+    )
+    finalists: Whole = Field(
+        5, ge=1, le=100, description="of a search: how many of the best points go on", examples=[5]
+    )
     base: Name | None = Field(
-        None, description="the variant that the chosen one is compared with; absent: the first of the file"
+        None,
+        description="the variant that the chosen one is compared with; absent: the first of the file",
+        examples=["base"],
     )
     replications: Whole = Field(
-        40, ge=2, le=MOST, description="fresh ones, on which the chosen one is looked at again beside the base"
+        40,
+        ge=2,
+        le=MOST,
+        description="fresh ones, on which the chosen one is looked at again beside the base",
+        examples=[40],
     )
     first_replications: Whole | None = Field(
-        None, ge=5, le=MOST, description="of each variant, from which its spread is known; 10 for kn and ocba, else 20"
+        None,
+        ge=5,
+        le=MOST,
+        description="of each variant, from which its spread is known; 10 for kn and ocba, else 20",
+        examples=[10],
     )
     most_replications: Whole | None = Field(
         None,
@@ -89,8 +107,11 @@ class Select(Block):
         le=MOST,
         description="of each variant at most, without the fresh ones, 1000 where nobody says; of ocba all together, "
         "100 of each variant",
+        examples=[1000],
     )
-    batch: Whole = Field(10, ge=1, le=10_000, description="how many are run of each variant left before the next look")
+    batch: Whole = Field(
+        10, ge=1, le=10_000, description="how many are run of each variant left before the next look", examples=[10]
+    )
 
     @model_validator(mode="after")
     def _fits_together(self) -> Select:

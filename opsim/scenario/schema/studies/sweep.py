@@ -37,9 +37,15 @@ class Sweep(Block):
         "paths morris has; or a list of points, each a block of paths and values",
         examples=[64],
     )
-    levels: Whole | None = Field(None, ge=2, le=1000, description="of a grid: how many values every range has")
+    levels: Whole | None = Field(
+        None, ge=2, le=1000, description="of a grid: how many values every range has", examples=[3]
+    )
     replications: Whole | None = Field(
-        None, ge=1, le=1_000_000, description="of each point, the same luck in all; by default as the scenario runs"
+        None,
+        ge=1,
+        le=1_000_000,
+        description="of each point, the same luck in all; by default as the scenario runs",
+        examples=[20],
     )
     figures: list[FigureText] | None = Field(
         None,
