@@ -31,9 +31,10 @@ lint: $(READY)
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
 
-# All at once, the longest files first (tests/conftest.py): two processes that share slow and quick ones end together.
+# File by file, the longest first (tests/conftest.py), so that both processes end together; slow statistics in a second, smaller pass.
 tests: $(READY)
-	$(RUN) -m pytest $(BY_FILE)
+	$(RUN) -m pytest $(BY_FILE) -m "not slow"
+	$(RUN) -m pytest $(BY_FILE) -m slow
 
 test-fast: $(READY)
 	$(RUN) -m pytest $(BY_FILE) -m "not slow"

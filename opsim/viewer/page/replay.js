@@ -23,7 +23,7 @@ export class Replay {
     const highS = Math.max(...worlds.map(({ variant }) => variant.high_s));
     Object.assign(this, { worlds, sight, views: [], counter: new Counter() });
     Object.assign(this, { chosen: null, by: "state" }); // chosen: {variant, kind, index}
-    Object.assign(this, { changedAt: 0, sharpAt: 0, toldAt: 0, waiting: false, fromAbove: false, moved: false });
+    Object.assign(this, { changedAt: 0, sharpAt: 0, toldAt: 0, waiting: 0, fromAbove: false, moved: false });
     this.shown = worlds.length > 1 ? [0, 1] : [0];
     this.floors = worlds.map((world) => new Floor(world));
     this.player = new Player(lowS, highS, () => this.changed());
@@ -150,12 +150,12 @@ export class Replay {
   changed() {
     this.changedAt = performance.now();
     if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame((now) => this.tick(now));
+    this.waiting = requestAnimationFrame((now) => this.tick(now));
   }
 
   tick(now) {
-    this.waiting = false;
+    cancelAnimationFrame(this.waiting); // a picture that is asked for at once takes the place of the one to come
+    this.waiting = 0;
     this.player.tick(now);
     if (this.changedAt > this.sharpAt) this.sight.sharpen(false);
     for (const v of this.shown) this.worlds[v].seek(this.player.timeS);
