@@ -164,6 +164,21 @@ def test_it_plays_at_the_speed_that_is_chosen_until_paused(files, chromium):
     watched.page.close()
 
 
+def test_one_picture_is_drawn_a_frame_whatever_was_asked_for_before(page):
+    """The counter of the page is what its speed is judged by: it may not see a picture twice."""
+    watched = page("one")
+    watched(
+        "for (let k = 0; k < 5; k++) { opsimReplay.play(); opsimReplay.seek(k); opsimReplay.select('worker', null) }"
+    )
+    frames = """new Promise((told) => {
+      let n = 0, from = performance.now();
+      (function frame() { n++; performance.now() - from < 1500 ? requestAnimationFrame(frame) : told(n / 1.5) })();
+    })"""
+    assert watched("opsimReplay.state().playing")
+    a_second = watched(frames)
+    assert watched("opsimReplay.state().fps") < 1.6 * a_second
+
+
 def test_pause_tells_the_truth_after_seeking(page):
     watched = page()
     button(watched, "Play").click()
