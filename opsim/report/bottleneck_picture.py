@@ -13,7 +13,7 @@ from opsim.kpi.values import changes
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.report.bars import Bar, Look, bar_traces, fitting
-from opsim.report.bottleneck_words import bottleneck_sentences
+from opsim.report.bottleneck_words import bottleneck_rows, bottleneck_sentences, time_open
 from opsim.report.figures import FONT, label, layout_of
 from opsim.report.flow_order import worked_on
 from opsim.report.material import Material
@@ -28,8 +28,12 @@ MOMENT = Look("the bottleneck at that moment", "#0072B2")
 LEAST = 0.005
 """A smaller share of the time is not drawn."""
 MOST_ROWS, CELLS = 24, 400
+LEAST_AXIS = 25.0
+"""Per cent at the end of the axis, at least: short bars for what is seldom."""
+NOTE = "Of the hours for which the floor is scheduled to be open; the table of all figures is of all hours counted."
 METHOD = (
-    "A station is active while it works, is set up or is down, and not while it waits. The station whose active period "
+    "A station is active while it works, is set up or is down, and not while it waits; one with several servers only "
+    "while all of them are. The station whose active period "
     "is the longest at a moment is the bottleneck then; where the periods of two such stations overlap, it moves from "
     "one to the other (Roser, Nakano and Tanaka 2002). All replications count; the strip is the first one."
 )
@@ -38,7 +42,7 @@ METHOD = (
 def section(material: Material) -> Section | None:
     """Bars of shares of all replications, a strip over the clock of the first, and sentences; None for one station."""
     order = [material.plan.stations[rank].name for rank in worked_on(material.plan)]
-    shares = _shares(material.rows("bottleneck"))
+    shares = _shares(bottleneck_rows(material))
     shown = [name for name in order if sum(shares.get(name, {}).values()) >= LEAST]
     shown = sorted(shown, key=lambda name: -sum(shares[name].values()))[:MOST_ROWS]
     shown = [name for name in order if name in shown]
@@ -47,7 +51,9 @@ def section(material: Material) -> Section | None:
     blocks: list[Block] = [Bullets(bottleneck_sentences(material, order))]
     legend = [look.swatch for look, part in ((SOLE, "sole"), (SHIFTING, "shifting")) if _any(shares, shown, part)]
     said = "; ".join(_said(name, shares[name]) for name in shown)
-    blocks.append(Chart("bottleneck-shares", _bars(shares, shown), said, "Share of the time", legend))
+    time = "open time" if time_open(material) < 1 else "time"
+    title, note = f"Share of the {time}", NOTE if time == "open time" else ""
+    blocks.append(Chart("bottleneck-shares", _bars(shares, shown, time), said, title, legend, note=note))
     if material.log is not None:
         blocks += _strip_of(material.log, material.plan)
     return Section("bottleneck", "What holds up the floor", [*blocks, Words(METHOD, muted=True)], "Bottleneck")
@@ -71,18 +77,19 @@ def _said(name: str, share: Mapping[str, float]) -> str:
     return f"{name}: {alone} of the time alone, {shifting} while it moves"
 
 
-def _bars(shares: Mapping[str, Mapping[str, float]], shown: Sequence[str]) -> dict[str, Any]:
+def _bars(shares: Mapping[str, Mapping[str, float]], shown: Sequence[str], time: str = "time") -> dict[str, Any]:
     bars = []
     for row, name in enumerate(shown):
         start = 0.0
         for look, part in ((SOLE, "sole"), (SHIFTING, "shifting")):
             share = 100 * shares[name].get(part, 0.0)
             if share > 0:
-                bars.append(Bar(look, row, start, share, f"{share:.0f} %", f"{name}: {share:.1f} % of the time"))
+                bars.append(Bar(look, row, start, share, f"{share:.0f} %", f"{name}: {share:.1f} % of the {time}"))
             start += share
     layout = layout_of(64 + 32 * len(shown)) | fitting()
-    layout["xaxis"] |= {"title": {"text": "% of the time", "standoff": 6, "font": {**FONT, "size": 12}}, "nticks": 6}
-    layout["xaxis"] |= {"rangemode": "tozero"}
+    layout["xaxis"] |= {"title": {"text": f"% of the {time}", "standoff": 6, "font": {**FONT, "size": 12}}, "nticks": 6}
+    most = max(100 * sum(shares[name].values()) for name in shown)
+    layout["xaxis"] |= {"range": [0, max(LEAST_AXIS, 1.04 * most)]}
     layout["yaxis"] |= _rows(shown)
     layout["margin"] |= {"t": 6}
     return {"data": bar_traces(bars), "layout": layout}

@@ -26,7 +26,7 @@ SPOKEN = {"duty_use": "busy share of the time on duty", "time_in_system_quantile
 VERDICTS = {
     "no clear difference": "No clear difference in ",
     "identical": "The same in every replication: ",
-    "too few replications to say": "Too few replications to say anything of ",
+    "too few replications to say": "Too few replications, which all differ by as much, to say anything of ",
     "one replication says nothing": "One replication says nothing of ",
     "other hours": "Open for other hours, so nothing is said of ",
 }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -12,12 +11,13 @@ from opsim.report.comparison_words import CLEAR, NOT_PROVEN, answer, signed, spo
 from opsim.report.forest_chart import Dot, Forest, forest_chart
 from opsim.report.material import Material
 from opsim.report.parts import part_name
+from opsim.report.same import Same
 from opsim.report.section import Block, Bullets, Chart, Folded, Grid, Panels, Section, Words
 from opsim.report.words import kpi_name, largest_mean, plus_minus, scale_of
 from opsim.study.compare import Comparison, Difference, NotComparable, compare
 from opsim.study.interval import CONFIDENCE
 
-BASE = "base"
+BASE, TOO_FEW = "base", "too few replications to say"
 MOST_FIGURES, MOST_VARIANTS, MOST_SENTENCES, MOST_ROWS = 8, 30, 6, 400
 READ = (
     f"A line is a {100 * CONFIDENCE:.0f} % interval; \N{BLACK DIAMOND} is the base, \N{BLACK CIRCLE} clearly differs "
@@ -36,7 +36,7 @@ def section(material: Material) -> Section | None:
     base = BASE if BASE in siblings else next(iter(siblings))
     here = material.summary["variant"]
     rows = {name: {_key(row): row for row in result.summary["kpis"]} for name, result in siblings.items()}
-    compared = _compared(_Same(siblings), base)
+    compared = _compared(Same(siblings), base)
     if isinstance(compared, str):
         keys = [key for key, row in rows[base].items() if row["headline"] and not key[1] and not key[2]]
         said: list[Block] = [Words(f"These variants are not compared: {compared}.")]
@@ -62,24 +62,11 @@ def section(material: Material) -> Section | None:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Same:
-    """Results that are compared once for all reports that show the very same of them."""
-
-    siblings: Mapping[str, Any]
-
-    def __hash__(self) -> int:
-        return id(self.siblings)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and other.siblings is self.siblings
-
-
 @lru_cache(maxsize=1)
-def _compared(same: _Same, base: str) -> Comparison | str:
+def _compared(same: Same, base: str) -> Comparison | str:
     """The comparison, or why there is none."""
     try:
-        return compare(same.siblings, base)
+        return compare(same.of, base)
     except NotComparable as why:
         return str(why).rstrip(".")
 
@@ -150,6 +137,8 @@ def _differences(of: Sequence[Difference], here: str) -> Forest:
         cells = comparison_cells(d, largest)
         relative = f", {signed(cells['relative'])}" if cells["relative"] and unit != "percentage points" else ""
         number = f"{signed(cells['difference'])}{relative}: {_verdict(d)}"
+        if d.verdict == TOO_FEW:
+            number = f"{signed(f'{d.interval.mean * factor:.3g}')} in each of {d.interval.n} pairs: too few to say"
         low, mean, high = (_times(value, factor) for value in (d.interval.low, d.interval.mean, d.interval.high))
         dots.append(Dot(d.variant, number, low, mean, high, here=d.variant == here, clear=d.verdict in CLEAR))
     return Forest(dots, unit, 0.0, "paired difference")

@@ -10,6 +10,7 @@ from opsim.kpi.better import Asked, read_asked
 from opsim.report.frontier import axis_name, frontier_svg
 from opsim.report.frontier_words import frontier_sentences
 from opsim.report.material import Material
+from opsim.report.same import Same
 from opsim.report.section import Block, Section, Svg, Words
 from opsim.report.words import is_number
 from opsim.study.compare import NotComparable, scheduled_hours
@@ -35,7 +36,7 @@ def section(material: Material) -> Section | None:
     asked = tuple(read_asked(text) for text in texts) if len(texts) == 2 else usual_pair(siblings)
     if not asked:
         return None
-    found = _found(_Same(siblings), *asked)
+    found = _found(Same(siblings), *asked)
     if isinstance(found, str):
         return Section("frontier", "Two figures against each other", [Words(f"Not drawn: {found}.")]) if texts else None
     known = [point for point in found.points if is_number(point.x.mean) and is_number(point.y.mean)]
@@ -67,23 +68,10 @@ def _says_nothing(found: Frontier) -> bool:
     return any(len({getattr(point, side).mean for point in found.points}) < 2 for side in "xy")
 
 
-class _Same:
-    """Results of which a frontier is found once for all reports that show the very same of them."""
-
-    def __init__(self, siblings: Mapping[str, Any]) -> None:
-        self.siblings = siblings
-
-    def __hash__(self) -> int:
-        return id(self.siblings)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and other.siblings is self.siblings
-
-
 @lru_cache(maxsize=1)
-def _found(same: _Same, x: Asked, y: Asked) -> Frontier | str:
+def _found(same: Same, x: Asked, y: Asked) -> Frontier | str:
     """The frontier, or why there is none."""
     try:
-        return frontier_of(same.siblings, x, y)
+        return frontier_of(same.of, x, y)
     except NotComparable as why:
         return str(why).rstrip(".")

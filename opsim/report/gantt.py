@@ -11,7 +11,16 @@ from opsim.report.bars import Look, bar_traces, fitting
 from opsim.report.figures import FONT, label, layout_of
 from opsim.report.flow_order import worked_on
 from opsim.report.gantt_looks import OF_STATION, of_station, of_worker, products
-from opsim.report.gantt_rows import HOUR_S, Stretch, Stretches, of_workers, on_servers, standing, typical_hour_s
+from opsim.report.gantt_rows import (
+    HOUR_S,
+    MOST_HOURS,
+    Stretch,
+    Stretches,
+    of_workers,
+    on_servers,
+    standing,
+    typical_hour_s,
+)
 from opsim.report.material import Material
 from opsim.report.palette import GRID
 from opsim.report.section import Chart, Section, Words
@@ -91,7 +100,10 @@ def _seen_s(floor: Stretches, people: Stretches, hour: tuple[float, float]) -> t
 
 def _shown_words(start: str, drawn: Drawn) -> str:
     first, last = (clock(start, at_s) for at_s in drawn.seen_s)
-    text = f"The first replication from {first} to {last.split()[-1]}, of an hour with as much work as is usual"
+    text = f"The first replication from {first} to {last.split()[-1]}"
+    low_s, high_s = drawn.plan.window_s
+    days = f" in the first {MOST_HOURS} h" if high_s - low_s > (MOST_HOURS + 1) * HOUR_S else ""
+    text += f", of an hour with as much work as is usual{days}" if high_s - low_s >= 2 * HOUR_S else ""
     if drawn.whole_s != drawn.seen_s:
         text += f"; {clock(start, drawn.whole_s[0])} to {clock(start, drawn.whole_s[1])} is there to move to"
     return text + ". Numbers in bars are those of jobs, names in bars those of stations."

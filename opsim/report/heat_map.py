@@ -14,6 +14,7 @@ from opsim.report.floor_ways import FloorWays
 from opsim.report.heat_grid import Grid as Cells
 from opsim.report.heat_grid import spread
 from opsim.report.material import Material
+from opsim.report.open_time import with_closed
 from opsim.report.presence import Presence, presence
 from opsim.report.section import Grid, Section, Svg, Words
 from opsim.report.words import listing
@@ -42,7 +43,7 @@ def section(material: Material) -> Section | None:
         picture(on, _bands(density, levels, on), said),
         said,
         legend=[(colour, _band(levels, at)) for at, colour in enumerate(COLOURS)],
-        caption=_caption(on, layout.distance),
+        caption=_caption(on, layout.distance, plan),
         wide=True,
     )
     return Section("presence", "Where people spend their time", [Words(said), drawn, _table(there, names)], "Presence")
@@ -112,13 +113,14 @@ def _share(seconds: float, there: Presence) -> str:
     return "less than 1 %" if 0 < share < 0.95 else f"{share:.0f} %"
 
 
-def _caption(on: FloorMap, distance: str) -> str:
+def _caption(on: FloorMap, distance: str, plan: Any) -> str:
     key = f" Places: {on.key}." if on.numbered else ""
     first = ", first along x" if distance == "rectilinear" else ""
+    hours = " Hours are those in which the floor is open or somebody is on duty." if with_closed(plan) else ""
     return (
         "Minutes an hour that people, all together, spend on each square metre, in the first replication: 60 is "
-        f"somebody there all the time. Who stands at a place is taken to stand within about {2 * sigma_m(on):.1f} m of "
-        f"it, and who walks goes along the ways of the layout{first}.{key}"
+        f"somebody there all the time.{hours} Who stands at a place is taken to stand within about "
+        f"{2 * sigma_m(on):.1f} m of it, and who walks goes along the ways of the layout{first}.{key}"
     )
 
 

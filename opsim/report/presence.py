@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.kpi.values import SECONDS_PER_HOUR, window_length_s
 from opsim.log import REPAIR, SETUP, WORK, EventLog
 from opsim.plan import Plan
+from opsim.report.open_time import staffed_h
 from opsim.whereabouts import NOWHERE, whereabouts
 
 
 @dataclass(frozen=True)
 class Presence:
-    """Seconds of all workers together in an hour of the window.
+    """Seconds of all workers together in an hour of those in which the floor is open or somebody on duty.
 
     at_place : (P,) at each place; work : (P,) of it at work; on_way : {(from, to): seconds} between different places
     """
@@ -39,7 +39,7 @@ def presence(log: EventLog, plan: Plan) -> Presence:
     seen = whereabouts(log, plan)
     low_s, high_s = plan.window_s
     spent = np.clip(seen.end_s, low_s, high_s) - np.clip(seen.start_s, low_s, high_s)
-    spent *= SECONDS_PER_HOUR / window_length_s(plan)
+    spent /= staffed_h(plan)
     there = (seen.place_from != NOWHERE) & (seen.place_to != NOWHERE)
     stays = there & (seen.place_from == seen.place_to)
     works = stays & np.isin(seen.kind, (WORK, SETUP, REPAIR))

@@ -11,6 +11,7 @@ from opsim.report.floor_drawn import picture
 from opsim.report.floor_map import SMALL, WIDE, FloorMap, floor_map, names_of
 from opsim.report.floor_ways import FloorWays
 from opsim.report.material import Material
+from opsim.report.open_time import with_closed
 from opsim.report.section import Block, Grid, Panels, Section, Svg, Words
 from opsim.report.strands import (
     THICKEST,
@@ -53,20 +54,20 @@ def section(material: Material) -> Section | None:
     names = names_of(large, plan, layout)
     floor = WalkedFloor(plan.places, dict(zip(plan.places, names)), FloorWays(layout))
     blocks: list[Block] = [*map(Words, walk_sentences(walked, plan, names, material.rows("walked_m")))]
-    blocks.append(together(walked, floor, large))
+    blocks.append(together(walked, floor, large, with_closed(plan)))
     if len(walked.by_pair()) > 1:
         blocks += own_pictures(walked, [worker.name for worker in plan.workers], floor, small)
     return Section("ways", "Ways that people walk", [*blocks, _table(walked, plan, names)], "Ways")
 
 
-def together(walked: WalkedWays, floor: WalkedFloor, on: FloorMap) -> Svg:
-    """The picture of everybody's ways."""
+def together(walked: WalkedWays, floor: WalkedFloor, on: FloorMap, hours: str = "") -> Svg:
+    """The picture of everybody's ways. hours : which ones are meant by 'an hour', in words"""
     trips = trips_of(walked.by_pair(), floor, MOST_LINES)
     thickness = thickness_of([often for often, *_ in trips])
     strands = strands_of(trips, floor, on, thickness)
     drawn = [*drawn_lines(strands, thickness), *drawn_numbers(strands[:LABELLED], on.taken)]
     said = f"The ways walked most: {'; '.join(one.words for one in strands[:LABELLED])}"
-    caption = _caption(len(strands), on, floor.ways.distance)
+    caption = _caption(len(strands), on, floor.ways.distance, hours)
     return Svg(picture(on, drawn, said, thickness_key(thickness, on)), said, caption=caption, wide=True)
 
 
@@ -101,12 +102,12 @@ def _own(title: str, strands: Sequence[Strand], thickness: Thickness, floor: Wal
     return Svg(picture(named, drawn_lines(strands, thickness), said, thickness_key(thickness, on)), said, title)
 
 
-def _caption(lines: int, on: FloorMap, distance: str) -> str:
+def _caption(lines: int, on: FloorMap, distance: str, hours: str) -> str:
     few = f" The {MOST_LINES} walked most are drawn." if lines == MOST_LINES else ""
     key = f" Places: {on.key}." if on.numbered else ""
     return (
         "In the first replication, both ways together: a line is as thick as it is walked often, and the numbers are "
-        f"trips an hour. {HOW[distance]}{few}{key}"
+        f"trips an hour{hours}. {HOW[distance]}{few}{key}"
     )
 
 

@@ -13,10 +13,12 @@ _SWITCH = re.compile(r"(?<![\w.])variability: ?(full|within_only|between_only|no
 
 
 def switched_variants(siblings: Mapping[str, Any], here: str) -> dict[str, str]:
-    """Switch -> variant, of those that are else the same scenario as ``here``, which is among them.
+    """Switch -> variant, of those that are else the same scenario as ``here``, none where it is not among them.
 
     siblings : Results by name. Raises OSError where a resolved scenario cannot be read.
     """
+    if here not in siblings:
+        return {}
     read = {name: _read(result) for name, result in siblings.items()}
     switch, text = read[here]
     found = {switch: here}

@@ -12,6 +12,7 @@ from opsim.report.labels import shortened
 from opsim.report.labour_shapes import SIDE, WIDE, box, svg, text_at
 from opsim.report.material import Material
 from opsim.report.palette import ACCENT, MUTED
+from opsim.report.same import Same
 from opsim.report.section import Block, Grid, Section, Svg, Words
 from opsim.study.labour.sources import BETWEEN, LEFT, WITHIN
 from opsim.variability import log_variance, within_cv
@@ -54,8 +55,8 @@ def section(material: Material) -> Section | None:
         return None
     largest = max(found, key=lambda one: one.between)
     words = (
-        f"The times of {largest.task} differ most between people: the mean of one and that of another by about "
-        f"{100 * largest.between:.0f} % (standard deviation), the times of one and the same person by "
+        f"The times of {largest.task} differ most between people: their means lie about {100 * largest.between:.0f} % "
+        f"(standard deviation) around that of all, the times of one and the same person by "
         f"{100 * largest.within:.0f} %."
     )
     blocks: list[Block] = [Words(words), _picture(found), _table(found), Words(_note(found), muted=True)]
@@ -70,7 +71,7 @@ def spreads(plan: Any, variability: str) -> list[Spread]:
         share = getattr(task.model, "between_share", None)
         if task.automatic or task.attended or share is None:
             continue
-        if cv := _cv(_Known(task.model)):
+        if cv := _cv(Same(task.model)):
             whole = Spread(task.name, cv, float(share), has_body(task))
             found += [one for one in (_switched(whole, left),) if one is not None]
     return sorted(found, key=lambda one: (-one.cv, one.task))
@@ -84,24 +85,11 @@ def _switched(one: Spread, left: set[str]) -> Spread | None:
     return Spread(one.task, cv, share, one.of_moving) if left and cv > 0 else None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Known:
-    """A task model as a key: tasks and variants share models."""
-
-    model: Any
-
-    def __hash__(self) -> int:
-        return id(self.model)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Known) and other.model is self.model
-
-
 @lru_cache(maxsize=256)
-def _cv(known: _Known) -> float | None:
+def _cv(known: Same) -> float | None:
     """Coefficient of variation over the population, where the model knows it. NOTE: 0.1 s of an emulator with pauses"""
-    of_times = getattr(known.model, "duration_cv", None)
-    found = of_times() if callable(of_times) else getattr(known.model, "cv", None)
+    of_times = getattr(known.of, "duration_cv", None)
+    found = of_times() if callable(of_times) else getattr(known.of, "cv", None)
     return None if found is None else float(found)
 
 

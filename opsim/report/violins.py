@@ -8,11 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from opsim.kpi.values import in_window
+from opsim.log import LEAVING_KINDS
+from opsim.plan.station import STORE
 from opsim.report.figures import FONT, label, layout_of
 from opsim.report.flow_order import worked_on
 from opsim.report.material import Material
 from opsim.report.palette import ACCENT, INK
 from opsim.report.section import Block, Bullets, Chart, Folded, Grid, LegendEntry, Section, Words
+from opsim.report.steps import jobs_inside
 from opsim.report.violin_words import violin_sentences
 from opsim.report.words import digits, quantity, scale_of
 
@@ -42,13 +46,22 @@ def section(material: Material) -> Section | None:
     """A group of violins for each kind of time; None where nothing took any time."""
     rows = [row for row in material.result.summary.get("distributions", []) if row.get("n")]
     order = {material.plan.stations[rank].name: place for place, rank in enumerate(worked_on(material.plan))}
-    blocks: list[Block] = [Bullets(violin_sentences(rows))]
+    blocks: list[Block] = [Bullets(violin_sentences(rows, *_through(material)))]
     for kpi, title in TITLES.items():
         of = sorted((row for row in rows if row["kpi"] == kpi), key=lambda row: order.get(row["subject"], 0))
         blocks += _group(kpi, title, of)
     if len(blocks) == 1:
         return None
     return Section("times", "How long it takes", [*blocks, Words(NOTE, muted=True)], "Times")
+
+
+def _through(material: Material) -> tuple[int, int]:
+    """(jobs inside at the end, jobs that left in the window) of the first replication; stock in stores is no delay."""
+    log, plan = material.log, material.plan
+    if log is None or any(station.kind == STORE for station in plan.stations):
+        return 0, 0
+    left = np.isin(log["kind"], list(LEAVING_KINDS)) & in_window(log["end_s"], plan)
+    return int(jobs_inside(log).level[-1]), int(left.sum())
 
 
 def _group(kpi: str, title: str, rows: Sequence[Row]) -> list[Block]:

@@ -30,7 +30,7 @@ FAR, BEYOND = 4.0, 1.3
 MARKS = {
     TAKT: ("solid", "takt: open time over demand, for each visit"),
     LINE: ("solid", "takt of the line, for each visit"),
-    PACE: ("dashed", "pace: a good unit left as often, for each visit"),
+    PACE: ("dashed", "pace: how often a job came"),
 }
 
 

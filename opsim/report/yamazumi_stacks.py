@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from opsim.kpi.cycle import cycle_times
-from opsim.kpi.open_hours import duty_hours, is_in
-from opsim.kpi.values import in_window, inside_s
+from opsim.kpi.open_hours import duty_hours, is_in, open_hours
+from opsim.kpi.values import SECONDS_PER_HOUR, in_window, inside_s
 from opsim.log import FINISH, SETUP, WALK, WORK, EventLog
 from opsim.plan import Plan
 from opsim.plan.loads.rates import flows_of
@@ -131,6 +131,8 @@ def _allowed_s(material: Material) -> tuple[dict[int, float], dict[int, str]]:
     visits = visits_of(plan)
     per_job, by = job_every_s(material, visits)
     allowed = {rank: per_job / often for rank, often in visits.items() if per_job is not None and often > 0}
+    if per_job is None:
+        allowed, by = visit_every_s(material), PACE
     words = dict.fromkeys(allowed, by)
     for line in plan.lines:
         allowed |= dict.fromkeys(line.stations, line.takt_s)
@@ -151,20 +153,25 @@ def visits_of(plan: Plan) -> dict[int, float]:
 
 
 def job_every_s(material: Material, visits: Mapping[int, float]) -> tuple[float | None, str]:
-    """Seconds from one job to the next: what demand asks, else what the one paced line moves by, else what came out.
+    """Seconds from one job to the next: what demand asks, else what the one paced line moves by, else nothing does.
 
+    Where the floor decides some of what comes in, what comes in by time says little of all the work at a station.
     visits : of a job to each station, so that what feeds a line is held against what the line takes
     """
     plan, rows = material.plan, material.result.summary["kpis"]
     takt = find(rows, "takt_s")
-    if takt is not None:
+    if takt is not None and not flows_of(plan).saturated:
         return takt["mean"], TAKT
     if len(plan.lines) == 1:
         return plan.lines[0].takt_s * visits.get(plan.lines[0].stations[0], 1.0), LINE
-    out = find(rows, "throughput_per_h")
-    if out is None or out["mean"] <= 0 or len({product.lot for product in plan.products}) > 1:
-        return None, ""
-    return 3600.0 * plan.products[0].lot / out["mean"], PACE
+    return None, ""
+
+
+def visit_every_s(material: Material) -> dict[int, float]:
+    """By station: open seconds from one visit to the next over all replications, scrap and rework as they came."""
+    open_s = open_hours(material.plan) * SECONDS_PER_HOUR * material.summary["replications"]
+    n = {row["subject"]: row["n"] for row in _distributions(material) if row["kpi"] == "cycle_time_s"}
+    return {rank: open_s / n[one.name] for rank, one in enumerate(material.plan.stations) if open_s and n.get(one.name)}
 
 
 def worker_stacks(log: EventLog, plan: Plan) -> list[Stack]:

@@ -24,7 +24,7 @@ def in_s(seconds: float) -> str:
 
 def station_sentences(material: Material, stacks: Sequence[Stack]) -> list[str]:
     """The most and the least work, and what is over takt."""
-    return [_spread(material, stacks), *_against(stacks)]
+    return [_spread(material, stacks), *_against(material, stacks)]
 
 
 def _spread(material: Material, stacks: Sequence[Stack]) -> str:
@@ -37,11 +37,11 @@ def _spread(material: Material, stacks: Sequence[Stack]) -> str:
     return text + (f"; line balance efficiency is {with_interval(balance)}." if balance is not None else ".")
 
 
-def _against(stacks: Sequence[Stack]) -> Iterator[str]:
+def _against(material: Material, stacks: Sequence[Stack]) -> Iterator[str]:
     """Who is over what is allowed on average, and who with one visit in ten; or what the pace is."""
     held = [stack for stack in stacks if stack.allowed_s is not None and stack.by != PACE]
     if not held:
-        yield from _pace(stacks)
+        yield from _pace(stacks, find(material.result.summary["kpis"], "takt_s") is not None)
         return
     takt = "the takt of the line" if all(stack.by == LINE for stack in held) else "takt"
     over = [stack for stack in held if stack.work_s > OVER * _allowed(stack)]
@@ -61,12 +61,14 @@ def _against(stacks: Sequence[Stack]) -> Iterator[str]:
         yield f"Within {takt} on average, yet one visit in ten {verb} more: {names} at P90."
 
 
-def _pace(stacks: Sequence[Stack]) -> Iterator[str]:
+def _pace(stacks: Sequence[Stack], timed: bool) -> Iterator[str]:
+    """timed : whether some jobs come in by time, others as the floor has room"""
     paced = [stack for stack in stacks if stack.allowed_s is not None]
     if paced:
         near = max(paced, key=lambda stack: stack.work_s / _allowed(stack))
+        asks = "Takt is asked for some jobs alone: others" if timed else "Nothing asks for a takt: jobs"
         yield (
-            "Nothing asks for a takt: jobs come in as the floor has room. The dashed line is the pace it reached; "
+            f"{asks} come in as the floor has room. The dashed line is the pace it reached; "
             f"nearest to it is {near.name}, at work {100 * near.work_s / _allowed(near):.0f} % of the time between two "
             "visits, and what is missing to 100 % was lost to waiting, blocking and stops."
         )

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from plans import CELL, line
 
-from opsim.report.bottleneck_picture import CELLS, moments, section
+from opsim.report.bottleneck_picture import CELLS, _bars, moments, section
+from opsim.report.bottleneck_words import bottleneck_rows
 from opsim.report.time_axis import at_ms
 from tests.made_result import SCRIPT
 from tests.opsim.kpi.made_logs import work
@@ -51,6 +52,72 @@ def test_the_slowest_station_is_named_with_what_it_means(slow):
     said = words(section(slow))
     assert said.startswith("s2 is the bottleneck for") and "So it sets the pace: time saved at s2" in said
     assert "Ahead of it stations are blocked for" in said and "behind it they have no job for" in said
+
+
+DEMAND = """
+opsim: 1
+name: Demand limited
+run: {horizon: 8 h, warm_up: 30 min, seed: 1}
+layout: {places: {a: [0 m, 0 m], b: [4 m, 0 m]}}
+tasks: {t1: {fixed: 60 s, automatic: true}, t2: {fixed: 20 s, automatic: true}}
+stations: {one: {at: a, tasks: [t1], buffer: 6}, two: {at: b, tasks: [t2], buffer: 6}}
+products: {pump: {route: [one, two]}}
+release: {kind: poisson, every: 100 s}
+"""
+SHIFTS = """
+opsim: 1
+name: Closed
+run: {start: Mon 06:00, horizon: 24 h, seed: 1}
+layout: {places: {a: [0 m, 0 m], b: [4 m, 0 m]}}
+shifts: {early: {from: 06:00, to: 10:00, days: [Mon, Tue]}}
+tasks: {t1: {fixed: 60 s}, t2: {fixed: 30 s}}
+stations: {one: {at: a, tasks: [t1], buffer: 6}, two: {at: b, tasks: [t2], buffer: 6}}
+products: {pump: {route: [one, two]}}
+release: {kind: saturated}
+workers: {ann: {home: a, shift: early, skills: {one: 1.0}}, bob: {home: b, shift: early, skills: {two: 1.0}}}
+"""
+
+
+def test_where_the_floor_keeps_up_with_what_comes_demand_sets_the_pace():
+    said = words(section(floor(DEMAND)))
+    assert "Yet demand sets the pace" in said and "So it sets the pace" not in said
+    full = words(section(floor(DEMAND, ("every: 100 s", "every: 30 s"), ("buffer: 6", "buffer: 5000"))))
+    assert "So it sets the pace" in full and "demand" not in full, "more comes than can leave"
+
+
+def test_shares_are_of_the_time_for_which_the_floor_is_open():
+    made = floor(SHIFTS)
+    said, figure = words(section(made)), charts(section(made))["bottleneck-shares"]
+    assert "one is the bottleneck for 100.0 % of the open time" in said and "So it sets the pace" in said
+    assert "no station is busy" not in said
+    assert sum(end - begin for row, begin, end, _ in bars(figure) if row == 0) == pytest.approx(100, abs=0.1)
+    rows = {(row["subject"], row["part"]): row["mean"] for row in bottleneck_rows(made)}
+    assert rows["one", "momentary"] == pytest.approx(1, abs=1e-3) and rows["", "none"] == pytest.approx(0, abs=1e-3)
+    table = {(row["subject"], row["part"]): row["mean"] for row in made.rows("bottleneck")}
+    assert table["one", "momentary"] == pytest.approx(4 / 24, abs=1e-3)
+
+
+def test_the_axis_does_not_make_much_of_small_shares():
+    seldom = _bars({"a": {"sole": 0.08}}, ["a"])
+    often = _bars({"a": {"sole": 0.7, "shifting": 0.1}}, ["a"])
+    assert seldom["layout"]["xaxis"]["range"] == [0, 25]
+    assert often["layout"]["xaxis"]["range"] == [0, pytest.approx(83.2)]
+
+
+def test_blocking_is_told_of_what_comes_before_and_starving_of_what_comes_behind():
+    """Three stations of 1, 3 and 1 s without a wobble: the first blocked, the last without a job, for 2 s of every 3"""
+    text = line(3, 1, horizon="6000 s")
+    for n, seconds in ((1, 1), (2, 3), (3, 1)):
+        text = text.replace(f"t{n}: {{dist: exponential, mean: 1 s}}", f"t{n}: {{fixed: {seconds} s}}")
+    assert (
+        "Ahead of it stations are blocked for 67 % of the time on average, behind it they have no job for 67 % and "
+        "s2 itself is blocked for 0 % and without a job for 0 %."
+    ) in words(section(floor(text)))
+
+
+def test_one_that_is_so_for_three_fifths_of_the_time_is_still_the_one():
+    rows = [work(0, 24, 0), work(24, 40, 1)]
+    assert "So it sets the pace" in words(section(floor(THREE, rows=rows)))
 
 
 def test_where_it_moves_that_is_said():

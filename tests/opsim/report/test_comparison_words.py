@@ -39,7 +39,8 @@ def test_what_is_not_clear_and_what_is_the_same_is_said():
 def test_variants_with_something_clear_come_first_and_few_replications_are_named():
     few = difference("few", p=np.nan)
     first, second = said(few, difference("near"))
-    assert first.startswith("near is better") and second == "few: too few replications to say anything of throughput."
+    assert first.startswith("near is better")
+    assert second == "few: too few replications, which all differ by as much, to say anything of throughput."
 
 
 def test_three_figures_are_named_and_the_others_counted():

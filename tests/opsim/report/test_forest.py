@@ -56,6 +56,14 @@ def test_means_stand_beside_paired_differences_and_what_is_clear_is_full():
     )
 
 
+def test_the_same_step_in_few_pairs_is_shown_with_how_many():
+    few = {"base": Made(BASE[:3]), "tiring": Made([value - 9 for value in BASE[:3]])}
+    _, apart = charts(section(beside(material(summary()), **few))).values()
+    assert any(
+        "-9 in each of 3 pairs: too few to say" in text.replace("\N{MINUS SIGN}", "-") for text in strings(apart)
+    )
+
+
 def test_other_random_numbers_are_shown_and_not_compared():
     made = section(of(other=Made(BASE, seed=8)))
     assert "not compared" in words(made) and [name for name in charts(made) if "apart" in name] == []

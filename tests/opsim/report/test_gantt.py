@@ -45,6 +45,11 @@ def test_the_stretch_that_is_shown_is_said(cell):
     )
 
 
+def test_only_where_there_are_hours_to_choose_from_one_is_called_usual(cell):
+    assert "of an hour with as much work as is usual;" in words(section(floor(CELL, ("horizon: 2 h", "horizon: 4 h"))))
+    assert "usual" not in words(section(floor(line(3, 1, horizon="1500 s"))))
+
+
 def test_times_are_those_of_the_rows():
     made = floor(CELL)
     starts = {begin for _, begin, _, _ in bars(charts(section(made))["gantt-clock"])}

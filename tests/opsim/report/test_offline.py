@@ -10,6 +10,7 @@ from opsim.report.offline import asset, policy, template
 def test_only_the_scripts_as_they_stand_may_run():
     digest = base64.b64encode(hashlib.sha256(b"1 + 1").digest()).decode()
     assert f"script-src 'sha256-{digest}';" in policy("1 + 1") and "default-src 'none'" in policy("1 + 1")
+    assert policy("1 + 1").endswith("base-uri 'none'; form-action 'none'")
     assert "unsafe-inline" not in policy("1 + 1").partition("script-src")[2].partition(";")[0]
 
 

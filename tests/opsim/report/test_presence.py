@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
-from plans import ran
+from plans import plan, ran
 
-from opsim.log import ABSENT, OFF
+from opsim.log import ABSENT, OFF, REPAIR
+from opsim.report.open_time import staffed_h
 from opsim.report.presence import presence
+from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.study.layout.made_floor import FLOOR
 
 SHIFT = (("workers: {ana: {", "shifts: {s: {from: '00:10', to: '00:50'}}\nworkers: {ana: {shift: s, "),)
@@ -24,7 +26,21 @@ def test_the_time_of_all_is_the_time_that_they_are_there(shift):
     gone = log.where(np.isin(log["kind"], (OFF, ABSENT)) & (log["worker"] >= 0)).clipped_s(low, high).sum()
     assert gone > 0
     there_s = len(plan.workers) * (high - low) - gone
-    assert found.total == pytest.approx(there_s * 3600 / (high - low))
+    assert found.total == pytest.approx(there_s * 3600 / (40 * 60)), "an hour of the 40 min of the shift"
+
+
+def test_an_hour_is_one_in_which_somebody_is_on_duty_or_the_floor_is_open():
+    log, plan = ran(FLOOR, *SHIFT, ("run: {horizon: 1 h", "run: {start: Mon 00:00, horizon: 20 h"))
+    assert staffed_h(plan) == pytest.approx(40 / 60)
+    assert 2 * 3600 <= presence(log, plan).total < 2.1 * 3600, "two people, all the shift"
+
+
+def test_repair_is_work():
+    made_plan = plan(FLOOR)
+    at = made_plan.stations[0].place
+    rows = [row(REPAIR, 0, 600, worker=0, station=0, places=(at, at))]
+    found = presence(made(rows, made_plan), made_plan)
+    assert found.work[at] == pytest.approx(600) and found.work.sum() == pytest.approx(600)
 
 
 def test_work_is_where_the_stations_are(shift):

@@ -38,6 +38,11 @@ def test_they_are_found_wherever_the_switch_stands(tmp_path, last):
     assert switched_variants(siblings, "elsewhere") == {"between_only": "elsewhere"}
 
 
+def test_a_variant_in_a_folder_of_another_name_has_none(tmp_path):
+    siblings = made(tmp_path, base_old=(RUN, {}), calm=({**RUN, "variability": "none"}, {}))
+    assert switched_variants(siblings, "base") == {}
+
+
 def test_a_study_that_varies_it_is_no_switch(tmp_path):
     studies = {"vary": {"run.variability": ["none", "full"]}}
     siblings = made(tmp_path, base=(RUN, studies), other=({**RUN, "variability": "none"}, studies))

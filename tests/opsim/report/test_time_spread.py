@@ -55,7 +55,9 @@ def test_what_the_run_switches_off_is_left_out(switch, found):
 
 def test_who_differs_most_is_said_and_where_nobody_differs_nothing_is():
     section = time_spread.section(made())
-    assert section.blocks[0].text.startswith("The times of u differ most between people")
+    assert section.blocks[0].text.startswith(
+        "The times of u differ most between people: their means lie about 31 % (standard deviation) around that of all"
+    )
     assert time_spread.section(made(FLOOR)) is None
 
 

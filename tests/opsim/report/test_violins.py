@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
-from plans import CELL
+from plans import CELL, queue
 
 from opsim.report.section import Folded, Words
+from opsim.report.steps import jobs_inside
 from opsim.report.violins import samples, section
 from tests.made_result import SCRIPT, distribution, material, summary
 from tests.opsim.report.made_floor import charts, floor, renamed, strings, words
@@ -55,6 +56,15 @@ def test_every_time_is_in_a_table(cell):
     tables = [block.blocks[0] for block in cell.blocks if isinstance(block, Folded)]
     assert [len(table.rows) for table in tables] == [2, 4, 4]
     assert tables[0].columns[1:8] == ("P5", "P10", "P25", "median", "P75", "P90", "P95")
+
+
+def test_jobs_that_are_still_inside_are_told_of_where_they_are_many(cell):
+    """Every 30 s one comes, every 60 s one leaves: of 960 that come in 8 h some 480 leave."""
+    over = floor(queue(horizon="8 h", warm_up="0 s", every="30 s", mean="60 s"))
+    inside = int(jobs_inside(over.log).level[-1])
+    assert inside > 400 and f"{inside} jobs were still inside, against " in words(section(over))
+    assert "still inside" not in words(cell)
+    assert words(cell).startswith("Of the jobs") and "that left, half were through within" in words(cell)
 
 
 def test_without_times_there_is_no_section():

@@ -27,6 +27,14 @@ def test_who_walks_most_is_said_with_its_interval():
     )
 
 
+def test_where_closed_hours_are_counted_that_is_said():
+    shift = "shifts: {s: {from: '00:10', to: '00:50'}}\nworkers: {ana: {shift: s, "
+    p = plan(FLOOR.replace("workers: {ana: {", shift).replace("{horizon: 1 h", "{start: Mon 00:00, horizon: 2 h"))
+    log = made([row(WALK, 700, 720, worker=0, places=(p.places.index("p1"), p.places.index("p5")))], p)
+    (said,) = walk_sentences(walked_ways(log, p), p, p.places, [])
+    assert "m an hour of the 2 h counted, closed ones too, 100 %" in said
+
+
 def test_who_does_not_walk_and_who_walks_alike_is_said():
     assert said([of("ana", 10.0), of("ben", 0.0)])[0].endswith("ben not at all.")
     assert said([of("ana", 10.0), of("ben", 10.0)])[0].endswith("all walk as far.")

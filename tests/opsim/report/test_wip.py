@@ -1,8 +1,10 @@
+import numpy as np
 import pytest
 from plans import CELL, line
 
-from opsim.report.steps import jobs_inside
+from opsim.report.steps import Steps, jobs_inside
 from opsim.report.wip import section
+from opsim.report.wip_words import _grows
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_floor import charts, floor, renamed, strings, words
 
@@ -41,6 +43,13 @@ def test_each_point_has_a_strip_that_says_its_highest_level_and_its_room(cell):
 def test_a_floor_that_fills_up_is_told_of():
     slow = floor(CELL, ("every: 40 s, when_full: lose", "every: 20 s"), ("buffer: 3", "buffer: 5000"))
     assert "They grow" in words(section(slow)) and "They grow" not in words(section(floor(STEADY)))
+
+
+def test_two_jobs_more_or_a_fifth_more_is_no_growth(cell):
+    low_s, high_s = cell.plan.window_s
+    for first, second, grows in ((2, 3, False), (20, 24, False), (20, 26, True)):
+        steps = Steps(np.array([0.0, (low_s + high_s) / 2]), np.array([first, second]), cell.plan.horizon_s)
+        assert bool(list(_grows(cell, steps))) is grows
 
 
 def test_where_no_room_is_left_is_said_but_not_of_a_station_that_is_full_by_plan():

@@ -58,6 +58,25 @@ def test_where_the_floor_takes_what_it_can_the_pace_stands_for_takt():
     assert "Nothing asks for a takt" in words(section(made))
 
 
+SATURATED = ("release: {kind: renewal, every: {fixed: 80 s}}", "release: {kind: saturated}")
+
+
+def test_scrap_does_not_slow_the_pace_that_a_station_is_held_against():
+    made = floor(TWO, SATURATED, ("turn], buffer: 4", "turn], buffer: 4, scrap: 0.5"))
+    saw, mill = station_stacks(made)
+    assert saw.allowed_s == pytest.approx(70, rel=0.02) and mill.allowed_s == pytest.approx(140, rel=0.15)
+    assert "nearest to it is saw, at work 100 % of the time" in words(section(made))
+
+
+def test_with_jobs_by_time_and_others_as_there_is_room_nothing_is_held_against_takt():
+    sources = "sources: {s1: {kind: saturated}, s2: {kind: renewal, every: {fixed: 300 s}}}"
+    made = floor(TWO, (SATURATED[0], sources))
+    saw, _ = station_stacks(made)
+    assert saw.by == PACE and saw.allowed_s == pytest.approx(70, rel=0.02)
+    said = words(section(made))
+    assert "Takt is asked for some jobs alone" in said and "keeps takt" not in said
+
+
 def test_what_feeds_a_paced_line_is_held_against_the_takt_of_the_line():
     line = ("release: {kind: renewal, every: {fixed: 80 s}}", "release: {kind: saturated}\nlines: {l: {kind: indexed, ")
     made = floor(TWO, (line[0], line[1] + "stations: [saw], takt: 90 s}}"), ("turn], buffer: 4", "turn]"))
