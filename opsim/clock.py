@@ -21,6 +21,7 @@ def ticks(times_s):
 
 
 DAYS = ("Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun")
+LONG_DAYS = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
 DAY_S, WEEK_S = 86_400.0, 604_800.0
 
 

@@ -26,10 +26,10 @@ class Result:
     @classmethod
     def load(cls, folder: Path) -> "Result":
         """Read a results folder. Raises OSError or ValueError where it is none."""
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        if isinstance(summary, dict) and "study" in summary:
+        summary = read_object(folder / "summary.json", "the summary of a run")
+        if "study" in summary:
             raise ValueError(_not_a_run(folder, summary["study"]))
-        if not isinstance(summary, dict) or not {"seed", "kpis", "replications"} <= summary.keys():
+        if not {"seed", "kpis", "replications"} <= summary.keys():
             raise ValueError(f"{folder / 'summary.json'}: not the summary of a run")
         return cls(folder, summary)
 
@@ -103,6 +103,34 @@ def _tables(connection: Any, files: Sequence[Path], names: Collection[str] | Non
 def events_in(folder: Path) -> list[Path]:
     """Events files of a results folder, by their replications; nothing where there are none."""
     return sorted((folder / "events").glob("replication_*.parquet"), key=lambda path: (len(path.name), path.name))
+
+
+def lacking_rows(result: Result) -> str:
+    """What to say of replications whose rows are gone; "" where all are there."""
+    there, n = {path.name for path in events_in(result.folder)}, result.summary["replications"]
+    gone = [number for number in range(n) if events_name(number) not in there]
+    if not gone:
+        return ""
+    if len(gone) == n:
+        return f"{result.folder}: no rows of events here, expected events/{events_name(0)}; run it again"
+    some = ", ".join(map(str, gone[:5])) + (", ..." if len(gone) > 5 else "")
+    return f"{result.folder / 'events'}: found no rows of replication {some}, expected 0 to {n - 1}; run it again"
+
+
+def events_name(replication: int) -> str:
+    """The name of a replication's file in the folder events."""
+    return f"replication_{replication:05d}.parquet"
+
+
+def read_object(path: Path, what: str) -> dict[str, Any]:
+    """A JSON object from a file. Raises OSError, and ValueError with the file's name where it holds none."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:  # of the text's encoding, too
+        raise ValueError(f"{path}: found no JSON ({error}), expected {what}") from None
+    if not isinstance(found, dict):
+        raise ValueError(f"{path}: not {what}")
+    return found
 
 
 def variants_in(folder: Path) -> dict[str, Result]:

@@ -43,8 +43,8 @@ def asked(
     results: Path, out: Path, form: str | None, scenarios: Sequence[str], said: str | None, **options: Any
 ) -> Asked:
     """Raises ValueError with everything that is wrong, OSError where the results cannot be read."""
-    from opsim.cli.motion_files import overwritten
-    from opsim.results import variants_in
+    from opsim.cli.results_files import over_results
+    from opsim.results import lacking_rows, variants_in
 
     held = variants_in(results)
     wrong: list[str] = []
@@ -53,13 +53,15 @@ def asked(
         wrong.append(f"{out}: found the ending {out.suffix!r}, expected one of {', '.join(ENDINGS)}; or say --format")
     wrong += _strange(form, options)
     variants = _variants(held, scenarios, wrong)
-    replications = _replications(held, variants, said, form, wrong)
+    gone = [] if options["figures"] else [words for name in variants if (words := lacking_rows(held[name]))]
+    wrong += gone
+    replications = () if gone else _replications(held, variants, said, form, wrong)
     if form == BVH:
         wrong += _one_performance(variants, replications, options)
     if options["figures"] and said is not None:
         wrong.append("--figures are of all replications: leave --replication out")
     wrong += _monday(options["date"])
-    wrong += overwritten(out, result=[file for result in held.values() for file in _read(result)])
+    wrong += over_results(out, held)
     if out.is_dir():
         wrong.append(f"{out}: found a folder, expected a file to write")
     if wrong:
@@ -138,11 +140,3 @@ def _one_performance(variants: list[str], replications: tuple[int, ...], options
     elif ways == ["at"] and options["k"] is not None:
         wrong.append("--k is for --task and --walk: --at says which by its time")
     return wrong
-
-
-def _read(result: Any) -> list[Path]:
-    """The files that a variant's results are."""
-    from opsim.study.folder import MANIFEST, RESOLVED
-
-    named = (result.folder / name for name in (MANIFEST, RESOLVED, "summary.json", "finished.json"))
-    return [result.kpis_file, *named, *result.events_files]

@@ -15,8 +15,8 @@ def export_bvh(asked: Asked) -> Told:
     """Write it. Raises ValueError where there is none such, or where it has no body."""
     from emulator.recordings.bvh_write import write_bvh
     from emulator.recordings.take import Take
-    from opsim.export.when import said
     from opsim.study.reopened import reopened
+    from opsim.week_clock import clock_words
     from opsim.whole import whole_file
 
     (result,) = asked.variants.values()
@@ -29,7 +29,7 @@ def export_bvh(asked: Asked) -> Told:
     take = Take(skeleton.names, skeleton.parents, positions_m, fps, worker=worker, trial=f"k{which.k}")
     with whole_file(asked.out) as temporary:
         write_bvh(take, temporary)
-    begins = said(run.plan.start_s + start_s)
+    begins = clock_words(start_s, run.plan.start_s)
     plain = {
         "out": str(asked.out),
         "worker": worker,

@@ -8,8 +8,6 @@ from typing import Any
 
 from opsim.report.staged import Card
 
-PEOPLE = ("new", "recorded")
-
 
 @dataclass(frozen=True)
 class Beside:

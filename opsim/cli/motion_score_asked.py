@@ -20,7 +20,6 @@ ANGLES = (
     *("owas_back", "owas_twist", "owas_knee"),
 )
 LENGTHS = ("across_m", "outside_m")
-MOST_DRAWN = 500
 
 
 @dataclass(frozen=True)

@@ -58,10 +58,11 @@ def draw_replay(wanted: Wanted) -> Drawn:
 
     lean()
     parts: list[Any] = []
+    first = next(iter(wanted.runs.values()))
     notes = notes_of({name: run.result.summary for name, run in wanted.runs.items()}, wanted.replication)
     for name, run in wanted.runs.items():
         with mistakes(), progress(f"draw {name}") as report:
-            parts.append(_part(run, wanted, report))
+            parts.append(_part(run, wanted, report, like=first))
     title = str(next(iter(wanted.runs.values())).result.summary["scenario"])
     low_s, high_s = parts[0][0]["low_s"], max(meta["high_s"] for meta, _ in parts)
     with mistakes(), whole_file(wanted.out) as unfinished:
@@ -71,21 +72,22 @@ def draw_replay(wanted: Wanted) -> Drawn:
     return Drawn(wanted, low_s, high_s, size)
 
 
-def _part(run: Any, wanted: Wanted, report: Callable[..., None]) -> tuple[dict[str, Any], bytes]:
-    """One variant as the page reads it."""
+def _part(run: Any, wanted: Wanted, report: Callable[..., None], like: Any) -> tuple[dict[str, Any], bytes]:
+    """One variant as the page reads it; benches face as in another one."""
     from opsim.one_thread import one_blas_thread
     from opsim.viewer.packed import packed
     from opsim.viewer.stage import scene_of
 
     with one_blas_thread():
-        part = packed(scene_of(run, wanted.replication, wanted.window_s, lambda done, total: report(done, total + 1)))
+        told = lambda done, total: report(done, total + 1)  # noqa: E731
+        part = packed(scene_of(run, wanted.replication, wanted.window_s, told, like=like))
     report(1, 1)
     return part
 
 
 def too_large(size: int, low_s: float, high_s: float, at_start_s: float) -> str:
     """What to say of a page of that many bytes: how many hours a page that opens quickly has room for."""
-    from opsim.cli.view_window import clock_words
+    from opsim.week_clock import clock_words
 
     room_s = (high_s - low_s) * QUICK_BYTES / size
     end_s = low_s + max(room_s // 900 * 900, min(room_s, 60.0))

@@ -28,6 +28,7 @@ def command(folder: Path, names: tuple[str, ...], out: Path | None, svg: Path | 
         beside, chosen = _variants(folder, names)
         paths = _paths(chosen, out)
         folders = None if svg is None else {name: svg / name if len(chosen) > 1 else svg for name in chosen}
+        _check(beside, chosen, paths, folders or {})
         if svg is not None:
             from opsim.report.extras import need_matplotlib
 
@@ -75,6 +76,19 @@ def _paths(chosen: dict[str, Any], out: Path | None) -> dict[str, Path]:
         names = ", ".join(chosen)
         raise ValueError(f"-o {out} is for one report, and there are {len(chosen)}: {names}; --scenario says which")
     return dict.fromkeys(chosen, out)
+
+
+def _check(beside: dict[str, Any], chosen: dict[str, Any], paths: dict[str, Path], folders: dict[str, Path]) -> None:
+    """Raises ValueError with all that is wrong with files to write and rows to read. Where no rows are, none are."""
+    from opsim.cli.motion_files import wrong_folder
+    from opsim.cli.results_files import wrong_page
+    from opsim.results import lacking_rows
+
+    wrong = [words for path in paths.values() for words in wrong_page(path, beside)]
+    wrong += [words for folder in folders.values() for each in (folder.parent, folder) for words in wrong_folder(each)]
+    wrong += [words for result in chosen.values() if result.events_files and (words := lacking_rows(result))]
+    if wrong:
+        raise ValueError("\n".join(dict.fromkeys(wrong)))
 
 
 def _as_json(name: str, path: Path, drawn: list[Path] | None) -> dict[str, Any]:

@@ -82,15 +82,14 @@ def as_file(results: Any, query: str, out: Path, as_json: bool) -> None:
     """All rows into a file."""
     from opsim.cli.console import print_json, printable
     from opsim.cli.export_told import size
-    from opsim.cli.motion_files import overwritten
+    from opsim.cli.results_files import over_results
     from opsim.export.rows import CSV, PARQUET
     from opsim.export.sql import write_answer
 
     form = {".csv": CSV, ".parquet": PARQUET}.get(out.suffix.lower())
     if form is None:
         raise ValueError(f"{out}: found the ending {out.suffix!r}, expected .csv or .parquet")
-    read = [file for result in results.values() for file in (result.kpis_file, *result.events_files)]
-    if wrong := overwritten(out, result=read):
+    if wrong := over_results(out, results):
         raise ValueError("\n".join(wrong))
     n = write_answer(results, query, out, form)
     if as_json:

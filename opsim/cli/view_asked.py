@@ -25,7 +25,7 @@ class Asked:
         """What to show of the variants in ``folder``. Raises ValueError with every mistake, a line each."""
         from opsim.study.reopened import reopened
 
-        wrong = [*wrong_names(self.names, results, str(folder)), *wrong_file(self.out)]
+        wrong = [*wrong_names(self.names, results, str(folder)), *wrong_file(self.out, results)]
         names = [name for name in dict.fromkeys(self.names) if name in results] or [usual(results)]
         runs, window = {}, None
         for name in names:
@@ -75,22 +75,19 @@ def wrong_names(names: Sequence[str], variants: Mapping[str, Any], where: str) -
     return wrong
 
 
-def wrong_file(out: Path | None) -> list[str]:
-    """What keeps the page from being written."""
-    from opsim.cli.motion_files import ready
+def wrong_file(out: Path | None, held: Mapping[str, Any]) -> list[str]:
+    """What keeps the page from being written; held : results that it is not to lie over."""
+    from opsim.cli.results_files import wrong_page
 
-    try:
-        if out is not None:
-            ready(out, ".html")
-    except ValueError as error:
-        return [str(error)]
-    return []
+    return [] if out is None else wrong_page(out, held)
 
 
 def _rows(result: Any, replication: int) -> list[str]:
+    from opsim.results import lacking_rows
+
+    if gone := lacking_rows(result):
+        return [gone]
     n = len(result.events_files)
-    if not n:
-        return [f"{result.folder}: no rows of events here, expected events/replication_00000.parquet; run it again"]
     if replication < n:
         return []
     return [f"--replication: found {replication}, {result.folder} holds {f'0 to {n - 1}' if n > 1 else 'only 0'}"]

@@ -22,7 +22,7 @@ def run_first(file: str, asked: Asked) -> tuple[Path, Asked, list[str]]:
 
     known = read_scenarios(file)
     names = tuple(name for name in asked.names if name in known) or (usual(known),)
-    wrong = [*wrong_names(asked.names, known, file), *wrong_file(asked.out)]
+    wrong = [*wrong_names(asked.names, known, file), *wrong_file(asked.out, {})]
     try:
         stretch(asked, [known[name].scenario.run for name in names])
     except ValueError as error:

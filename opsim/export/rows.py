@@ -20,9 +20,11 @@ def write_rows(files: Files, path: Path, form: str, clocks: Mapping[str, RunCloc
 
     form   : ``PARQUET``, in which names stay as they are, or ``CSV``, in which none is taken for a formula
     clocks : of each variant, where the rows are to have the times of the calendar too (UTC), as start and end
-    Raises OSError.
+    Raises OSError, ValueError where there are no files.
     """
     parts = [_variant(name, some, None if clocks is None else clocks[name]) for name, some in files.items() if some]
+    if not parts:
+        raise ValueError(f"{path}: not written; no rows of events are there to write")
     return _copied(" UNION ALL BY NAME ".join(parts), path, form)
 
 

@@ -14,10 +14,13 @@ from opsim.export.sql_tables import TABLES, Results, Table, files_of, fill
 from opsim.log import CAUSES, KINDS
 from opsim.log_store import ROW_GROUP, plain_errors, quoted
 from opsim.problems import nearest
+from opsim.results import lacking_rows
 from opsim.whole import whole_file
 
 _SAME_ANSWER: dict[str, Any] = {"threads": 1, "preserve_insertion_order": True}
 """Sums of several threads differ in their last digits from one time to the next."""
+_GUESS = re.compile(r"\n(Did you mean|Candidate bindings:) [^\n]*")
+"""DuckDB's own nearest name, which may be of a table that nobody here knows."""
 _ABOUT_TABLES = ("show", "describe", "information_schema", "duckdb_", "sqlite_master")
 
 
@@ -31,13 +34,14 @@ def asked(results: Results, query: str, writes: Path | None = None) -> Iterator[
 
     NOTE: a file that may be read may be written as well. What keeps the results safe is that a query is one SELECT, and
     that it is bound below DESCRIBE first, as DuckDB changes nothing there: WITH x AS (COPY ...) is called a SELECT too.
-    Raises WrongQuery for what is no single SELECT.
+    Raises WrongQuery for what is no single SELECT, or asks for rows that are gone; OSError for a broken file.
     """
     import duckdb
 
     with duckdb.connect(":memory:", config=_SAME_ANSWER | {"python_enable_replacements": False}) as connection:
         _one_select(connection, query)
         tables = _named(query)
+        _with_rows(query, results)
         allowed = [file for table in tables for result in results.values() for file in files_of(table, result)]
         allowed += [] if writes is None else [str(writes.resolve())]
         connection.execute(f"SET allowed_paths = [{', '.join(map(quoted, allowed))}]")
@@ -109,6 +113,13 @@ def _named(query: str) -> list[Table]:
     return [table for table in TABLES if every or table.name in words]
 
 
+def _with_rows(query: str, results: Results) -> None:
+    """Raises WrongQuery where events are asked for and some are gone: figures of the others would be taken for all."""
+    gone = [words for result in results.values() if (words := lacking_rows(result))]
+    if gone and "events" in query.casefold():
+        raise WrongQuery("\n".join(gone))
+
+
 def _columns(connection: Any, query: str) -> list[tuple[str, str]]:
     """(name, type) of what a query gives; nothing is computed."""
     return [(name, kind) for name, kind, *_ in connection.execute(f"DESCRIBE\n{_bare(query)}\n").fetchall()]
@@ -153,4 +164,4 @@ def _said(words: str, tables: Sequence[Table]) -> str:
         return f"{words}\ntext stands in single quotes: '{missing[1]}'"
     known = [column for table in tables for column, *_ in table.columns]
     near = nearest(missing[1], [*known, *(table.name for table in TABLES)])
-    return words if near is None else f"{words}\nthe nearest name: {near}"
+    return words if near is None else f"{_GUESS.sub('', words)}\nthe nearest name: {near}"

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from opsim.log_store import quoted
+from opsim.log_store import plain_errors, quoted
 from opsim.results import Result
 
 Results = Mapping[str, Result]
@@ -156,9 +157,12 @@ EXAMPLES = (
 
 
 def fill(connection: Any, table: Table, results: Results) -> None:
-    """Make a table of a connection: a view of files where it is read from them, else a table with its rows."""
+    """Make a table of a connection: a view of files where it is read from them, else a table with its rows.
+
+    Raises OSError that names a file which is gone or broken.
+    """
     if table.rows is None:
-        connection.execute(f"CREATE VIEW {table.name} AS {_view(table, results)}")
+        _fill_view(connection, table, results)
         return
     columns = ", ".join(f'"{name}" {kind}' for name, kind, _ in table.columns)
     connection.execute(f"CREATE TABLE {table.name} ({columns})")
@@ -173,12 +177,29 @@ def files_of(table: Table, result: Result) -> list[str]:
     return [str(path.resolve()) for path in (result.events_files if table.name == "events" else [result.kpis_file])]
 
 
+def _fill_view(connection: Any, table: Table, results: Results) -> None:
+    import duckdb
+
+    try:
+        connection.execute(f"CREATE VIEW {table.name} AS {_view(table, results)}")
+    except duckdb.Error:  # one by one: so it is said which file cannot be read
+        for file in (file for result in results.values() for file in files_of(table, result)):
+            with plain_errors(Path(file)):
+                connection.execute(f"DESCRIBE SELECT {_columns(table)} FROM read_parquet({quoted(file)})")
+        raise
+
+
 def _view(table: Table, results: Results) -> str:
     listed = {name: files_of(table, result) for name, result in results.items()}
-    columns = ", ".join(f'"{name}"' for name, *_ in table.columns[1:])
     parts = [
-        f"SELECT {quoted(name)} AS variant, {columns} FROM read_parquet([{', '.join(map(quoted, files))}])"
+        f"SELECT {quoted(name)} AS variant, {_columns(table)} FROM read_parquet([{', '.join(map(quoted, files))}])"
         for name, files in listed.items()
         if files
     ]
-    return " UNION ALL ".join(parts)
+    nothing = ", ".join(f'NULL::{kind} AS "{name}"' for name, kind, _ in table.columns)
+    return " UNION ALL ".join(parts) or f"SELECT {nothing} WHERE false"
+
+
+def _columns(table: Table) -> str:
+    """Those that files have: all but the variant."""
+    return ", ".join(f'"{name}"' for name, *_ in table.columns[1:])

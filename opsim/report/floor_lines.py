@@ -89,6 +89,7 @@ def rounded(corners: Sequence[Point], most: float = 8.0) -> str:
 
 
 def _towards(start: Point, end: Point, most: float) -> Point:
+    """So far on the way, but at most half of it."""
     long = hypot(end[0] - start[0], end[1] - start[1])
     part = min(most / long, 0.5) if long else 0.0
     return start[0] + (end[0] - start[0]) * part, start[1] + (end[1] - start[1]) * part

@@ -8,6 +8,7 @@ from html import escape
 from itertools import combinations, pairwise
 from math import floor, hypot, log10
 
+from opsim.report.floor_lines import rounded
 from opsim.report.layout_lanes import Box, Lanes, Point
 from opsim.report.palette import ACCENT, INK, MUTED
 
@@ -133,25 +134,9 @@ def _lines(lines: Sequence[Line], ways: Sequence[list[Point]], most: float) -> I
         title = f"{line.start}, {line.end}: {line.trips_per_h:.1f} trips an hour"
         opacity = 0.8 if line.driven else 0.35 + 0.3 * min(1.0, wide / 6)
         yield (
-            f'<path d="{_rounded(corners)}" fill="none" stroke="{colour}" stroke-width="{wide:.1f}" '
+            f'<path d="{rounded(corners, most=9.0)}" fill="none" stroke="{colour}" stroke-width="{wide:.1f}" '
             f'stroke-opacity="{opacity:.2f}" stroke-linejoin="round"{dash}><title>{escape(title)}</title></path>'
         )
-
-
-def _rounded(corners: Sequence[Point], most: float = 9.0) -> str:
-    """The ``d`` of a path through corners, each a little rounded."""
-    drawn = "M{:.1f} {:.1f}".format(*corners[0])
-    for a, b, c in zip(corners, corners[1:], corners[2:]):
-        before, after = (_towards(b, other, most) for other in (a, c))
-        drawn += "L{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}".format(*before, *b, *after)
-    return drawn + "L{:.1f} {:.1f}".format(*corners[-1])
-
-
-def _towards(start: Point, end: Point, most: float) -> Point:
-    """So far on the way, but at most half of it."""
-    long = hypot(end[0] - start[0], end[1] - start[1])
-    part = min(most / long, 0.5) if long else 0.0
-    return start[0] + (end[0] - start[0]) * part, start[1] + (end[1] - start[1]) * part
 
 
 def _numbers(lines: Sequence[Line], ways: Sequence[list[Point]], marks: Sequence[Box]) -> Iterator[str]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from opsim.results import Result
+from opsim.results import Result, lacking_rows, read_object
 from opsim.study.folder import MANIFEST, RESOLVED
 from opsim.study.manifest import digest, manifest_of
 
@@ -38,6 +37,8 @@ class Reopened:
         """The rows of one replication. Raises ValueError where the run has none such, OSError where it is broken."""
         from opsim.log_store import read_events
 
+        if gone := lacking_rows(self.result):
+            raise ValueError(gone)
         files = self.result.events_files
         if not 0 <= replication < len(files):
             raise ValueError(f"replication {replication}: {self.result.folder} holds 0 to {len(files) - 1}")
@@ -69,10 +70,7 @@ def reopened(folder: Path) -> Reopened:
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
-    manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    if not isinstance(manifest, dict):
-        raise ValueError(f"{folder / MANIFEST}: not the manifest of a run")
-    return manifest
+    return read_object(folder / MANIFEST, "the manifest of a run")
 
 
 def _changed(held: dict[str, Any], now: dict[str, Any]) -> list[str]:

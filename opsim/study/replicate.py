@@ -12,6 +12,7 @@ from opsim.kpi.locked import locked
 from opsim.log import EventLog, names_of
 from opsim.log_store import one_database
 from opsim.plan import Plan
+from opsim.results import events_name
 from opsim.study.pool import cores, pays, pooled
 from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned
 
@@ -23,7 +24,7 @@ LOADING_S = 3.0
 
 def events_file(folder: Path, replication: int) -> Path:
     """Where the rows of a replication are."""
-    return folder / "events" / f"replication_{replication:05d}.parquet"
+    return folder / "events" / events_name(replication)
 
 
 MakePlan = Callable[[], Plan]

@@ -7,12 +7,11 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BeforeValidator, WithJsonSchema
 
-from opsim.clock import DAY_S, DAYS
+from opsim.clock import DAY_S, DAYS, LONG_DAYS
 from opsim.problems import nearest, shown
 from opsim.scenario.fields import plain_error
 
-_WORDS = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
-_BY_WORD = {word.casefold(): short for short, long in zip(DAYS, _WORDS) for word in (short, long)}
+_BY_WORD = {word.casefold(): short for short, long in zip(DAYS, LONG_DAYS) for word in (short, long)}
 _CLOCK = re.compile(r"\s*([0-9]{1,2}):([0-9]{2})(?::([0-9]{2}))?\s*")
 _SPOKEN = re.compile(r"\s*([0-9]{1,2})(?:[:.]([0-9]{2}))?\s*([ap])\.?m\.?\s*", re.IGNORECASE)
 _SPAN = re.compile(r"\s*([A-Za-z]+)\s*(?:-|\u2013|to)\s*([A-Za-z]+)\s*")
@@ -52,7 +51,7 @@ def _as_clock(value: object) -> str:
 def _day(value: object) -> str:
     day = _BY_WORD.get(value.strip().casefold()) if isinstance(value, str) else None
     if day is None:
-        near = nearest(value, [*DAYS, *_WORDS]) if isinstance(value, str) else None
+        near = nearest(value, [*DAYS, *LONG_DAYS]) if isinstance(value, str) else None
         hint = f"did you mean {shown(_BY_WORD[near.casefold()])}?" if near else f"days: {', '.join(DAYS)}"
         raise plain_error(f"expected a day of the week, found {shown(value)}", hint)
     return day
@@ -86,7 +85,7 @@ def _as_list(value: object) -> str:
 
 
 _TEXT = {"type": "string", "pattern": r"^\s*([01]?[0-9]|2[0-4]):[0-5][0-9](:[0-5][0-9])?\s*$", "examples": ["06:00"]}
-_LIST = {"type": "array", "items": {"enum": [*DAYS, *_WORDS]}, "minItems": 1}
+_LIST = {"type": "array", "items": {"enum": [*DAYS, *LONG_DAYS]}, "minItems": 1}
 
 Clock = Annotated[float, BeforeValidator(clock_s), WithJsonSchema(_TEXT)]
 Days = Annotated[

@@ -7,12 +7,12 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
-from opsim.clock import DAYS
+from opsim.clock import DAYS, LONG_DAYS
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Seconds, SecondsOrZero, Whole, plain_error
 from opsim.scenario.schema.base import Block
 
-_DAY_WORDS = {*DAYS, "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"}
+_DAY_WORDS = {*DAYS, *LONG_DAYS}
 
 
 def _day_and_time(value: object) -> object:

@@ -1,4 +1,5 @@
 import json
+import shutil
 import sqlite3
 from contextlib import closing
 
@@ -138,6 +139,8 @@ def test_a_walk_goes_as_far_as_it_was_and_takes_as_long(run, tmp_path):
         ),
         (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "Mon 06:00"), "outside the run"),
         (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "soon"), "cannot read 'soon'"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "99:15"), "--at: cannot read '99:15'"),
+        (("-o", "x.bvh", "--scenario", "base", "--worker", "ana", "--at", "Tus 6:15"), "did you mean 'Tue'?"),
     ],
 )
 def test_mistakes_are_told_in_words_and_nothing_is_written(words, says, tmp_path, monkeypatch):
@@ -145,6 +148,20 @@ def test_mistakes_are_told_in_words_and_nothing_is_written(words, says, tmp_path
     code, _, told = opsim("export", results(), *words)
     assert code == 2 and says in told
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("form", ["csv", "parquet", "jsonocel", "sqlite"])
+def test_rows_that_are_gone_are_missed_in_one_sentence_and_figures_are_still_there(form, tmp_path):
+    own = shutil.copytree(results(), tmp_path / "own")
+    shutil.rmtree(own / "base" / "events")
+    (own / "near" / "events" / "replication_00000.parquet").unlink()
+    code, _, told = opsim("export", own, "-o", tmp_path / f"x.{form}", "--replication", "0")
+    assert code == 2 and told.splitlines() == [
+        f"{own / 'base'}: no rows of events here, expected events/replication_00000.parquet; run it again",
+        f"{own / 'near' / 'events'}: found no rows of replication 0, expected 0 to 1; run it again",
+    ]
+    assert not (tmp_path / f"x.{form}").exists()
+    assert opsim("export", own, "-o", tmp_path / "figures.csv", "--figures")[0] == 0
 
 
 def test_mistakes_are_told_all_at_once(tmp_path):

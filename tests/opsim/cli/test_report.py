@@ -88,6 +88,46 @@ def test_mistakes_are_said_in_words(results, words, said):
     assert code == 2 and said in complaint
 
 
+@pytest.mark.parametrize(
+    ("out", "said"),
+    [
+        ("alone/kpis.parquet", "found the ending '.parquet', expected .html"),
+        ("alone/summary.json", "found the ending '.json', expected .html"),
+        ("alone/scenario.resolved.yaml", "found the ending '.yaml', expected .html"),
+        ("events.html", "found the result that is read, expected another file to write"),
+        ("folder.html", "found a folder, expected the name of a file"),
+    ],
+)
+def test_a_report_is_not_written_over_the_results(results, out, said):
+    (results / "folder.html").mkdir()
+    (results / "events.html").symlink_to(results / "together" / "events" / "replication_00001.parquet")
+    before = {path: path.read_bytes() for path in results.rglob("*") if path.is_file()}
+    code, _, complaint = opsim("report", results, "--scenario", "alone", "-o", results / out)
+    assert code == 2 and f"{results / out}: {said}" in complaint
+    assert {path: path.read_bytes() for path in results.rglob("*") if path.is_file()} == before
+
+
+def test_figures_are_not_written_into_a_file(results, tmp_path):
+    (tmp_path / "svg").write_text("mine")
+    for names in (("--scenario", "alone"), ()):
+        code, _, complaint = opsim("report", results, *names, "--svg", tmp_path / "svg")
+        assert code == 2 and f"{tmp_path / 'svg'}: found a file, expected a folder to write into" in complaint
+    assert (tmp_path / "svg").read_text() == "mine"
+
+
+def test_a_replication_that_is_gone_is_not_passed_over(results):
+    (results / "alone" / "events" / "replication_00000.parquet").unlink()
+    code, _, complaint = opsim("report", results, "--scenario", "alone")
+    assert code == 2 and "found no rows of replication 0, expected 0 to 1; run it again" in complaint
+
+
+def test_a_broken_manifest_is_named(results):
+    (results / "alone" / "manifest.json").write_text("{\n")
+    for verb in ("report", "view"):
+        code, _, complaint = opsim(verb, results, "--scenario", "alone")
+        assert code == 2 and f"{results / 'alone' / 'manifest.json'}: found no JSON" in complaint
+
+
 def test_what_is_no_run_is_said_to_be_none(tmp_path):
     code, _, complaint = opsim("report", tmp_path)
     assert code == 2 and "no results here" in complaint

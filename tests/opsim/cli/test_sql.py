@@ -1,6 +1,9 @@
 import csv
 import io
 import json
+import shutil
+
+import pytest
 
 from opsim.export.sql_tables import EXAMPLES, TABLES
 from tests.opsim.cli.calls import opsim
@@ -64,3 +67,41 @@ def test_mistakes_are_told_in_words_with_exit_code_2(tmp_path):
 def test_text_in_an_answer_steers_no_terminal():
     code, shown, _ = opsim("sql", results(), "SELECT chr(27) || '[31mred' AS x, '[bold]no markup[/bold]' AS y")
     assert code == 0 and "\x1b" not in shown and "[bold]no markup[/bold]" in shown
+
+
+@pytest.fixture
+def own(tmp_path):
+    """The results in a folder of one's own."""
+    return shutil.copytree(results(), tmp_path / "own")
+
+
+def test_events_that_are_gone_are_asked_in_vain_and_all_else_is_answered(own):
+    shutil.rmtree(own / "base" / "events")
+    code, shown, told = opsim("sql", own, "SELECT count(*) FROM events")
+    assert code == 2 and not shown and f"{own / 'base'}: no rows of events here" in told
+    assert opsim("sql", own, "SELECT count(*) FROM kpis")[0] == 0 == opsim("sql", own, "SHOW TABLES")[0]
+    assert opsim("sql", own, "SELECT count(*) FROM events", "--scenario", "near")[0] == 0
+    (own / "near" / "events" / "replication_00000.parquet").unlink()
+    code, _, told = opsim("sql", own, "SELECT count(*) FROM events", "--scenario", "near")
+    assert code == 2 and "found no rows of replication 0, expected 0 to 1; run it again" in told
+
+
+@pytest.mark.parametrize("file", ["kpis.parquet", *(f"events/replication_0000{n}.parquet" for n in (0, 1))])
+def test_a_file_that_is_cut_off_is_named(own, file):
+    cut = own / "base" / file
+    cut.write_bytes(cut.read_bytes()[:300])
+    code, shown, told = opsim("sql", own, f"SELECT count(*) FROM {'kpis' if 'kpis' in file else 'events'}")
+    assert code == 2 and not shown and str(cut) in told
+
+
+def test_the_tables_of_a_run_without_any_events_are_still_described(own):
+    for name in ("base", "near"):
+        shutil.rmtree(own / name / "events")
+    query = "SELECT count(*) AS n FROM duckdb_columns() WHERE table_name LIKE 'event_'"
+    code, shown, _ = opsim("sql", own, query, "--json")
+    assert code == 0 and json.loads(shown)["rows"] == [[len(TABLES[0].columns)]]
+
+
+def test_a_table_that_is_not_there_has_one_nearest_name():
+    _, _, told = opsim("sql", results(), "SELECT * FROM kpsi")
+    assert "the nearest name: kpis" in told and "Did you mean" not in told

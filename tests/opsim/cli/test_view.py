@@ -135,6 +135,12 @@ def test_a_run_without_rows_says_so(results):
     assert code == 2 and "no rows of events here" in complaint
 
 
+def test_a_replication_that_is_gone_is_not_another_one(results):
+    (results / "alone" / "events" / "replication_00000.parquet").unlink()
+    code, _, complaint = opsim("view", results / "alone")
+    assert code == 2 and "found no rows of replication 0, expected 0 to 1; run it again" in complaint
+
+
 def test_rows_that_are_broken_are_no_traceback(results):
     (results / "alone" / "events" / "replication_00000.parquet").write_bytes(b"PAR1")
     code, _, complaint = opsim("view", results / "alone")

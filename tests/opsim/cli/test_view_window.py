@@ -1,9 +1,6 @@
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from opsim.cli.view_window import clock_words, moment_s, window_s
-from opsim.clock import DAY_S, WEEK_S
+from opsim.cli.view_window import window_s
 
 MON_6, H = 6 * 3600.0, 3600.0
 
@@ -21,27 +18,6 @@ def test_one_end_alone_leaves_the_other_where_the_run_has_it():
 def test_a_clock_without_a_day_is_the_first_such_moment_and_the_second_end_comes_after_the_first():
     assert window_s("Tue 07:30", "08:00", MON_6, 48 * H) == (25.5 * H, 26 * H)
     assert window_s("22:00", "02:00", MON_6, 48 * H) == (16 * H, 20 * H)
-
-
-def test_days_may_be_written_out_and_clocks_have_seconds():
-    assert moment_s("monday 06:00:30", MON_6) == 30.0
-
-
-def test_a_clock_before_the_start_is_that_of_the_next_week():
-    assert moment_s("Mon 05:00", MON_6) == WEEK_S - H
-
-
-@given(st.integers(0, 6 * 86400), st.integers(0, int(WEEK_S) - 1))
-def test_the_words_of_a_moment_are_read_as_that_moment(start_s, at_s):
-    assert moment_s(clock_words(at_s, start_s), start_s) == at_s
-
-
-@given(st.floats(0, WEEK_S), st.floats(0, 3 * DAY_S), st.integers(0, 23), st.integers(0, 59))
-def test_a_clock_of_the_day_is_at_most_a_day_away(start_s, after_s, hour, minute):
-    found_s = moment_s(f"{hour}:{minute:02d}", start_s, after_s)
-    assert 0 <= found_s - after_s <= DAY_S + 1e-6
-    apart_s = (start_s + found_s - hour * H - minute * 60) % DAY_S
-    assert min(apart_s, DAY_S - apart_s) < 1e-3
 
 
 @pytest.mark.parametrize(
