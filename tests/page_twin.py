@@ -121,6 +121,7 @@ class Frames:
         self.scale, self.first, self.values = own["scale"].astype(float), own["first"].astype(int), own["values"]
         self.bone_m = own["bone_m"].reshape(len(self.first) - 1, -1).astype(float)
         self.duration_s = own["duration_s"].astype(float)
+        self.own = own
 
     def channels(self, row):
         n_frames, width = self.first[row + 1] - self.first[row], self.d + 4
@@ -137,7 +138,18 @@ class Frames:
         now = b + 0.5 * u * (c - a + u * (2 * a - 5 * b + 4 * c - d + u * (3 * (b - c) + d - a)))
         directions = (self.basis[0] + now[: self.d] @ self.basis[1:]).reshape(-1, 3)
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        if "amend_first" in self.own:
+            self.amend(row, min(max(own_s, 0.0), self.duration_s[row]), directions)
         return directions, self.bone_m[row], now[self.d :]
+
+    def amend(self, row, own_s, directions):
+        bone, at_s, step = self.own["amend_bone"], self.own["amend_at_s"], float(self.own["amend_step"][0])
+        by = self.own["amend_by"].reshape(3, -1).astype(float) * step
+        for k in range(int(self.own["amend_first"][row]), int(self.own["amend_first"][row + 1]) - 1):
+            if bone[k] == bone[k + 1] and at_s[k] <= own_s < at_s[k + 1]:
+                u = (own_s - float(at_s[k])) / (float(at_s[k + 1]) - float(at_s[k]))
+                directions[bone[k]] += (1 - u) * by[:, k] + u * by[:, k + 1]
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
 
 
 class Scores:

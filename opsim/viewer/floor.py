@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, exp, hypot, inf, pi, sin
+from math import cos, inf, pi, sin
 from typing import Any
 
 import numpy as np
 
 from opsim.plan import Plan
 from opsim.plan.station import CONVEYOR, STATION, STORE
-from opsim.viewer.scene import Belt, Bench, Pile
+from opsim.viewer.facings import AHEAD_M, DEPTH_M, Point, Site, ahead_m, facings, kept
+from opsim.viewer.scene import NONE, Belt, Bench, Pile
 
-Point = tuple[float, float]
-AHEAD_M, DEPTH_M, HEIGHT_M, WIDTH_M = 0.42, 0.7, 0.9, 1.4
-"""From who stands there to the edge of a bench; how deep, high and, for one who works at it, wide it is."""
+HEIGHT_M, WIDTH_M = 0.9, 1.4
+"""How high and, for one who works at it, wide a bench is."""
 BESIDE_M, BEHIND_M = 0.8, 0.9
 """From one to the next who stands beside or behind him."""
-FAR_M, AWAY, ALIKE, ACROSS = 2.0, 0.1, 0.3, 0.2
-"""How far things shun each other; what it counts that a bench looks away from the middle of the floor, stands as the
-nearest one does, and stands across the page."""
-SIDES = (pi / 2, -pi / 2, 0.0, pi)
 
 
 @dataclass(frozen=True)
@@ -54,10 +49,13 @@ class Floor:
         return x - left_m * s - back_m * c, y + left_m * c - back_m * s
 
 
-def floor_of(plan: Plan, layout: Any) -> Floor:
-    """The places of a layout with the benches, stores and belts of a plan."""
-    points = tuple(layout.places[name] for name in plan.places)
-    facing = _facings(points, _roads(layout))
+def floor_of(plan: Plan, layout: Any, like: tuple[Plan, Any] | None = None) -> Floor:
+    """The places of a layout with the benches, stores and belts of a plan.
+
+    like : plan and layout of another variant: what stands there as it does here faces the same way
+    """
+    here = _site(plan, layout)
+    points, facing = here.points_m, facings(here, {} if like is None else kept(here, _site(*like)))
     posts: dict[int, Post] = {}
     at = [0] * len(points)
     for rank, station in enumerate(plan.stations):
@@ -69,55 +67,27 @@ def floor_of(plan: Plan, layout: Any) -> Floor:
     return Floor(points, facing, posts, tuple(at), benches, _piles(bare, plan), _belts(bare, plan))
 
 
+def drawn_as(plan: Plan) -> np.ndarray:
+    """(stations + 1,) the number of each station among benches, then piles, then belts; last: NONE, for rank NONE."""
+    kinds = [(STATION, STORE, CONVEYOR).index(station.kind) for station in plan.stations]
+    found = np.full(len(kinds) + 1, NONE)
+    found[np.argsort(kinds, kind="stable")] = np.arange(len(kinds))
+    return found
+
+
 def roads_of(layout: Any) -> tuple[tuple[float, float, float, float], ...]:
     """(x, y, x, y) of every path of a layout that has paths, in metres."""
     return tuple((*a, *b) for a, b in _roads(layout))
+
+
+def _site(plan: Plan, layout: Any) -> Site:
+    return Site(plan.places, tuple(layout.places[name] for name in plan.places), _roads(layout))
 
 
 def _roads(layout: Any) -> list[tuple[Point, Point]]:
     if layout.distance != "paths":
         return []
     return [(layout.places[step.start], layout.places[step.end]) for step in layout.path_steps]
-
-
-def _facings(points: Sequence[Point], roads: Sequence[tuple[Point, Point]]) -> tuple[float, ...]:
-    """The way one looks at each place: to where least stands, rather outwards, and rather as the neighbour does."""
-    middle = np.mean(np.array(points), axis=0)
-    found: list[float] = []
-    for rank, point in enumerate(points):
-        others = [other for other in points if other != point]
-        stand = [_ahead(points[k], found[k]) for k in range(rank) if points[k] != point]
-        outwards = atan2(point[1] - middle[1], point[0] - middle[0])
-        nearest = min(
-            range(rank), key=lambda k: (hypot(points[k][0] - point[0], points[k][1] - point[1]), k), default=-1
-        )
-        costs = [
-            _cost(_ahead(point, side), others, stand, roads)
-            - AWAY * cos(side - outwards)
-            - (ALIKE if nearest >= 0 and found[nearest] == side else 0.0)
-            + ACROSS * abs(cos(side))
-            for side in SIDES
-        ]
-        found.append(SIDES[min(range(len(SIDES)), key=lambda k: (round(costs[k], 6), k))])
-    return tuple(found)
-
-
-def _ahead(point: Point, facing_rad: float) -> Point:
-    far = AHEAD_M + DEPTH_M / 2
-    return point[0] + far * cos(facing_rad), point[1] + far * sin(facing_rad)
-
-
-def _cost(bench: Point, others: Sequence[Point], stand: Sequence[Point], roads: Sequence[tuple[Point, Point]]) -> float:
-    near = sum(exp(-hypot(bench[0] - x, bench[1] - y) / FAR_M) for x, y in (*others, *stand))
-    return near + sum(5.0 * exp(-_from_road_m(bench, *road) / (AHEAD_M + DEPTH_M)) for road in roads)
-
-
-def _from_road_m(point: Point, a: Point, b: Point) -> float:
-    along = (b[0] - a[0], b[1] - a[1])
-    length = along[0] ** 2 + along[1] ** 2
-    share = 0.0 if length == 0 else ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / length
-    share = min(max(share, 0.0), 1.0)
-    return hypot(a[0] + share * along[0] - point[0], a[1] + share * along[1] - point[1])
 
 
 def _post(place: int, number: int, facing_rad: float) -> Post:
@@ -164,4 +134,4 @@ def _belts(floor: Floor, plan: Plan) -> tuple[Belt, ...]:
 
 
 def _front_m(floor: Floor, place: int) -> Point:
-    return _ahead(floor.points_m[place], floor.facing_rad[place])
+    return ahead_m(floor.points_m[place], floor.facing_rad[place])

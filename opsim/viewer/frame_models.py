@@ -1,7 +1,8 @@
 """Codec ``frames``: performances as postures many times a second, for walks, composites and other people's emulators.
 
 A posture's directions are a mean and a few components of all that is packed; these numbers, the way of the root and
-its heading are rounded to steps too small to see, and what is kept are their second differences.
+its heading are rounded to steps too small to see, and what is kept are their second differences. What the frames miss
+is amended.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from opsim.viewer.amends import FAR_M, amends, joined
+from opsim.viewer.amends import STEP as AMEND_STEP
 from opsim.viewer.columns import Columns
 from opsim.viewer.scene import Drawn
 from opsim.viewer.skeletons import hung, path_of, tree_of, turned, vectors_of
@@ -42,7 +45,7 @@ class Frames:
 
 def pack_frames(drawn: Drawn, skeleton: int, columns: Columns, prefix: str) -> dict[str, Any]:
     """The model's entry of the page's description; its columns are added under names that begin with ``prefix``."""
-    rate_hz, n_components = chosen(drawn)
+    rate_hz, n_components, worst_m = chosen(drawn)
     frames = frames_of(drawn, rate_hz)
     basis = basis_of(frames.directions, n_components)
     channels = np.concatenate([(frames.directions - basis[0]) @ basis[1:].T, frames.path], axis=1)
@@ -55,6 +58,8 @@ def pack_frames(drawn: Drawn, skeleton: int, columns: Columns, prefix: str) -> d
         "bone_m": ("f4", frames.bone_m),
         "duration_s": ("f4", frames.duration_s),
     }
+    if worst_m > FAR_M:
+        roles |= amended(drawn, frames, shown_channels(values, scale, frames.first), basis, rate_hz)
     return {
         "codec": "frames",
         "name": drawn.name,
@@ -97,8 +102,61 @@ def postures(some: Any, times_s: np.ndarray, parents: tuple[int, ...]) -> tuple[
     return turned(world, -yaw[..., None]), length_m, np.concatenate([root, yaw[..., None]], axis=-1)
 
 
-def chosen(drawn: Drawn) -> tuple[float, int]:
-    """(frames a second, components) that are enough: by some performances of the model, against themselves."""
+def amended(
+    drawn: Drawn, frames: Frames, channels: np.ndarray, basis: np.ndarray, rate_hz: float
+) -> dict[str, tuple[str, np.ndarray]]:
+    """Columns of what brings frames, as the page shows them from channels (F, d + 4), to where they belong."""
+    parents = tree_of(drawn.skeleton)[1]
+    found = []
+    for row in range(len(drawn)):
+        block, place = drawn.one(row)
+        here = slice(frames.first[row], frames.first[row + 1])
+        truth = _Truth(block[np.array([place])], parents, channels[here], basis, frames.bone_m[row], rate_hz)
+        found.append(amends(truth.far, truth.residual, truth.bone_m, float(frames.duration_s[row]), rate_hz))
+    knots = joined(found)
+    return {
+        "amend_first": ("u4", np.cumsum([0, *map(len, found)])),
+        "amend_bone": ("u1", knots.bone),
+        "amend_at_s": ("f4", knots.at_s),
+        "amend_by": ("i2", knots.by.T),
+        "amend_step": ("f4", np.array([AMEND_STEP])),
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class _Truth:
+    """One performance beside its frames, as the page has them."""
+
+    one: Any
+    parents: tuple[int, ...]
+    channels: np.ndarray
+    basis: np.ndarray
+    bone_m: np.ndarray
+    rate_hz: float
+
+    def residual(self, at_s: np.ndarray) -> np.ndarray:
+        """(S, B, 3) unit directions as they are, less those shown."""
+        return postures(self.one, at_s[None], self.parents)[0][0] - self._shown(at_s)[0]
+
+    def far(self, at_s: np.ndarray) -> np.ndarray:
+        """(S,) how far the worst joint is from where it belongs."""
+        own, _, path = (part[0] for part in postures(self.one, at_s[None], self.parents))
+        shown, way = self._shown(at_s)
+        meant, found = (hung(d, self.bone_m, p[:, :3], self.parents) for d, p in ((own, path), (shown, way)))
+        return np.asarray(np.linalg.norm(meant - found, axis=-1).max(axis=-1))
+
+    def _shown(self, at_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Unit directions (S, B, 3), and path (S, 4)."""
+        now = between(self.channels, at_s * self.rate_hz)
+        directions = (self.basis[0] + now[:, :-4] @ self.basis[1:]).reshape(at_s.size, -1, 3)
+        return directions / np.linalg.norm(directions, axis=-1, keepdims=True), now[:, -4:]
+
+
+def chosen(drawn: Drawn) -> tuple[float, int, float]:
+    """(frames a second, components) that are enough: by some performances of the model, against themselves.
+
+    And how far the worst joint is then from where it belongs, in metres.
+    """
     parents = tree_of(drawn.skeleton)[1]
     every = max(1, len(drawn.blocks) // (TRIED // 2))
     some = [block[np.arange(min(len(block.duration_s), 2))] for block in drawn.blocks[::every]]
@@ -116,9 +174,10 @@ def chosen(drawn: Drawn) -> tuple[float, int]:
         n_components = min(n_components, frames.directions.shape[1])
         basis = basis_of(frames.directions, n_components)
         about = basis[0] + (frames.directions - basis[0]) @ basis[1:].T @ basis[1:]
-        if np.quantile(_errors_m(frames, about, rate_hz, asked, truth, parents), SHARE) <= 1.2 * GOOD_M:
+        errors_m = _errors_m(frames, about, rate_hz, asked, truth, parents)
+        if np.quantile(errors_m, SHARE) <= 1.2 * GOOD_M:
             break
-    return rate_hz, n_components
+    return rate_hz, n_components, float(errors_m.max())
 
 
 def _errors_m(
@@ -178,6 +237,15 @@ def second_differences(channels: np.ndarray, first: np.ndarray, n_components: in
         rounded = _differences(channels, first, scale)
     parts = [rounded[begin:end].T.ravel() for begin, end in pairwise(first.tolist())]
     return np.concatenate([np.zeros(0, np.int64), *parts]), scale.astype(np.float32).astype(float)
+
+
+def shown_channels(values: np.ndarray, scale: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """(F, C) channels again, of ``second_differences``."""
+    parts = [
+        np.cumsum(np.cumsum(values[scale.size * begin : scale.size * end].reshape(scale.size, -1), axis=1), axis=1).T
+        for begin, end in pairwise(first.tolist())
+    ]
+    return np.concatenate([np.zeros((0, scale.size)), *parts]) * scale
 
 
 def _differences(channels: np.ndarray, first: np.ndarray, scale: np.ndarray) -> np.ndarray:

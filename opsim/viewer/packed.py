@@ -63,6 +63,7 @@ def _told(scene: Scene) -> dict[str, Any]:
         "station_states": [_state(name) for name in scene.station_states],
         "places": [{"name": name, "x": x, "y": y} for name, x, y in scene.places],
         "paths": [list(road) for road in scene.roads],
+        "reach": None if scene.reach_m is None else list(scene.reach_m),
         "stations": [
             {
                 "name": bench.name,

@@ -56,7 +56,7 @@ class Belt:
 class Segments:
     """What each worker does, by worker and time, (R,) each; those of worker ``w`` are rows first[w] to first[w + 1].
 
-    state, station, task, product, job : ranks, NONE where there is none
+    state, task, product, job : ranks, NONE where there is none; station : number among benches, then piles, then belts
     performance : row of ``Performed``, or NONE; from_s, to_s : own seconds of it at the start and at the end
     x_m, y_m, yaw_rad : where its own frame begins and which way it looks, or where he stands
     dx_m, dy_m : how far he is carried until the end; way : row of ``Ways``, or NONE
@@ -182,6 +182,7 @@ class Scene:
     start_s : the clock when the run begins, seconds after Monday 00:00; low_s, high_s : the window, on the run's clock
     states, station_states : names, as numbers of ``Segments.state`` and the courses of stations stand for them
     rula : (W, Q) four a second, least score in the low half of each byte and most in the high one; None: not measured
+    reach_m : west, south, east and north end of where people come, None where nobody is there
     notes : (topic, words) of what is shown otherwise than it was
     """
 
@@ -209,6 +210,7 @@ class Scene:
     stores: Courses
     moves: Moves
     rula: np.ndarray | None
+    reach_m: tuple[float, float, float, float] | None
     notes: tuple[tuple[str, str], ...]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from opsim.kpi.states import STATES, states_of_rows
 from opsim.log import REPAIR, WALK, EventLog
 from opsim.plan import Plan
-from opsim.viewer.floor import Floor
+from opsim.viewer.floor import Floor, drawn_as
 from opsim.viewer.lines import carried_along
 from opsim.viewer.played import Collected, Played, played, travels_m
 from opsim.viewer.scene import NONE, Performed, Segments
@@ -145,7 +145,8 @@ def _segments(
     first = np.searchsorted(seen.worker[rows], np.arange(len(plan.workers) + 1))
     columns: dict[str, Any] = {
         "start_s": start_s, "end_s": end_s, "state": _states(log)[seen.row],
-        **{name: log[name][seen.row] for name in ("station", "task", "product", "job")},
+        "station": drawn_as(plan)[log["station"][seen.row]],
+        **{name: log[name][seen.row] for name in ("task", "product", "job")},
         "performance": performance, "from_s": from_s, "to_s": to_s, "x_m": x + share * dx, "y_m": y + share * dy,
         "yaw_rad": yaw, "dx_m": left * dx, "dy_m": left * dy, "way": way,
     }  # fmt: skip

@@ -13,9 +13,10 @@ from opsim.plan.station import STATION
 from opsim.study.reopened import Reopened
 from opsim.viewer.floor import floor_of, roads_of
 from opsim.viewer.moves import moves
+from opsim.viewer.reach import reach_m
 from opsim.viewer.scene import Scene
 from opsim.viewer.scores import rula
-from opsim.viewer.segments import SHOWN_STATES, People, people
+from opsim.viewer.segments import SHOWN_STATES, People, is_gone, people
 from opsim.viewer.series import STATION_STATES, stations, stores
 from opsim.viewer.standing import standing
 from opsim.viewer.walked import with_walking
@@ -32,10 +33,12 @@ def scene_of(
     progress: Progress | None = None,
     *,
     scores: bool = True,
+    like: Reopened | None = None,
 ) -> Scene:
     """The scene of a replication, all of it or what lies between two times of its clock, in seconds.
 
     scores : whether RULA is looked at, which takes most of the time
+    like : another variant that is shown too: its benches and these face the same way, where nothing near differs
     Raises ValueError for a replication that is not there, times outside the run or in the wrong order, or a task whose
     model draws what is no time; OSError for rows that cannot be read.
     """
@@ -46,13 +49,14 @@ def scene_of(
     told = progress or (lambda done, total: None)
     layout = opened.loaded.scenario.layout
     told(0, steps)
-    floor, ways = floor_of(plan, layout), WayList()
+    beside = None if like is None else (like.plan, like.loaded.scenario.layout)
+    floor, ways = floor_of(plan, layout, beside), WayList()
     routes = Routes(ways_of_layout(layout), layout, [(bench.x_m, bench.y_m) for bench in floor.benches])
     walking, stand_in = with_walking(plan)
     who = people(log, walking, floor, routes, ways, low_s, high_s)
     under_way = moves(log, plan, floor, routes, ways, low_s, high_s)
     told(1, steps)
-    stands = standing(walking, replication)
+    drawn_ways, stands = ways.close(), standing(walking, replication)
     known = _known(log, who.segments.task, who.segments.performance, len(plan.tasks))
     told(2, steps)
     measured = rula(log, plan, low_s, high_s, lambda worker: told(2 + worker, steps)) if measures else None
@@ -75,13 +79,14 @@ def scene_of(
         tasks=tuple((task.name, bool(known[rank])) for rank, task in enumerate(plan.tasks)),
         workers=tuple((worker.name, worker.body.height_m) for worker in plan.workers),
         segments=who.segments,
-        ways=ways.close(),
+        ways=drawn_ways,
         performed=who.performed,
         standing=stands,
         stations=stations(log, plan, low_s, high_s),
         stores=stores(log, plan, low_s, high_s),
         moves=under_way,
         rula=measured,
+        reach_m=reach_m(who.segments, drawn_ways, who.performed, ~is_gone(who.segments.state)),
         notes=tuple(_notes(plan, who, stand_in)),
     )
 

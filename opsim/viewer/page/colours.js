@@ -8,6 +8,7 @@ export const RULA = [
   { most: 6, colour: "#EBA02A", words: "5–6" },
   { most: 7, colour: "#B0410B", words: "7" },
 ];
+const LEAST_AND_MOST = "shirt: at least, ring on the floor: at most";
 export const UNKNOWN = { colour: "#A9B0B7", words: "not known" };
 
 export const rulaClass = (score) => RULA.find(({ most }) => score <= most) || RULA[RULA.length - 1];
@@ -26,9 +27,9 @@ export function shirtsOf(world, by) {
   });
 }
 
-/** [{colour, words}]: only states that somebody is ever in. */
+/** [{colour, words}]: only states that somebody is ever in; an entry without a colour says how to read the others. */
 export function legendOf(worlds, by) {
-  if (by === "exposure") return [...RULA, UNKNOWN];
+  if (by === "exposure") return [...RULA, UNKNOWN, { words: LEAST_AND_MOST }];
   const found = new Map();
   for (const { variant, c } of worlds) {
     const seen = new Set(c.seg_state);

@@ -16,7 +16,8 @@ export class FramesModel {
       B = this.nBones;
     const frames = first[row + 1] - first[row],
       lengths = Float64Array.from(bones.subarray(row * B, (row + 1) * B));
-    return { model: this, frames, lengths, values: this.valuesOf(first[row], frames), durationS: durations[row] };
+    const values = this.valuesOf(first[row], frames);
+    return { model: this, row, frames, lengths, values, durationS: durations[row] };
   }
 
   /** Channels (d + 4) x frames, whole steps of `scale`: second differences along time undone. */
@@ -47,6 +48,20 @@ export class FramesModel {
       let sum = basis[i];
       for (let k = 0; k < d; k++) sum += channels[k] * basis[(k + 1) * width + i];
       directions[i] = sum;
+    }
+    normalise(directions, width);
+    if (this.columns.amend_first) this.amend(performance, ownS, directions, width);
+  }
+
+  /** What frames miss: the broken lines of some bones, from knot to knot. */
+  amend({ row, durationS }, ownS, directions, width) {
+    const { amend_first: first, amend_bone: bone, amend_at_s: at, amend_by: by, amend_step: step } = this.columns;
+    const now = Math.min(Math.max(ownS, 0), durationS);
+    for (let k = first[row]; k + 1 < first[row + 1]; k++) {
+      if (bone[k] !== bone[k + 1] || at[k] > now || now >= at[k + 1]) continue;
+      const u = (now - at[k]) / (at[k + 1] - at[k]);
+      for (let c = 0, i = k; c < 3; c++, i += at.length)
+        directions[3 * bone[k] + c] += step[0] * ((1 - u) * by[i] + u * by[i + 1]);
     }
     normalise(directions, width);
   }

@@ -84,12 +84,13 @@ export class Floor {
 export const colourOf = (text) => parseInt(text.slice(1), 16);
 
 /** [west, south, east, north] of everything that is drawn. */
-function boundsOf({ stations, stores, belts, places, paths }) {
+function boundsOf({ stations, stores, belts, places, paths, reach }) {
   const points = [...stations, ...stations.map((s) => s.buffer).filter(Boolean), ...stores, ...places].map(
     ({ x, y }) => [x, y],
   );
   for (const belt of belts) points.push(...belt.points);
   for (const path of paths) for (let i = 0; i < path.length; i += 2) points.push([path[i], path[i + 1]]);
+  if (reach) points.push(reach.slice(0, 2), reach.slice(2));
   if (!points.length) points.push([0, 0]);
   const xs = points.map((p) => p[0]),
     ys = points.map((p) => p[1]);

@@ -1,8 +1,13 @@
-// Names over the floor. Where they would lie on each other the less important ones are left out.
+// Names over the floor. Where they would lie on each other those of people move a little, then the less important ones
+// are left out; that of who is chosen never.
 import { Vector3 } from "three";
 
 /** So many pixels a metre must measure there for a name to be shown. */
 const SMALLEST_PX = { station: 5, store: 5, worker: 11, place: 8 };
+
+const SLACK_PX = 40; // that the name of who is chosen may be outside, and is pulled in
+/** Where names of people may go: to the right in halves of their width, down in heights of theirs. */
+const MOVES = [[0, 0], [0, -1], [0, 1], [1.1, 0], [-1.1, 0], [1.1, -1], [-1.1, -1], [0, -2], [0, 2]];
 
 export class Labels {
   constructor(layer) {
@@ -52,20 +57,27 @@ export class Labels {
     wanted.sort((a, b) => b.chosen - a.chosen || a.rank - b.rank || b.shown - a.shown || a.far - b.far);
     const taken = [...reserved];
     for (const label of wanted) {
-      label.x = Math.min(Math.max(label.x, label.width / 2 + 2), width - label.width / 2 - 2);
-      const box = [
-        label.x - label.width / 2 - 2,
-        label.y - label.height - 1,
-        label.x + label.width / 2 + 2,
-        label.y + 1,
-      ];
-      if (taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]))
-        this.hide(label);
+      const box = this.free(label, width, height, taken);
+      if (!box) this.hide(label);
       else {
         taken.push(box);
         this.show(label);
       }
     }
+  }
+
+  /** Put a name where nothing is taken, the nearer to its thing the better; its box, or null where there is no room. */
+  free(label, width, height, taken) {
+    const { x, y } = label;
+    for (const [right, down] of label.kind === "worker" ? MOVES : MOVES.slice(0, 1)) {
+      const half = label.width / 2 + 2;
+      label.x = Math.min(Math.max(x + right * half, half), width - half);
+      label.y = Math.min(Math.max(y + down * (label.height + 2), label.height + 2), height - 2);
+      const box = [label.x - half, label.y - label.height - 1, label.x + half, label.y + 1];
+      if (!taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) || label.chosen)
+        return box;
+    }
+    return null;
   }
 
   project(label, at, camera, width, height) {
@@ -75,13 +87,14 @@ export class Labels {
     const metre = (camera.projectionMatrix.elements[5] * height) / (2 * label.far);
     label.x = ((this.seen.x + 1) / 2) * width;
     label.y = ((1 - this.seen.y) / 2) * height - label.asideM * this.fromAbove * metre;
+    const slack = label.chosen ? SLACK_PX : 0;
     return (
       this.seen.z < 1 &&
       (label.chosen || metre > SMALLEST_PX[label.kind]) &&
-      label.x > 4 &&
-      label.x < width - 4 &&
-      label.y > 14 &&
-      label.y < height
+      label.x > 4 - slack &&
+      label.x < width - 4 + slack &&
+      label.y > 14 - slack &&
+      label.y < height + slack
     );
   }
 

@@ -42,9 +42,9 @@ export function fillLegends(replay) {
 }
 
 function entryOf({ colour, words }) {
-  const entry = document.createElement("li"),
-    patch = document.createElement("i");
-  patch.style.background = colour;
-  entry.append(patch, words);
+  const entry = document.createElement("li");
+  if (colour) entry.append(document.createElement("i"));
+  if (colour) entry.firstChild.style.background = colour;
+  entry.append(words);
   return entry;
 }

@@ -48,7 +48,7 @@ export class Panel {
     chip(state);
     facts([
       ["Task", now.task >= 0 ? variant.tasks[now.task].name : "none"],
-      ["Station", now.station >= 0 ? variant.stations[now.station].name : "none"],
+      ["Station", now.station >= 0 ? world.stood[now.station].name : "none"],
       [
         "Product",
         now.product >= 0 ? variant.products[now.product].name + (now.job >= 0 ? `, job ${now.job}` : "") : "none",

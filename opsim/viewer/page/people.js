@@ -87,7 +87,7 @@ export class People {
       body.waist >= 0 ? mix(mix(hips, shoulders, 0.34), point(joints, body.waist), 0.5) : mix(hips, shoulders, 0.34);
     const chest = plus(waist, minus(shoulders, waist), 0.62),
       size = length(up) / 0.5;
-    const half = { hips: length(hipWay) / 2 + 0.085 * size, shoulders: length(shoulderWay) / 2 + 0.012 * size };
+    const half = { hips: length(hipWay) / 2 + 0.097 * size, shoulders: length(shoulderWay) / 2 + 0.012 * size };
     const middle = unit(plus(left, hipLeft));
     this.piece(
       plus(hips, up, 0.02),

@@ -6,6 +6,9 @@ const WIDE_DEGREES = 36,
   LIFT = MathUtils.degToRad(42),
   TURN = MathUtils.degToRad(-68),
   MOVE_MS = 450;
+/** In a tall picture there is no width to spare for a floor that lies aslant. */
+const TALL = 0.8,
+  STRAIGHT = MathUtils.degToRad(-84);
 const HALF_TALL = Math.tan(MathUtils.degToRad(WIDE_DEGREES) / 2);
 const HIGH_M = 2.0,
   NEAREST_M = 2.2;
@@ -37,7 +40,7 @@ export class Rig {
   whole(fromAbove = false, atOnce = false) {
     const [west, south, east, north] = this.bounds,
       lift = fromAbove ? Math.PI / 2 - 0.001 : LIFT,
-      usual = fromAbove ? -Math.PI / 2 : TURN;
+      usual = fromAbove ? -Math.PI / 2 : this.camera.aspect < TALL ? STRAIGHT : TURN;
     const middle = [(west + east) / 2, (south + north) / 2, fromAbove ? 0 : 0.5];
     const [one, other] = [usual, usual + Math.PI / 2].map((turn) => this.fitting(new Vector3(...middle), lift, turn));
     const { target, far, turn } = other.far < 0.8 * one.far ? other : one;

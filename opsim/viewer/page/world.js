@@ -10,6 +10,7 @@ const A_SECOND = 4; // RULA scores
 export class World {
   constructor(variant, buffer) {
     this.variant = variant;
+    this.stood = [...variant.stations, ...variant.stores, ...variant.belts]; // what seg_station counts
     this.c = columnsOf(buffer, variant.columns);
     this.skeletons = variant.skeletons.map(skeletonOf);
     this.ways = this.waysOf();

@@ -6,7 +6,7 @@ from made_scene import opened_text, run_of, scene
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.viewer.floor import AHEAD_M, DEPTH_M, floor_of
+from opsim.viewer.floor import AHEAD_M, DEPTH_M, drawn_as, floor_of
 from opsim.viewer.stage import scene_of
 
 CORNER = """
@@ -69,3 +69,13 @@ def test_those_at_one_place_stand_beside_each_other():
 def test_stores_and_belts_have_their_places():
     assert [pile.name for pile in scene("two_shift_plant").piles] == ["frames", "wheels"]
     assert scene("forklift").benches
+
+
+def test_a_station_is_numbered_as_it_is_drawn():
+    """Benches first, then stores, then belts."""
+    for name in ("two_shift_plant", "forklift"):
+        plan, shown = run_of(name).plan, scene(name)
+        drawn = [one.name for one in (*shown.benches, *shown.piles, *shown.belts)]
+        numbers = drawn_as(plan)
+        assert [drawn[number] for number in numbers[:-1]] == [station.name for station in plan.stations]
+        assert numbers[-1] == -1

@@ -5,6 +5,8 @@ import pytest
 from made_scene import SHOWN, packed_scene, run_of, scene
 from page_twin import Twin
 
+from opsim.log import WORKER_KINDS
+from opsim.viewer.columns import unpacked_columns
 from opsim.viewer.packed import packed
 from opsim.viewer.posed import joints_m
 from opsim.viewer.stage import scene_of
@@ -15,7 +17,7 @@ def test_the_page_shows_what_the_emulators_say(name):
     """From the packed columns alone, at random times of random people: within 2 mm at every joint, mostly far less."""
     shown, twin = scene(name), Twin(*packed_scene(name))
     rng, errors_m = np.random.default_rng(4), []
-    for _ in range(200 if name != "kitting" else 40):
+    for _ in range(200):
         worker, time_s = int(rng.integers(len(shown.workers))), float(rng.uniform(shown.low_s, shown.high_s))
         meant, found = joints_m(shown, worker, time_s), twin.joints_m(worker, time_s)
         assert (meant is None) == (found is None)
@@ -38,3 +40,26 @@ def test_what_is_told_is_plain_json_and_every_column_is_there():
     assert all(name in meta["columns"] for model in meta["models"] for name in model["columns"].values())
     assert [state["name"] for state in meta["states"]][:3] == ["work", "walk", "wait"]
     assert {model["codec"] for model in meta["models"]} == {"scores", "frames"}
+
+
+@pytest.mark.parametrize("name", ["two_shift_plant", "forklift", "walking_cell"])
+def test_a_segment_names_station_and_task_as_the_log_has_them(name):
+    """Stores and conveyors lie between the stations of a plan, not between those that the page lists."""
+    run, (meta, data) = run_of(name), packed_scene(name)
+    log, columns = run.log(), unpacked_columns(meta["columns"], data)
+    stood = [one["name"] for kind in ("stations", "stores", "belts") for one in meta[kind]]
+    tasks = [task["name"] for task in meta["tasks"]]
+    named = 0
+    for row in np.random.default_rng(5).integers(columns["seg_start_s"].size, size=200).tolist():
+        worker, at_s = np.searchsorted(columns["seg_first"], row, side="right") - 1, columns["seg_start_s"][row]
+        now = (log["worker"] == worker) & (log["start_s"] <= at_s) & (log["end_s"] > at_s)
+        at = np.flatnonzero(now & np.isin(log["kind"], WORKER_KINDS))[0]
+        meant = [_named(run.plan.stations, log["station"][at]), _named(run.plan.tasks, log["task"][at])]
+        shown = columns["seg_station"][row], columns["seg_task"][row]
+        assert [names[k] if k >= 0 else None for names, k in zip((stood, tasks), shown)] == meant
+        named += meant[0] is not None
+    assert named > 50
+
+
+def _named(ones, rank):
+    return ones[rank].name if rank >= 0 else None
