@@ -89,11 +89,16 @@ def says(watched, what):
     return watched.page.locator(f"#{what}").inner_text()
 
 
+def drawn(watched):
+    """Until the page has drawn what it was told."""
+    watched("new Promise(told => requestAnimationFrame(() => requestAnimationFrame(() => told(1))))")
+
+
 def click(watched, kind, name):
     """On the floor, where a person or a station is seen."""
     x, y = watched(f"opsimReplay.where({json.dumps(kind)}, {json.dumps(name)})")
     watched.page.mouse.click(x, y)
-    watched.page.wait_for_timeout(60)
+    drawn(watched)
 
 
 def busy_at(found, worker):
@@ -143,6 +148,7 @@ def test_it_asks_for_nothing_and_complains_of_nothing_while_it_is_used(page):
         watched.page.keyboard.press(key)
     watched("opsimReplay.select('worker', 0)")
     watched.page.keyboard.press("f")
+    drawn(watched)
     watched.page.select_option("#colour", "exposure")
     watched.page.wait_for_timeout(150)
     assert len(watched.requests) == 1 and watched.complaints == []
@@ -192,20 +198,22 @@ def test_pause_tells_the_truth_after_seeking(page):
     watched("opsimReplay.seek(1e9)")
     assert not state(watched)["playing"] and says(watched, "play") == "Play"
     button(watched, "Play").click()  # at the end: from the beginning
-    watched.page.wait_for_timeout(50)
+    drawn(watched)
     assert state(watched)["playing"] and state(watched)["t"] < 100 and says(watched, "play") == "Pause"
     watched("opsimReplay.pause()")
-    watched.page.wait_for_timeout(50)
+    drawn(watched)
     assert says(watched, "play") == "Play"
 
 
 def test_the_bar_goes_to_any_time_and_the_clock_says_it(page):
     watched = page()
     watched("(t => { t.value = 754.2; t.dispatchEvent(new Event('input')) })(document.getElementById('time'))")
-    watched.page.wait_for_timeout(60)
+    drawn(watched)
     assert state(watched)["t"] == pytest.approx(754.2) and says(watched, "clock") == "Mon 06:12:34"
     watched.page.keyboard.press("ArrowRight")
+    drawn(watched)
     watched.page.keyboard.press("PageUp")
+    drawn(watched)
     assert state(watched)["t"] == pytest.approx(695.2)
 
 
@@ -262,14 +270,17 @@ def test_a_click_on_a_station_tells_of_its_queue(page, walking):
     assert state(watched)["selected"] == {"kind": "station", "name": found.benches[0].name, "variant": 0}
     assert "Waiting in front" in says(watched, "facts") and watched.page.locator("#far").is_visible()
     watched.page.keyboard.press("Escape")
+    drawn(watched)
     assert state(watched)["selected"] is None and watched.page.locator("#chosen").is_hidden()
 
 
 def test_people_and_stations_are_chosen_without_a_mouse_too(page, walking):
     found, watched = walking[0], page()
     watched.page.select_option("#workers", label=found.workers[1][0])
+    drawn(watched)
     assert state(watched)["selected"]["name"] == found.workers[1][0]
     watched.page.select_option("#stations", label=found.benches[1].name)
+    drawn(watched)
     assert state(watched)["selected"]["name"] == found.benches[1].name
     assert watched.page.locator("#workers").input_value() == ""
 
@@ -279,6 +290,7 @@ def test_a_click_into_a_plot_goes_to_that_moment(page, walking):
     watched("opsimReplay.select('worker', 0)")
     box = watched.page.locator("#far").bounding_box()
     watched.page.mouse.click(box["x"] + box["width"] - 1.5, box["y"] + 20)
+    drawn(watched)
     assert state(watched)["t"] == pytest.approx(walking[0].high_s, abs=15)
 
 
@@ -286,6 +298,7 @@ def test_colours_say_the_state_or_the_exposure(page):
     watched = page()
     assert "work" in says(watched, "legend")
     watched.page.select_option("#colour", "exposure")
+    drawn(watched)
     assert state(watched)["by"] == "exposure" and says(watched, "legend").startswith("RULA 1–2")
     assert "not known" in says(watched, "legend")
     assert "shirt: at least" in says(watched, "legend") and "ring on the floor: at most" in says(watched, "legend")
@@ -325,12 +338,14 @@ def test_nothing_sticks_out_on_a_phone(page, name):
     watched = page(name, 390)
     watched("opsimReplay.select('worker', 0)")
     button(watched, "Details").click()
+    drawn(watched)
     out = """[...document.querySelectorAll('button, select, input, output, h1, h2, canvas, dl, table')]
         .map(e => [e.id || e.tagName, e.getBoundingClientRect()])
         .filter(([name, b]) => b.width && (b.left < 0 || b.right > innerWidth + 0.5)).map(([name]) => name)"""
     assert watched(out) == [] and watched("document.documentElement.scrollWidth") <= 390
     assert watched.page.locator("#angles").is_visible()
     button(watched, "close the details").click()
+    drawn(watched)
     assert watched.page.locator("#angles").is_hidden()
 
 
