@@ -21,7 +21,7 @@ CANNOT_BE = {
     "end of script": "</script><!--",
     "image": '"><img src=x onerror="window.harmed = 1">',
     "out of the folder": "../../x",
-    "absolute": "/tmp/x",
+    "absolute": "/etc/x",
     "drive": "C:\\x",
     "SQL": '"; DROP TABLE kpis; --',
     "formula": "=1+1",

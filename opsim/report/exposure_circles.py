@@ -150,12 +150,11 @@ def said_of(circle: Circle) -> str:
 
 def area_key(circles: Sequence[Circle], on: FloorMap) -> Iterator[str]:
     """How large so many minutes are."""
-    largest = max((one for one in circles if one.bar is not None), key=lambda one: one.radius)
-    most = largest.bar.most  # type: ignore[union-attr]
-    shown = most * min(1.0, (FOOT_PX / largest.radius) ** 2)
+    largest_px, most = max((one.radius, one.bar.most) for one in circles if one.bar is not None)
+    shown = most * min(1.0, (FOOT_PX / largest_px) ** 2)
     x, y = on.wide - 8, on.tall - FOOT_PX - 4
     for minutes in (round_below(shown), round_below(shown / 4)):
-        radius, words = largest.radius * sqrt(minutes / most), f"{minutes:g} min"
+        radius, words = largest_px * sqrt(minutes / most), f"{minutes:g} min"
         x -= LETTER * len(words)
         yield text_at(words, x, y + 4, MUTED, "start", 12)
         x -= radius + 5

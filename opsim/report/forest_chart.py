@@ -81,12 +81,11 @@ def _dots(known: Sequence[tuple[int, Dot]], kind: Kind) -> dict[str, Any]:
     of = [(row, dot) for row, dot in known if (dot.base, dot.clear) == kind]
     colour = INK if base else ACCENT if clear else MUTED
     symbol = "diamond" if base else "circle" if clear else "circle-open"
-    ends = [(dot.mean, dot.low, dot.high) if dot.low is not None else (dot.mean, dot.mean, dot.mean) for _, dot in of]
     error = {
         "type": "data",
         "symmetric": False,
-        "array": [high - mean for mean, _, high in ends],  # type: ignore[operator]
-        "arrayminus": [mean - low for mean, low, _ in ends],  # type: ignore[operator]
+        "array": [_apart(dot.mean, dot.high) for _, dot in of],
+        "arrayminus": [_apart(dot.low, dot.mean) for _, dot in of],
         "color": colour,
         "thickness": 2.4,
         "width": 5,
@@ -102,6 +101,11 @@ def _dots(known: Sequence[tuple[int, Dot]], kind: Kind) -> dict[str, Any]:
         "customdata": [f"{label(dot.name)}: {escape(dot.number, quote=False)}" for _, dot in of],
         "hovertemplate": "%{customdata}<extra></extra>",
     }
+
+
+def _apart(low: float | None, high: float | None) -> float:
+    """Nothing where one of them is not known."""
+    return 0.0 if low is None or high is None else high - low
 
 
 def _names(dots: Sequence[Dot]) -> list[dict[str, Any]]:
