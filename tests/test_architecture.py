@@ -15,7 +15,7 @@ FORBIDDEN = {
 }
 MAY_MEET_THE_EMULATOR = ("opsim/cli/", "opsim/libraries.py")
 RULES_MAY_IMPORT = {"opsim"}
-COMPILED = "opsim/ergonomics/kernels/"
+COMPILED = ("opsim/ergonomics/kernels/", "opsim/engine/fast_engine/")
 """Imported inside functions only, so numba may stand at the top there."""
 
 

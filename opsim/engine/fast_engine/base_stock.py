@@ -1,0 +1,12 @@
+"""Not there yet."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def install(build: Any) -> None:
+    """Refuses plans with this block."""
+    plan = build.plan
+    if any(s.kind == 'base_stock' for s in plan.sources):
+        raise NotImplementedError("the fast engine does not know: base_stock")

@@ -1,0 +1,28 @@
+"""A stamp of the engine's sources: what was compiled from others is never taken for theirs.
+
+numba's files on disk know of changes of the file that a function stands in, and of no other: a step that reads a field
+of a struct, or calls another step, must be compiled anew when that one changes. So the stamp stands in every type.
+"""
+
+from __future__ import annotations
+
+from hashlib import blake2b
+from os import environ
+from pathlib import Path
+
+ENGINE = Path(__file__).parents[1]
+RULES = ENGINE.parent / "rules"
+SEEN_FROM_PYTHON = ("arena.py", "table.py", "stamp.py", "__init__.py")
+"""Nothing of these is compiled."""
+
+
+def _stamp() -> str:
+    """Of names, sizes and times of all sources; of fewer, where ``OPSIM_STAMP=parts`` says so, to work on one file."""
+    fewer = environ.get("OPSIM_STAMP") == "parts"
+    folders = (ENGINE / "machine", ENGINE / "parts") if fewer else (ENGINE, RULES)
+    found = sorted(path for folder in folders for path in folder.rglob("*.py") if path.name not in SEEN_FROM_PYTHON)
+    told = [f"{path.relative_to(ENGINE.parent)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in found]
+    return blake2b("\n".join(told).encode(), digest_size=8).hexdigest()
+
+
+STAMP = _stamp()

@@ -1,0 +1,300 @@
+"""Structs of raw memory as compiled code sees them: references with named fields, lists and arrays of them.
+
+``@struct`` turns a class of annotations into a layout; a function annotated with the class gets a reference to such a
+struct. References are plain pointers: nothing is counted, nothing is checked. ``if job.worker:`` asks whether there is
+one, ``job.worker = NOTHING`` takes it away, ``is`` compares.
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Generic, TypeVar
+
+from llvmlite import ir
+from numba.core import types
+from numba.core.imputils import lower_cast, lower_getattr_generic, lower_setattr_generic
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
+from numba.extending import lower_builtin, models, overload, register_model
+
+from opsim.engine.fast_engine.machine.compiling import intrinsic
+from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD, layout_of
+from opsim.engine.fast_engine.machine.stamp import STAMP
+
+T = TypeVar("T")
+NOTHING: Any = None
+"""Where a reference leads that leads nowhere."""
+I8, I64 = ir.IntType(8), ir.IntType(64)
+POINTER = I8.as_pointer()
+SCALARS = {"int": types.int64, "float": types.float64}
+
+
+class Array(Generic[T]):
+    """Words side by side, for type checkers: ``array[i]``. There is no length."""
+
+    def __getitem__(self, item: int) -> T:
+        raise NotImplementedError
+
+    def __setitem__(self, item: int, value: T) -> None:
+        raise NotImplementedError
+
+
+class List(Array[T]):
+    """A list inside a struct, for type checkers: ``len(list)``, ``list[i]``, and the functions of ``lists``."""
+
+    def __len__(self) -> int:
+        raise NotImplementedError
+
+
+class Pointer(types.Type):
+    """To a struct, to a list inside one, or to the words of an array. ``of``: of which struct, or of what items."""
+
+    def __init__(self, of: str, kind: str = "ref"):
+        self.of, self.kind = of, kind
+        super().__init__(f"{kind}:{of}:{STAMP}")
+
+    @property
+    def key(self) -> str:
+        return self.name
+
+    def can_convert_from(self, _typingctx: Any, other: Any) -> Any:
+        """A reference to anything, and none, fit everywhere."""
+        from numba.core.typeconv import Conversion
+
+        if other == types.none or (isinstance(other, Pointer) and "Any" in (self.of, other.of)):
+            return Conversion.safe
+        return None
+
+
+def Ref(struct: str) -> Pointer:
+    """The type of references to structs of a name."""
+    return Pointer(struct)
+
+
+def struct(cls: type[T]) -> type[T]:
+    """A class of annotations: int, float, bool, another struct, List[...] or Array[...] of those."""
+    layout_of(cls)
+    return cls
+
+
+def type_of(said: str) -> Any:
+    """The compiled type that an annotation stands for."""
+    if said in SCALARS:
+        return SCALARS[said]
+    return types.int64 if said == "bool" else Ref(said)
+
+
+def _field_type(pointer: Pointer, name: str) -> Any:
+    field = LAYOUTS[pointer.of].fields.get(name) if pointer.kind == "ref" else None
+    if field is None:
+        return None
+    if field.kind in SCALARS:
+        return SCALARS[field.kind]
+    return Pointer(field.of, field.kind) if field.kind != "ref" else Ref(field.of)
+
+
+def at_byte(builder: Any, pointer: Any, byte: int, llvm_type: Any) -> Any:
+    """A pointer to something so many bytes behind another."""
+    moved = builder.gep(pointer, [ir.Constant(I64, byte)], inbounds=True) if byte else pointer
+    return builder.bitcast(moved, llvm_type.as_pointer())
+
+
+@register_model(Pointer)
+class PointerModel(models.PrimitiveModel):
+    def __init__(self, dmm: Any, fe_type: Any):
+        super().__init__(dmm, fe_type, POINTER)
+
+
+@infer_getattr
+class Fields(AttributeTemplate):
+    key = Pointer
+
+    def generic_resolve(self, pointer: Pointer, name: str) -> Any:
+        return _field_type(pointer, name)
+
+
+@lower_getattr_generic(Pointer)
+def _get_field(context: Any, builder: Any, pointer: Pointer, value: Any, name: str) -> Any:
+    field = LAYOUTS[pointer.of].fields[name]
+    if field.kind == "list":
+        return at_byte(builder, value, field.at, I8)
+    return builder.load(at_byte(builder, value, field.at, context.get_value_type(_field_type(pointer, name))))
+
+
+@lower_setattr_generic(Pointer)
+def _set_field(context: Any, builder: Any, sig: Any, args: Any, name: str) -> None:
+    pointer, given = sig.args
+    wanted = _field_type(pointer, name)
+    value = context.cast(builder, args[1], given, wanted)
+    at = LAYOUTS[pointer.of].fields[name].at
+    builder.store(value, at_byte(builder, args[0], at, context.get_value_type(wanted)))
+
+
+@lower_cast(types.none, Pointer)
+def _no_reference(_context: Any, _builder: Any, _given: Any, _wanted: Any, _value: Any) -> Any:
+    return ir.Constant(POINTER, None)
+
+
+@lower_cast(Pointer, Pointer)
+def _other_reference(_context: Any, _builder: Any, _given: Any, _wanted: Any, value: Any) -> Any:
+    return value
+
+
+@infer_global(bool)
+class Truth(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        return signature(types.boolean, args[0]) if len(args) == 1 and isinstance(args[0], Pointer) else None
+
+
+@lower_builtin(bool, Pointer)
+def _is_there(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+    return builder.icmp_unsigned("!=", args[0], ir.Constant(POINTER, None))
+
+
+@lower_builtin(operator.not_, Pointer)
+def _is_not_there(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+    return builder.icmp_unsigned("==", args[0], ir.Constant(POINTER, None))
+
+
+@infer_global(operator.not_)
+class NoTruth(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        return signature(types.boolean, args[0]) if len(args) == 1 and isinstance(args[0], Pointer) else None
+
+
+class _Same(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        both = len(args) == 2 and all(isinstance(one, Pointer) for one in args)
+        return signature(types.boolean, *args) if both else None
+
+
+def _compare(sign: str) -> Any:
+    return lambda _context, builder, _sig, args: builder.icmp_unsigned(sign, *args)
+
+
+for _operator, _sign in ((operator.is_, "=="), (operator.is_not, "!="), (operator.eq, "=="), (operator.ne, "!=")):
+    infer_global(_operator)(type("Same", (_Same,), {}))
+    lower_builtin(_operator, Pointer, Pointer)(_compare(_sign))
+
+
+@intrinsic
+def _load(_typingctx: Any, pointer: Any, index: Any) -> Any:
+    """Item ``index`` of the words that a pointer leads to."""
+    item = SCALARS.get(pointer.of) or Ref(pointer.of)
+
+    def codegen(context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        words = builder.bitcast(args[0], context.get_value_type(item).as_pointer())
+        return builder.load(builder.gep(words, [args[1]], inbounds=True))
+
+    return item(pointer, types.int64), codegen
+
+
+@intrinsic
+def _store(_typingctx: Any, pointer: Any, index: Any, value: Any) -> Any:
+    item = SCALARS.get(pointer.of) or Ref(pointer.of)
+
+    def codegen(context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        words = builder.bitcast(args[0], context.get_value_type(item).as_pointer())
+        builder.store(args[2], builder.gep(words, [args[1]], inbounds=True))
+
+    return types.void(pointer, types.int64, item), codegen
+
+
+@intrinsic
+def word(_typingctx: Any, pointer: Any, index: Any) -> Any:
+    """Word ``index`` of a struct or a list, as a whole number."""
+
+    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        words = builder.bitcast(args[0], I64.as_pointer())
+        return builder.load(builder.gep(words, [args[1]], inbounds=True))
+
+    return types.int64(pointer, types.int64), codegen
+
+
+@intrinsic
+def set_word(_typingctx: Any, pointer: Any, index: Any, value: Any) -> Any:
+    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        words = builder.bitcast(args[0], I64.as_pointer())
+        builder.store(args[2], builder.gep(words, [args[1]], inbounds=True))
+
+    return types.void(pointer, types.int64, types.int64), codegen
+
+
+@intrinsic
+def items(_typingctx: Any, pointer: Any) -> Any:
+    """The words of a list, as an array from its first item on."""
+    array = Pointer(pointer.of, "array")
+
+    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        words = builder.bitcast(args[0], I64.as_pointer())
+        first = builder.load(builder.gep(words, [ir.Constant(I64, 1)], inbounds=True))
+        data = builder.load(builder.bitcast(args[0], POINTER.as_pointer()))
+        start = builder.gep(builder.bitcast(data, I64.as_pointer()), [first])
+        return builder.bitcast(start, POINTER)
+
+    return array(pointer), codegen
+
+
+@intrinsic
+def address_of(_typingctx: Any, pointer: Any) -> Any:
+    """Where a reference leads, as a number; 0: nowhere."""
+    return types.int64(pointer), lambda _c, builder, _s, args: builder.ptrtoint(args[0], I64)
+
+
+@overload(operator.getitem)
+def _getitem(pointer, index):
+    if isinstance(pointer, Pointer) and pointer.kind == "array":
+        return lambda pointer, index: _load(pointer, index)
+    if isinstance(pointer, Pointer) and pointer.kind == "list":
+        return lambda pointer, index: _load(items(pointer), index)
+    return None
+
+
+@overload(operator.setitem)
+def _setitem(pointer, index, value):
+    if isinstance(pointer, Pointer) and pointer.kind == "array":
+        return lambda pointer, index, value: _store(pointer, index, value)
+    if isinstance(pointer, Pointer) and pointer.kind == "list":
+        return lambda pointer, index, value: _store(items(pointer), index, value)
+    return None
+
+
+@overload(len)
+def _len(pointer):
+    if isinstance(pointer, Pointer) and pointer.kind == "list":
+        return lambda pointer: word(pointer, 2)
+    return None
+
+
+def cast(struct: Any) -> Any:
+    """A compiled function that takes a reference to anything, or an address, for one to a struct."""
+    wanted = Ref(struct.__name__)
+
+    @intrinsic
+    def taken_for(_typingctx: Any, pointer: Any) -> Any:
+        def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+            return builder.inttoptr(args[0], POINTER) if isinstance(pointer, types.Integer) else args[0]
+
+        return wanted(pointer), codegen
+
+    return taken_for
+
+
+@intrinsic
+def _as_any(_typingctx: Any, address: Any) -> Any:
+    return Ref("Any")(types.int64), lambda _c, builder, _s, args: builder.inttoptr(args[0], POINTER)
+
+
+def size_of(struct: Any) -> int:
+    """Bytes of a struct, a multiple of 16."""
+    return -(-LAYOUTS[struct.__name__].size // (2 * WORD)) * 2 * WORD
+
+
+def array_at(of: str) -> Any:
+    """A compiled function that takes an address for that of an array: of ``int``, ``float`` or structs of a name."""
+    array = Pointer(of, "array")
+
+    @intrinsic
+    def taken_for(_typingctx: Any, address: Any) -> Any:
+        return array(types.int64), lambda _c, builder, _s, args: builder.inttoptr(args[0], POINTER)
+
+    return taken_for

@@ -1,0 +1,407 @@
+"""Jobs come in, move on, wait for room, and leave."""
+
+from __future__ import annotations
+
+from opsim.engine.fast_engine.machine import (
+    NOTHING,
+    address_of,
+    ask_2,
+    ask_3,
+    drop,
+    fresh,
+    give_back,
+    inlined,
+    step,
+    tell_1,
+    tell_2,
+    tell_3,
+)
+from opsim.engine.fast_engine.machine.memory import give_bytes_back
+from opsim.engine.fast_engine.parts.claims import give_up_claims, is_before, put_claim, take_claim
+from opsim.engine.fast_engine.parts.clock import INF
+from opsim.engine.fast_engine.parts.events import stir, stir_gate
+from opsim.engine.fast_engine.parts.gates import be_still, has_room, keeps_place, next_claim, want_in
+from opsim.engine.fast_engine.parts.job_blocks import JobBlocks
+from opsim.engine.fast_engine.parts.keys import is_better, keep_best, put
+from opsim.engine.fast_engine.parts.rows import job_now, log_instant, log_job
+from opsim.engine.fast_engine.parts.state import Ahead, Floor, Gate, Job, Source, Station, Worker
+from opsim.engine.fast_engine.parts.ways import aim, first_step, product_of, step_after
+from opsim.engine.fast_engine.station import fill_servers, proceed
+from opsim.engine.fast_engine.transport import bring
+from opsim.engine.fast_engine.worker import set_free
+from opsim.engine.rules import release, routing
+from opsim.log import BAD, BLOCKED, CREATE, FINISH, FULL, GATE, HELD, LOST, NO_CARD, QUEUE
+
+_new_job, _forget_job, _new_ahead = fresh(Job), give_back(Job), fresh(Ahead)
+_new_blocks = fresh(JobBlocks)
+_shortest_queue, _source_in_turn = inlined(routing.shortest_queue), inlined(release.source_in_turn)
+
+
+@step
+def create(floor: Floor, source: Source) -> Job:
+    """The next job of a source, standing at the gate of its first station."""
+    job = new_job(floor, source, product_of(floor, source, source.n_released), -1, -1, -1)
+    source.next_gate = NOTHING
+    want_in(floor, job, floor.now)
+    return job
+
+
+@step
+def new_job(floor: Floor, source: Source, rank: int, n: int, station: int, other: int) -> Job:
+    """The next job of a source (n: -1, or its n-th), of the product of a rank: on the floor, and nowhere yet.
+
+    station, other : where it comes into being, and of which job, where that is worth knowing; else -1
+    """
+    if n < 0:
+        n = source.n_released
+    product = floor.products[rank]
+    job: Job = _new_job(floor)
+    job.number, job.n, job.source = n * floor.n_sources + source.rank, n, source.rank
+    job.product, job.plan = rank, product
+    aim(job, first_step(floor, source.rank, n, product))
+    job.kind, job.cause, job.since_s = HELD, GATE, floor.now
+    job.station = floor.outside
+    job.worker = job.task = job.performance_id = job.k = job.setup_task = -1
+    job.lot, job.priority, job.due_s = product.lot, product.priority, floor.now + product.due_s
+    if floor.has_job_blocks:
+        job.block = _new_blocks(floor)
+    source.n_released = n + 1
+    _join_floor(floor, job)
+    log_instant(floor, CREATE, job, 0, station, other)
+    for i in range(len(floor.created)):
+        tell_2(floor.created[i].line, floor, floor.created[i].subject, job)
+    return job
+
+
+@inlined
+def _join_floor(floor: Floor, job: Job) -> None:
+    """The job is the last that has come."""
+    job.on_floor = 1
+    last = floor.last_job
+    job.before_on_floor = last
+    if last:
+        last.next_on_floor = job
+    else:
+        floor.first_job = job
+    floor.last_job = job
+    floor.n_jobs += 1
+
+
+@inlined
+def _part_with_floor(floor: Floor, job: Job) -> None:
+    job.on_floor = 0
+    before, after = job.before_on_floor, job.next_on_floor
+    if before:
+        before.next_on_floor = after
+    else:
+        floor.first_job = after
+    if after:
+        after.before_on_floor = before
+    else:
+        floor.last_job = before
+    floor.n_jobs -= 1
+
+
+@step
+def operation_done(floor: Floor, job: Job) -> None:
+    """All tasks at a station are done: the job leaves the floor, or blocks the server until there is room for it."""
+    station = job.station
+    if station.meter:
+        tell_1(station.meter.cycle_line, floor, station.meter)
+    ask_after(floor, job)
+
+
+@step
+def ask_after(floor: Floor, job: Job) -> None:
+    """What is asked when an operation is done; where nothing else becomes of it, the job moves on."""
+    station = job.station
+    for i in range(len(station.afters)):
+        after = station.afters[i]
+        if not ask_2(after.line, floor, after.subject, job):
+            return
+    move_on(floor, job)
+
+
+@step
+def move_on(floor: Floor, job: Job) -> None:
+    """The job wants to go where its way leads, or is finished."""
+    go_to(floor, job, job.ahead.step if job.ahead else step_after(floor, job))
+
+
+@step
+def go_to(floor: Floor, job: Job, step: int) -> None:
+    """The job wants to go to a step of its route; -1: out."""
+    if step < 0:
+        leave_station(floor, job)
+        leave_floor(floor, job, FINISH, BAD if job.bad else 0, -1, -1)
+        return
+    job_now(floor, job, BLOCKED, 0)
+    aim(job, step)
+    want_in(floor, job, floor.now)
+    station = job.station
+    if station.clear:
+        tell_2(station.clear.line, floor, station, job)
+
+
+@step
+def want_place(floor: Floor, job: Job, step: int) -> None:
+    """The job, still at its station, claims a place at a step to come; ``proceed`` is called when it has one."""
+    ahead: Ahead = _new_ahead(floor)
+    ahead.step = step
+    ahead.gate = job.plan.steps[step].gate
+    job.ahead = ahead
+    put_claim(floor, ahead.gate.claims, job, floor.now)
+    stir_gate(floor, ahead.gate)
+
+
+@step
+def admit(floor: Floor) -> None:
+    """Let jobs in as long as a claim meets room; the oldest claim first."""
+    while len(floor.stirred):
+        gate = first_gate(floor)
+        if not gate:
+            return
+        job = gate.claims[gate.next].job
+        take_claim(floor, gate.claims, gate.next)
+        if not len(gate.claims):
+            be_still(floor, gate)
+        if not job.ahead:
+            _enter(floor, job, gate)
+        elif not job.ahead.station:
+            _keep_place(floor, job, gate)
+        else:
+            kept, own = job.ahead.station, job.ahead.own
+            job.ahead = NOTHING
+            if own:  # it was never counted twice
+                kept.n_inside += 1
+            depart_for(floor, job, kept)
+
+
+@step
+def first_gate(floor: Floor) -> Gate:
+    """Where the oldest claim is that can be met, its number in ``next``; gates without one come to rest."""
+    best: Gate = floor.no_gate
+    at = 0
+    while at < len(floor.stirred):
+        gate = floor.stirred[at]
+        gate.next = next_claim(floor, gate)
+        if gate.next < 0:
+            be_still(floor, gate)
+            continue
+        if not best or is_before(gate.claims[gate.next], best.claims[best.next]):
+            best = gate
+        at += 1
+    return best
+
+
+@inlined
+def _comes_first(one: Source, other: Source) -> bool:
+    return _source_in_turn(one.n_released, one.rank) < _source_in_turn(other.n_released, other.rank)
+
+
+@step
+def release_saturated(floor: Floor) -> None:
+    """A saturated source makes jobs as long as the first station of the next one has room; of several in turn."""
+    while True:
+        able: Source = floor.no_source
+        for i in range(len(floor.saturated)):
+            source = floor.saturated[i]
+            if _next_has_room(floor, source) and (not able or _comes_first(source, able)):
+                able = source
+        if not able:
+            return
+        create(floor, able)
+        admit(floor)
+
+
+@step
+def _next_has_room(floor: Floor, source: Source) -> bool:
+    gate = source.next_gate
+    if not gate:
+        source.next_product = product_of(floor, source, source.n_released)
+        product = floor.products[source.next_product]
+        source.next_step = first_step(floor, source.rank, source.n_released, product)
+        gate = product.steps[source.next_step].gate
+        source.next_gate = gate
+    if gate.lets:
+        floor.asked_k = source.next_step
+        return has_room(gate) and ask_3(gate.lets.line, floor, gate.lets.subject, gate, source) != 0
+    return len(gate.claims) == 0 and has_room(gate)
+
+
+@step
+def turn_away(floor: Floor) -> None:
+    """Jobs still outside are lost where their source does not wait."""
+    for i in range(floor.n_gates):
+        gate = floor.gates[i]
+        at = 0
+        while at < len(gate.claims):
+            job = gate.claims[at].job
+            if job.station.rank < 0 and floor.sources[job.source].loses:
+                take_claim(floor, gate.claims, at)
+                leave_floor(floor, job, LOST, NO_CARD if job.cause == NO_CARD else FULL, -1, -1)
+            else:
+                at += 1
+
+
+@step
+def withdraw(floor: Floor, job: Job) -> None:
+    """The job no longer claims a place at its next operation, and gives back the one it may have."""
+    gate = job.ahead.gate if job.ahead else job.gate
+    give_up_claims(floor, gate.claims, job)
+    if job.ahead:
+        give_up_place(floor, job, job.ahead)
+    job.ahead = NOTHING
+
+
+@step
+def give_up_place(floor: Floor, job: Job, ahead: Ahead) -> None:
+    """The job gives back the place that is kept for it, with the cards that were taken for it."""
+    kept = ahead.station
+    ahead.station = NOTHING
+    if not kept:
+        return
+    if ahead.gate.given_up:
+        tell_2(ahead.gate.given_up.line, floor, ahead.gate.given_up.subject, job)
+    if not ahead.own:
+        kept.n_inside -= 1
+        stir(floor, kept)
+    ahead.own = 0
+
+
+@inlined
+def _told_entered(floor: Floor, gate: Gate, job: Job) -> None:
+    for i in range(len(gate.entered)):
+        tell_2(gate.entered[i].line, floor, gate.entered[i].subject, job)
+
+
+@step
+def _enter(floor: Floor, job: Job, gate: Gate) -> None:
+    """There is room for the job: the place is its own from now on."""
+    station = gate.stations[0] if gate.n_stations == 1 else _chosen(floor, gate, job)
+    station.n_inside += 1
+    _told_entered(floor, gate, job)
+    depart_for(floor, job, station)
+
+
+@step
+def _keep_place(floor: Floor, job: Job, gate: Gate) -> None:
+    """The place is kept for the job, which stays where it is and goes on there."""
+    ahead = job.ahead
+    station = gate.stations[0] if gate.n_stations == 1 else _chosen(floor, gate, job)
+    ahead.own = station is job.station and keeps_place(job)
+    ahead.station = station
+    if not ahead.own:
+        station.n_inside += 1
+    _told_entered(floor, gate, job)
+    proceed(floor, job, NOTHING)
+
+
+@step
+def _chosen(floor: Floor, gate: Gate, job: Job) -> Station:
+    """Which of several stations with room a job takes: by the gate's own rule, or where fewest jobs a server are."""
+    found = gate.stations[0]
+    floor.best_key[0] = INF
+    for i in range(gate.n_stations):
+        station = gate.stations[i]
+        if station.n_inside < station.capacity or (station is job.station and keeps_place(job)):
+            floor.key_n = 0
+            if gate.choose:
+                ask_3(gate.choose.line, floor, gate.choose.subject, station, job)
+            else:
+                key = _shortest_queue(float(station.n_inside), float(station.servers), float(station.rank))
+                put(floor, key[0])
+                put(floor, key[1])
+            if floor.best_key[0] == INF or is_better(floor):
+                found = station
+                keep_best(floor)
+    return found
+
+
+@step
+def depart_for(floor: Floor, job: Job, station: Station) -> None:
+    """The job, whose place at a station is sure, leaves where it is; or waits for who is to fetch it."""
+    before = job.station
+    if floor.has_legs and before.rank >= 0:
+        leg = floor.legs[before.rank * floor.n_stations + station.rank]
+        if leg:
+            tell_3(leg.line, floor, leg.subject, job, station)
+            return
+    job_now(floor, job, QUEUE, 0)
+    carrier: Worker = floor.no_worker
+    if before.rank >= 0:
+        if job.plan.carried:
+            carrier = job.held_by
+            job.held_by = NOTHING
+        leave_station(floor, job)
+    job.station = station
+    bring(floor, job, station, carrier)
+
+
+@step
+def leave_station(floor: Floor, job: Job) -> None:
+    """The job gives its place back; whoever waits behind moves up, and whoever wants in may."""
+    station = job.station
+    station.n_inside -= 1
+    if job.held_by:
+        worker = job.held_by
+        job.held_by = NOTHING
+        set_free(floor, worker)
+    for i in range(len(floor.left_station)):
+        told = floor.left_station[i]
+        tell_3(told.line, floor, told.subject, job, station)
+    if station.vacate:
+        tell_2(station.vacate.line, floor, station, job)
+    elif job.seat or station.has_seated:
+        leave_server(floor, station, job)
+    else:
+        station.free_servers += 1
+        if len(station.queue):
+            fill_servers(floor, station)
+    stir(floor, station)
+
+
+@step
+def leave_server(floor: Floor, station: Station, job: Job) -> None:
+    """The job gives its server back, where it is the last one on it; whoever is next in the queue moves up."""
+    if station.has_seated:
+        be_unseated(floor, station, job)
+    seat = job.seat
+    if seat:
+        job.seat = NOTHING
+        seat.n_jobs -= 1
+        if seat.n_jobs or station.serve:  # the room that was made for it goes with it
+            station.capacity -= 1
+        if seat.n_jobs:
+            return
+    station.free_servers += 1
+    if len(station.queue):
+        fill_servers(floor, station)
+
+
+@step
+def be_unseated(floor: Floor, station: Station, job: Job) -> None:
+    """The job leaves its server, which others may share (``Servers.remove``)."""
+    drop(station.seated, job)
+    if station.setups:
+        tell_2(station.setups.leaves_line, floor, station, job)
+
+
+@step
+def leave_floor(floor: Floor, job: Job, kind: int, cause: int, station: int, other: int) -> None:
+    """The job is on the floor no more, in the way that ``kind`` says; where, and for which other job, or -1."""
+    log_job(floor, job)
+    log_instant(floor, kind, job, cause, station, other)
+    _part_with_floor(floor, job)
+    for i in range(len(floor.left_floor)):
+        tell_2(floor.left_floor[i].line, floor, floor.left_floor[i].subject, job)
+    if not floor.keeps_jobs:
+        forget_job(floor, job)
+
+
+@step
+def forget_job(floor: Floor, job: Job) -> None:
+    """Nobody refers to the job any more: its memory is free."""
+    if job.visits:
+        give_bytes_back(floor.memory, address_of(job.visits), 16 * ((job.plan.n_steps + 1) >> 1))
+    _forget_job(floor, job)

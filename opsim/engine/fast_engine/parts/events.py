@@ -1,0 +1,74 @@
+"""Reports after a delay, and events that mean nothing any more."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from opsim.engine.fast_engine.machine import inlined, push
+from opsim.engine.fast_engine.parts.clock import on_grid
+from opsim.engine.fast_engine.parts.heap import new_event, push_event
+from opsim.engine.fast_engine.parts.state import Event, Floor, Gate, Station, Worker
+from opsim.engine.rules import COMPLETION
+
+NOBODYS = -1
+"""The line of an event that nothing follows: it stands where SimPy has an interruption of a process."""
+
+
+@inlined
+def wake(floor: Floor) -> None:
+    """Have this instant settled, once, after all its other events."""
+    floor.settle_pending = 1
+
+
+@inlined
+def alarm(floor: Floor, delay_s: float, kind: int, rank: int, number: int, line: int, subject: Any) -> Event:
+    """A report after a delay, which is rounded to the grid. ``cancel`` makes it nothing."""
+    event: Event = new_event(floor)
+    event.line, event.alive = line, 1
+    event.kind, event.rank, event.number = kind, rank, number
+    event.subject = subject
+    push_event(floor, floor.env_now + on_grid(delay_s), event)
+    return event
+
+
+@inlined
+def cancel(event: Event) -> None:
+    """An event that is to come will mean nothing. Nobody may refer to it after this."""
+    event.alive = 0
+
+
+@inlined
+def stretch(floor: Floor, worker: Worker, line: int, delay_s: float) -> None:
+    """The worker's stretch of time ends after a delay that is on the grid."""
+    event: Event = new_event(floor)
+    event.line, event.alive = line, 1
+    event.kind, event.rank, event.number = COMPLETION, worker.rank, 0
+    event.worker, event.version = worker, worker.version
+    push_event(floor, floor.env_now + delay_s, event)
+
+
+@inlined
+def end_stretch(floor: Floor, worker: Worker) -> None:
+    """The stretch under way means nothing any more."""
+    worker.version += 1
+    if floor.has_orders and worker is not floor.active:
+        event: Event = new_event(floor)
+        event.line = NOBODYS
+        push_event(floor, floor.env_now, event)
+
+
+@inlined
+def stir_gate(floor: Floor, gate: Gate) -> None:
+    """Whoever claims a place by a gate is looked at again."""
+    if not gate.stirred:
+        gate.stirred = 1
+        push(floor, floor.stirred, gate)
+
+
+@inlined
+def stir(floor: Floor, station: Station) -> None:
+    """There may be room at a station: whoever wants in is looked at again."""
+    for i in range(station.n_wanted_by):
+        gate = station.wanted_by[i]
+        if len(gate.claims):
+            stir_gate(floor, gate)

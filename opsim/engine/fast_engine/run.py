@@ -1,0 +1,91 @@
+"""Plan -> EventLog, one replication, by compiled code."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from opsim.engine.fast_engine.build import Build
+from opsim.engine.fast_engine.columns import columns_of
+from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
+from opsim.engine.fast_engine.machine import TABLE, complete, needed
+from opsim.engine.fast_engine.machine.arena import MORE
+from opsim.engine.fast_engine.numbers import Numbers
+from opsim.engine.fast_engine.parts.rows import ROW_BYTES
+from opsim.engine.fast_engine.settle import DONE, FAILED, MOST_ROUNDS
+from opsim.engine.simpy_engine.settle import EndlessInstant
+from opsim.log import EventLog, names_of
+from opsim.plan import Plan
+
+MOST_EVENTS = 1_000_000
+"""Before Python is asked whether somebody wants to stop."""
+ROWS = 1 << 13
+"""In a chunk of the log."""
+
+
+class Machine:
+    """A plan's floor in memory, with all that runs it again and again: one for each thread."""
+
+    def __init__(self, plan: Plan, told: Callable[[int, int], None] | None = None):
+        self.plan, self.build = plan, Build(plan)
+        self.floor = self.build.floor
+        complete(needed(self.build.steps.values()), told)
+        self.floor.table = TABLE.ctypes.data
+        self.numbers = Numbers(plan, self.build.arena, self.floor)
+        self._more_rows = MORE(self._give_rows)
+        self.floor.more_rows = ctypes.cast(self._more_rows, ctypes.c_void_p).value
+        self.rows: list[np.ndarray] = []
+        self._used = 0
+        self.build.arena.freeze()
+
+    def run(self, replication: int) -> EventLog:
+        """One replication. Raises EndlessInstant, and whatever a model raises when it is asked for times."""
+        floor, at = self.floor, self.floor.address
+        self.build.arena.restore()
+        self.numbers.begin(replication)
+        self._used = 0
+        start_floor(at)
+        while (state := run_floor(at, MOST_EVENTS)) not in (DONE, FAILED) and self.numbers.failed is None:
+            pass
+        if self.numbers.failed is not None:
+            raise self.numbers.failed
+        if state == FAILED:
+            self._refuse()
+        close_floor(at)
+        columns = columns_of(self.rows[: self._used], floor.n_rows)
+        return EventLog(replication, self.plan.horizon_s, columns, names_of(self.plan))
+
+    def _give_rows(self, _arena: int, _other: int) -> int:
+        """Called by the engine: room for more rows."""
+        if self._used == len(self.rows):
+            self.rows.append(np.empty(ROWS * ROW_BYTES, dtype=np.uint8))
+        chunk = self.rows[self._used]
+        self._used += 1
+        self.floor.row_at, self.floor.row_end = chunk.ctypes.data, chunk.ctypes.data + chunk.nbytes
+        return 0
+
+    def _refuse(self) -> None:
+        stations = [station for gate in self.floor.stirred for station in self._stations_of(gate)]
+        names = ", ".join(self.plan.stations[station].name for station in stations)
+        where = f"t = {self.floor.now} s: over {MOST_ROUNDS} rounds in one instant"
+        raise EndlessInstant(f"{where}; still moving at: {names}")
+
+    def _stations_of(self, gate) -> list[int]:
+        return [gate.stations[i].rank for i in range(gate.n_stations)]
+
+
+_MACHINES: WeakKeyDictionary = WeakKeyDictionary()
+
+
+def run_plan(plan: Plan, replication: int = 0) -> EventLog:
+    """Run a Plan to its horizon (exclusive): the rows of ``simpy_engine.run_plan``, to the last bit.
+
+    Draws use one BLAS thread, as there.
+    """
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        return Machine(plan).run(replication)

@@ -1,0 +1,12 @@
+"""Not there yet."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def install(build: Any) -> None:
+    """Refuses plans with this block."""
+    plan = build.plan
+    if plan.queues or plan.routing != 'shortest_queue' or any(s.buffer_after for s in plan.stations):
+        raise NotImplementedError("the fast engine does not know: sequence")
