@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from weakref import WeakKeyDictionary
+from threading import local
 
 import numpy as np
 
 from opsim.engine.fast_engine.build import Build
-from opsim.engine.fast_engine.columns import columns_of
+from opsim.engine.fast_engine.columns import CHUNK, columns_of
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.machine.arena import MORE
@@ -22,8 +22,6 @@ from opsim.plan import Plan
 
 MOST_EVENTS = 1_000_000
 """Before Python is asked whether somebody wants to stop."""
-ROWS = 1 << 13
-"""In a chunk of the log."""
 
 
 class Machine:
@@ -61,7 +59,7 @@ class Machine:
     def _give_rows(self, _arena: int, _other: int) -> int:
         """Called by the engine: room for more rows."""
         if self._used == len(self.rows):
-            self.rows.append(np.empty(ROWS * ROW_BYTES, dtype=np.uint8))
+            self.rows.append(np.empty(CHUNK * ROW_BYTES, dtype=np.uint8))
         chunk = self.rows[self._used]
         self._used += 1
         self.floor.row_at, self.floor.row_end = chunk.ctypes.data, chunk.ctypes.data + chunk.nbytes
@@ -77,15 +75,34 @@ class Machine:
         return [gate.stations[i].rank for i in range(gate.n_stations)]
 
 
-_MACHINES: WeakKeyDictionary = WeakKeyDictionary()
+class _Kept(local):
+    """The machines of the last Plans that a thread has run."""
+
+    def __init__(self) -> None:
+        self.machines: list[Machine] = []
+
+
+_KEPT = _Kept()
+MOST_KEPT = 2
+"""A sweep goes from Plan to Plan, and does not come back."""
 
 
 def run_plan(plan: Plan, replication: int = 0) -> EventLog:
     """Run a Plan to its horizon (exclusive): the rows of ``simpy_engine.run_plan``, to the last bit.
 
-    Draws use one BLAS thread, as there.
+    Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again.
     """
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(limits=1, user_api="blas"):
-        return Machine(plan).run(replication)
+        return machine_of(plan).run(replication)
+
+
+def machine_of(plan: Plan) -> Machine:
+    """The machine of a Plan in this thread."""
+    kept = _KEPT.machines
+    found = next((one for one in kept if one.plan is plan), None)
+    if found is None:
+        found = Machine(plan)
+    kept[:] = [found, *(one for one in kept if one is not found)][:MOST_KEPT]
+    return found

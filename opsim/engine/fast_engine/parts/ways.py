@@ -70,7 +70,7 @@ def product_of(floor: Floor, source: Source, n: int) -> int:
         return source.ranks[0]
     if not source.mix:
         source.mix = stream_of(floor, MIX, source.rank, 0, 0)
-    return source.ranks[int(number_at(floor, source.mix, n))]
+    return int(number_at(floor, source.mix, n))
 
 
 @inlined

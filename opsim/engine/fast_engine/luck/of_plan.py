@@ -1,0 +1,128 @@
+"""The luck of a Plan: what its replications have in common is found once, for a sweep asks a thousand times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import accumulate
+from threading import Lock
+from typing import Any
+
+import numpy as np
+
+from opsim.effects import worker_effect
+from opsim.engine.fast_engine.luck.blocks import drawn_ranks, exponentials, ranks_by_number
+from opsim.engine.fast_engine.luck.sampled import Drawn, DrawnHeld, durations, held, is_ours
+from opsim.plan import Plan
+from opsim.plan.orders import ANY
+from opsim.plan.tools import HoldPlan
+from opsim.streams import _hashed, _words
+
+_KEPT = 4
+_last: list[LuckOfPlan] = []
+_lock = Lock()
+
+
+def luck_of(plan: Plan) -> LuckOfPlan:
+    """What the replications of a Plan share; that of the last few Plans is kept. NOTE: the same object, not an equal
+    one: to compare two Plans costs more than to begin anew."""
+    with _lock:
+        for one in _last:
+            if one.plan is plan:
+                return one
+        _last.insert(0, LuckOfPlan(plan))
+        del _last[_KEPT:]
+        return _last[0]
+
+
+class LuckOfPlan:
+    """Names as words, and how each kind of stream is drawn.
+
+    NOTE: threads may find the same thing twice, and it is the same: nothing here is changed once found.
+    """
+
+    def __init__(self, plan: Plan):
+        self.plan = plan
+        self._seed = _words(plan.seed, 4)
+        self._named: dict[tuple[str | int, ...], bytes] = {}
+        self._drawn: dict[Any, Any] = {}
+
+    def keys_of(self, replication: int) -> Callable[[tuple[str | int, ...]], bytes]:
+        """The key of a stream of a replication, by its name: as ``opsim.streams._key``."""
+        begun = self._seed + _words(replication, 1)
+        return lambda name: begun + self._name(name)
+
+    def of_worker(self, task: int, worker: int, workforce: int) -> Drawn:
+        """Durations of a task by a worker."""
+        model = self.plan.tasks[task].model
+        return self._of_people(
+            (task, worker, workforce), model, lambda: durations(model, self._effect(task, worker, workforce))
+        )
+
+    def held_by_worker(self, hold: HoldPlan, task: int, worker: int, workforce: int) -> DrawnHeld:
+        """Durations of a task by a worker, with the moments between which a tool is held."""
+        model = self.plan.tasks[task].model
+        return self._of_people(
+            (hold, task, worker, workforce), model, lambda: held(hold, model, self._effect(task, worker, workforce))
+        )
+
+    def held_by_station(self, hold: HoldPlan, task: int) -> DrawnHeld:
+        """Automatic runs of a task, with the moments between which a tool is held."""
+        return self._kept((hold, task), lambda: held(hold, self.plan.tasks[task].model, None))
+
+    def of_model(self, model: Any) -> Drawn:
+        """Durations by nobody. NOTE: the model is kept too, so that no other can have its id."""
+        return self._kept(("model", id(model)), lambda: (model, durations(model, None)))[1]
+
+    def of_gaps(self, source: int) -> Drawn:
+        """Gaps between the arrivals of a source."""
+        plan = self.plan.sources[source]
+        if plan.gap is not None:
+            return self.of_model(plan.gap)
+        return self._kept(("gaps", source), lambda: exponentials(plan.every_s))
+
+    def of_products(self, source: int) -> Drawn:
+        """Ranks of the products that the jobs of a source are."""
+        return self._kept(("products", source), lambda: _products(self.plan.sources[source]))
+
+    def _name(self, name: tuple[str | int, ...]) -> bytes:
+        words = self._named.get(name)
+        if words is None:
+            words = self._named[name] = b"".join(map(_hashed, name))
+        return words
+
+    def _effect(self, task: int, worker: int, workforce: int) -> Any:
+        plan, one = self.plan.tasks[task], self.plan.workers[worker]
+        seed, across = self.plan.seed, self.plan.across_tasks
+        return worker_effect(plan.model, plan.name, one.name, seed, workforce, one.body, across)
+
+    def _of_people(self, what: tuple, model: Any, make: Callable[[], Any]) -> Any:
+        """As ``_kept``, but people of one replication alone, and effects that a plug-in may change, are made anew."""
+        redrawn = self.plan.workforce is None and self.plan.staffing == "redrawn"
+        return make() if redrawn or not is_ours(model) else self._kept(what, make)
+
+    def _kept(self, what: tuple, make: Callable[[], Any]) -> Any:
+        found = self._drawn.get(what)
+        if found is None:
+            found = self._drawn[what] = make()
+        return found
+
+
+def _products(source: Any) -> Drawn:
+    """As ``Draws.products``: in a sequence, by orders, the only one, or drawn from the mix."""
+    ranks = [rank for rank, _ in source.mix]
+    cumulative = list(accumulate(share for _, share in source.mix))[:-1]
+    if source.sequence:
+        sequence = np.array(source.sequence, np.int64)
+        return ranks_by_number(lambda k: sequence[k % len(sequence)])
+    if source.orders and source.orders[0].product != ANY:
+        return ranks_by_number(_ordered(source.orders))
+    if not cumulative:
+        return ranks_by_number(lambda k: np.full(len(k), ranks[0], np.int64))
+    return drawn_ranks(ranks, cumulative)
+
+
+def _ordered(orders: tuple) -> Callable[[np.ndarray], np.ndarray]:
+    """As ``opsim.plan.orders.order_of``, of many jobs: the last order that begins at a job or before, or the first."""
+    firsts = np.array([order.first for order in orders], np.int64)
+    products = np.array([order.product for order in orders], np.int64)
+    return lambda k: products[np.maximum(np.searchsorted(firsts, k, side="right") - 1, 0)]

@@ -1,0 +1,40 @@
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from opsim.engine.fast_engine.luck.block_hashes import BLOCK_HASHES
+from opsim.engine.fast_engine.luck.seeds import first_states, stepped, word_of
+from opsim.streams import _generator, _hashed, _key
+
+NAME = st.lists(st.text(max_size=5) | st.integers(0, 99), max_size=5)
+
+
+def halves(number):
+    return [number >> 64, number & (2**64 - 1)]
+
+
+def numpys_state(key, block):
+    state = _generator(key + _hashed(block)).bit_generator.state["state"]
+    return [*halves(state["state"]), *halves(state["inc"])]
+
+
+@given(st.integers(0, 2**300), st.integers(0, 2**70), NAME, st.integers(0, 2000), st.integers(1, 4))
+@example(0, 0, [], 0, 1)
+@example(2**128, 2**32, ["duration", "lift", "ana"], 300, 2)
+@example(2**32 - 1, 2**32 - 1, ["chance"], 10**7, 3)
+def test_the_generator_of_each_block_begins_where_numpys_does(seed, replication, name, first, n):
+    key = _key(seed, replication, name)
+    states = first_states(np.frombuffer(key, np.uint32), BLOCK_HASHES.of(first, n))
+    assert states.tolist() == [numpys_state(key, block) for block in range(first, first + n)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_step_gives_numpys_next_word_and_state(seed):
+    bits = np.random.PCG64(seed)
+    state = bits.state["state"]
+    high, low, *increment = map(np.uint64, [*halves(state["state"]), *halves(state["inc"])])
+    for _ in range(200):
+        high, low = map(np.uint64, stepped(high, low, *increment))
+        assert word_of(high, low) == bits.random_raw()
+        assert halves(bits.state["state"]["state"]) == [high, low]
