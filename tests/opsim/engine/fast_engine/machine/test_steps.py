@@ -1,0 +1,56 @@
+"""Steps call each other by the table: in any way round, found by their names, kept on disk."""
+
+import numpy as np
+import pytest
+from made_machine import as_floor, empty_floor, is_even, is_odd
+
+from opsim.engine.fast_engine.machine import TABLE, complete, line_of, needed, step_of
+from opsim.engine.fast_engine.machine import step as as_step
+from opsim.engine.fast_engine.machine.compiling import entered
+from opsim.engine.fast_engine.machine.steps import STEPS
+from opsim.engine.fast_engine.machine.table import is_complete
+from opsim.engine.fast_engine.parts.state import Floor
+
+
+@entered
+def even(floor_at, n):
+    return is_even(as_floor(floor_at), n)
+
+
+def test_two_steps_call_each_other():
+    _, floor = empty_floor()
+    complete(needed([step_of(is_even)]))
+    assert [even(floor.address, n) for n in range(6)] == [1, 0, 1, 0, 1, 0]
+
+
+def test_a_step_needs_those_that_it_names_and_those_they_name():
+    assert {one.function.__name__ for one in needed([step_of(is_odd)])} == {"is_even", "is_odd"}
+
+
+def test_what_is_complete_needs_no_compiling():
+    complete(needed([step_of(is_even)]))
+    told = []
+    complete(needed([step_of(is_even)]), lambda *so_far: told.append(so_far))
+    assert told == []
+    assert is_complete(needed([step_of(is_odd)]))
+    assert TABLE[line_of(is_even)] != 0
+
+
+def test_two_steps_of_one_line_are_refused(monkeypatch):
+    def another(floor: Floor, n: int) -> bool:
+        return n > 0
+
+    found = as_step(another)
+    line = step_of(found).line
+    monkeypatch.setitem(STEPS, line, step_of(is_even))
+    with pytest.raises(ValueError, match="share a line of the table"):
+        as_step(another)
+
+
+def test_every_step_of_the_engine_has_a_line_of_its_own():
+    from opsim.engine.fast_engine import blocks
+
+    blocks.know_all()
+    assert len(STEPS) > 100
+    assert all(0 <= line < TABLE.size and STEPS[line].line == line for line in STEPS)
+    assert TABLE.dtype == np.int64
