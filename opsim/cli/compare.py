@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from opsim.cli.engine_option import engine_option
 from opsim.cli.verbs import mistakes
 
 
@@ -18,6 +19,7 @@ from opsim.cli.verbs import mistakes
 @click.option("-o", "--out", type=click.Path(path_type=Path), help="Results folder, where a FILE is run first.")
 @click.option("--replications", type=click.IntRange(min=1), help="Of a FILE, instead of its own.")
 @click.option("--seed", type=click.IntRange(min=0), help="Of a FILE, instead of its own.")
+@engine_option(None)
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use for a FILE.  [default: as many as pay]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(

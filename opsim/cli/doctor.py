@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
+
+from opsim.cli.verbs import Verbs
 
 NOT_WELL = 2
 
 
-@click.command("doctor")
+@click.group(
+    "doctor",
+    cls=Verbs,
+    verbs={"engines": "opsim.cli.doctor_engines"},
+    invoke_without_command=True,
+    no_args_is_help=False,
+)
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
-def command(as_json: bool) -> int:
-    """Look whether opsim can work here: versions, shipped files, folders, cores. Exit code 2 where it cannot."""
+@click.pass_context
+def command(context: click.Context, as_json: bool) -> Any:
+    """Look whether opsim can work here: versions, shipped files, folders, cores. Exit code 2 where it cannot.
+
+    'opsim doctor engines FILE' looks whether both engines give the same rows.
+    """
+    if context.invoked_subcommand is not None:
+        return None
     from dataclasses import asdict
 
     from opsim.checkup import WRONG, findings

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from opsim.cli.engine_option import engine_option
 from opsim.cli.verbs import mistakes
 
 
@@ -17,6 +18,7 @@ from opsim.cli.verbs import mistakes
 @click.option("--horizon", metavar="TIME", help="Of a FILE, instead of its own, such as '200 h'.")
 @click.option("--replications", type=click.IntRange(min=1), help="Of a FILE.  [default: 1]")
 @click.option("--seed", type=click.IntRange(min=0), help="Of a FILE, instead of its own.")
+@engine_option(None)
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use for a FILE.  [default: as many as pay]")
 @click.option("--warm-up", metavar="TIME", help="Leave out so much of the start.  [default: own, or MSER-5 if longer]")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")

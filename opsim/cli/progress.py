@@ -4,17 +4,29 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any, Protocol
 
 import click
 
 from opsim.forking import Ticking
 
-Report = Callable[..., None]
-"""``report(done, total, label="")``."""
 LINE_EVERY_S = 5.0
 TICK_S = 0.1
+
+
+class Report(Protocol):
+    """What is called while something goes on."""
+
+    def __call__(self, done: int, total: int, label: str = "") -> None:
+        """So much is done."""
+
+    def once(self, done: int, total: int, label: str) -> None:
+        """As a call, of something that goes before: where there is no terminal one line at its beginning is enough."""
+
+    def say(self, line: str) -> None:
+        """A line that stays."""
 
 
 @contextmanager
@@ -52,13 +64,31 @@ def _bar(what: str) -> Iterator[Report]:
         clock = Ticking(bar.refresh, TICK_S)  # not rich's own thread, beside which a fork would not be safe
         clock.start()
 
-        def report(done: int, total: int, label: str = "") -> None:
-            bar.update(task, completed=done, total=total, description=_titled(what, label))
-
         try:
-            yield report
+            yield _Bar(what, bar, task)
         finally:
             clock.stop()
+
+
+class _Bar:
+    """A bar on a terminal."""
+
+    def __init__(self, what: str, bar: Any, task: Any) -> None:
+        self._what, self._bar, self._task = what, bar, task
+        self._timed: str | None = None
+
+    def __call__(self, done: int, total: int, label: str = "") -> None:
+        if self._timed is not None:  # the clock of what went before says nothing of this
+            self._bar.reset(self._task)
+            self._timed = None
+        self._bar.update(self._task, completed=done, total=total, description=_titled(self._what, label))
+
+    def once(self, done: int, total: int, label: str) -> None:
+        self(done, total, label)
+        self._timed = label
+
+    def say(self, line: str) -> None:
+        self._bar.console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 class _Lines:
@@ -83,6 +113,14 @@ class _Lines:
             return
         self.last = now
         click.echo(f"{_titled(self.what, label)}: {done} of {total}{self._left(now)}", err=True)
+
+    def once(self, done: int, total: int, label: str) -> None:
+        if done < total and label != self.label:
+            click.echo(_titled(self.what, label), err=True)
+        self.label, self.started, self.count = label, time.monotonic(), (done, total)
+
+    def say(self, line: str) -> None:
+        click.echo(line, err=True)
 
     def _left(self, now: float) -> str:
         """The time left, as fast as it went since the clock started; nothing before the first step and at the end."""

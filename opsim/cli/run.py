@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from opsim.cli.engine_option import engine_option
 from opsim.cli.verbs import mistakes
 
 
@@ -24,6 +25,7 @@ from opsim.cli.verbs import mistakes
 )
 @click.option("--seed", type=click.IntRange(min=0), help="Instead of the file's own.")
 @click.option("--processes", type=click.IntRange(min=1), help="Processes to use.  [default: as many as pay]")
+@engine_option()
 @click.option("--horizon", metavar="TIME", help="Instead of the file's own, such as '8 h'.")
 @click.option("--overwrite", is_flag=True, help="Remove what the results folder holds of another run (or of this one).")
 @click.option("--replay", is_flag=True, help="Write replay.html too, as 'opsim view' does: the first replication.")
@@ -108,5 +110,7 @@ def _replays(variants: dict[str, Any], results: dict[str, Any]) -> dict[str, Any
 
 
 def _as_json(name: str, result: Any, report: Path, replays: dict[str, Any]) -> dict[str, Any]:
-    said = {"variant": name, "folder": str(result.folder), "report": str(report)}
+    from opsim.study.folder import engine_said
+
+    said = {"variant": name, "folder": str(result.folder), "engine": engine_said(result.folder), "report": str(report)}
     return said | ({"replay": str(replays[name].wanted.out)} if name in replays else {}) | {"summary": result.summary}

@@ -10,7 +10,9 @@ from typing import Any
 
 import click
 
+from opsim.cli.engine_option import telling
 from opsim.cli.verbs import mistakes
+from opsim.engine.choice import SIMPY
 
 
 class Failed(click.ClickException):
@@ -33,23 +35,31 @@ def run_variants(
 ) -> tuple[Path, dict[str, Any], dict[str, Any]]:
     """(results folder, variants as read, their Results); everything that is wrong is found before the first run.
 
-    check : may raise ValueError of the variants as read; how : arguments of ``run_scenario``
+    check : may raise ValueError of the variants as read; how : arguments of ``run_scenario``; engine : by its name
     """
     from opsim.cli.stopping import stops_once
     from opsim.one_thread import lean
 
     lean()
     with mistakes():
-        variants = _variants(file, names, horizon)
+        variants, plans = _variants(file, names, horizon)
         if check is not None:
             check(variants)
+        engines = _engines(variants, plans, how)
         out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
         _refuse_study(out, variants)
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
             _refuse_other_runs(variants, out, how.get("seed"), _way_out(out, how))
     with stops_once():
-        return out, variants, {name: _run(name, loaded, out / name, how) for name, loaded in variants.items()}
+        return (
+            out,
+            variants,
+            {
+                name: _run(name, loaded, out / name, how | {"engine": engines[name]})
+                for name, loaded in variants.items()
+            },
+        )
 
 
 def _refuse_study(out: Path, variants: dict[str, Any]) -> None:
@@ -61,16 +71,25 @@ def _refuse_study(out: Path, variants: dict[str, Any]) -> None:
             raise ValueError(f"{folder} holds a study, not results of 'opsim run'; take another folder with -o")
 
 
-def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> dict[str, Any]:
-    """The variants, each planned once, so that a broken library or file of times is found before the first run."""
+def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The variants and their Plans: a broken library or file of times is so found before the first run."""
     from opsim.plan import compile_plan
     from opsim.scenario import read_scenarios
 
     changes = {} if horizon is None else {"run.horizon": horizon}
     loaded = read_scenarios(file, list(names) or None, changes, "command line")
-    for variant in loaded.values():
-        compile_plan(variant)
-    return loaded
+    return loaded, {name: compile_plan(variant) for name, variant in loaded.items()}
+
+
+def _engines(variants: dict[str, Any], plans: dict[str, Any], how: dict[str, Any]) -> dict[str, Any]:
+    """The engine of each variant. Raises ScenarioError with all that the fast engine does not run, if it is asked."""
+    from opsim.study.engine_choice import engines_of
+    from opsim.study.precision import FEWEST
+
+    runs = FEWEST if how.get("precision") else how.get("replications")
+    most = max(loaded.scenario.run.replications for loaded in variants.values())
+    both = {name: (loaded, plans[name]) for name, loaded in variants.items()}
+    return engines_of(how.get("engine") or SIMPY, both, runs or most)
 
 
 def _way_out(out: Path, how: dict[str, Any]) -> str:
@@ -103,7 +122,8 @@ def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
     kept = f"finished replications are kept in {folder}; the same command goes on from there"
     try:
         with mistakes(OSError, OtherRun, Busy, NoSuchFigure), failures(kept), progress(f"run {name}") as report:
-            return run_scenario(loaded, folder=folder, progress=report, meanwhile=_report_modules, **how)
+            chosen = telling(f"run {name}", report)
+            return run_scenario(loaded, folder=folder, progress=report, meanwhile=_report_modules, chosen=chosen, **how)
     except KeyboardInterrupt as stop:
         raise stopped(stop, kept) from None
 

@@ -11,7 +11,10 @@ from typing import Any
 
 import click
 
-COMPUTING = ("out", "shard", "processes", "executor", "overwrite", "as_json")
+from opsim.cli.engine_option import engine_option
+from opsim.engine.choice import SIMPY
+
+COMPUTING = ("out", "shard", "processes", "executor", "engine", "overwrite", "as_json")
 """What says where and how a study is computed, not what is asked."""
 
 
@@ -26,6 +29,7 @@ class Common:
     horizon: str | None = None
     processes: int | None = None
     executor: str | None = None
+    engine: str = SIMPY
     shard: str | None = None
     overwrite: bool = False
     as_json: bool = False
@@ -45,6 +49,7 @@ def study_options(*, shards: bool = True) -> Callable[[Callable[..., Any]], Call
         click.option("--horizon", metavar="TIME", help="Instead of the file's own, such as '8 h'."),
         click.option("--processes", type=click.IntRange(min=1), help="Processes to use.  [default: as many as pay]"),
         click.option("--executor", metavar="dask:ADDRESS", help="Compute on a cluster, as dask:tcp://host:8786."),
+        engine_option(),
         click.option("--shard", metavar="I/N", hidden=not shards, help="Only part I of N; 'opsim merge' joins them."),
         click.option("--overwrite", is_flag=True, help="Remove what the folder holds of another study (or this one)."),
         click.option("--json", "as_json", is_flag=True, help="JSON for machines."),

@@ -9,9 +9,11 @@ from typing import Any
 
 import click
 
+from opsim.cli.engine_option import telling
 from opsim.cli.study_kind import Asked, Kind, Told
 from opsim.cli.study_options import Common, from_here
 from opsim.cli.verbs import mistakes
+from opsim.engine.choice import FAST, SIMPY
 
 MOST_SAID = 5
 
@@ -30,6 +32,7 @@ def run_study(kind: Kind, file: str, common: Common, options: Mapping[str, Any])
         with mistakes():
             shard = _shard(kind, common)
             asked = asked_by_user(kind, from_here(file), common, options)
+            _refuse_engine(asked, common.engine)
             header = header_for(kind, asked, common.words, common.replications)
             out = common.out or Path("results") / f"{asked.varied.file.stem}_{kind.name.replace('-', '_')}"
         how = {
@@ -37,6 +40,7 @@ def run_study(kind: Kind, file: str, common: Common, options: Mapping[str, Any])
             "overwrite": common.overwrite,
             "processes": common.processes,
             "executor": common.executor,
+            "engine": common.engine,
         }
         told = computed(kind, asked, header, out, **how)
     if told is not None:
@@ -53,6 +57,7 @@ def computed(
     overwrite: bool = False,
     processes: int | None = None,
     executor: str | None = None,
+    engine: str = SIMPY,
 ) -> Told | None:
     """The study told, and all its files written; None of a shard, of which is said what to do next."""
     from opsim.study.jobs.executors import executor_of
@@ -70,7 +75,7 @@ def computed(
         try:
             with (
                 _reporting(kind) as report,
-                closing(study.answers(processes=processes, executor=by, progress=report)) as all_of_it,
+                closing(_answers(study, report, kind, processes=processes, executor=by, engine=engine)) as all_of_it,
             ):
                 told = kind.study(asked, all_of_it)
                 write_study(kind, asked, told, all_of_it, out)
@@ -78,6 +83,19 @@ def computed(
         except ShardDone as done:
             click.echo(_next(done, shard, out))
             return None
+
+
+def _answers(study: Any, report: Any, kind: Kind, **how: Any) -> Any:
+    return study.answers(progress=report, chosen=telling(kind.name, report), **how)
+
+
+def _refuse_engine(asked: Asked, engine: str) -> None:
+    """What the fast engine does not run of the scenario, before there is a folder. Raises ScenarioError."""
+    from opsim.plan import compile_plan
+    from opsim.study.engine_choice import engine_of
+
+    if engine == FAST:
+        engine_of(engine, asked.loaded, compile_plan(asked.loaded, seed=asked.source.seed))
 
 
 def write_study(kind: Kind, asked: Asked, told: Told, answers: Any, out: Path) -> None:

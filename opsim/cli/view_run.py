@@ -10,7 +10,7 @@ import click
 from opsim.cli.view_asked import Asked, stretch, usual, wrong_file, wrong_names
 
 
-def run_first(file: str, asked: Asked) -> tuple[Path, Asked, list[str]]:
+def run_first(file: str, asked: Asked, engine: str | None = None) -> tuple[Path, Asked, list[str]]:
     """The results folder, what is asked for with the names of the variants that were run, and the names of all.
 
     The folder is ``results/<file's name>_view``; what it holds of another scenario is removed. Raises ScenarioError,
@@ -33,5 +33,5 @@ def run_first(file: str, asked: Asked) -> tuple[Path, Asked, list[str]]:
     stale = any(other_run(out / name, known[name], known[name].scenario.run.seed) for name in names)
     if stale:
         click.echo(f"{out}: holds the run of a scenario that has changed since; run anew", err=True)
-    run_variants(file, out, names=names, replications=asked.replication + 1, overwrite=stale)
+    run_variants(file, out, names=names, replications=asked.replication + 1, overwrite=stale, engine=engine)
     return out, replace(asked, names=names), list(known)

@@ -5,9 +5,10 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from opsim.engine.choice import REFERENCE, SIMPY, Choice
 from opsim.results import events_in
 from opsim.study.finished import FINISHED
-from opsim.study.manifest import deciding, library_files, manifest_of, recorded_files
+from opsim.study.manifest import ENGINE, deciding, library_files, manifest_of, recorded_files
 from opsim.study.resolved import decides_figures, differences, read_resolved, resolved_text, with_run
 from opsim.whole import whole_file, write_json, write_text
 
@@ -32,12 +33,13 @@ def open_folder(folder: Path, loaded, seed: int, replications: int, *, overwrite
         _empty(folder)
     elif (words := other_run(folder, loaded, seed)) is not None:
         raise OtherRun(words)
-    held = _read_resolved(folder)
-    if _read_manifest(folder) != manifest or not held or decides_figures(held) != decides_figures(loaded.resolved):
+    held, before = _read_resolved(folder), _read_manifest(folder)
+    made_by = {key: before.pop(key) for key in (ENGINE,) if key in before}
+    if before != manifest or not held or decides_figures(held) != decides_figures(loaded.resolved):
         clear_results(folder)
     _copy_inputs(folder, loaded)
     say_replications(folder, loaded, seed, replications)
-    write_json(folder / MANIFEST, manifest)
+    write_json(folder / MANIFEST, manifest | (made_by if events_in(folder) else {}))
     return manifest
 
 
@@ -49,6 +51,22 @@ def clear_results(folder: Path) -> None:
 def say_replications(folder: Path, loaded, seed: int, replications: int) -> None:
     """Write the resolved scenario, with the seed and the number of replications that are used."""
     write_text(folder / RESOLVED, resolved_text(with_run(loaded.resolved, seed, replications)))
+
+
+def say_engine(folder: Path, choice: Choice) -> None:
+    """Write which engine makes the rows that are not there yet, beside those that made the others. Raises OSError."""
+    manifest = _read_manifest(folder)
+    held = engine_said(folder)
+    others = {*held.get("earlier", ()), held.get("used", SIMPY)} - {choice.engine} if events_in(folder) else ()
+    earlier = {"earlier": sorted(others)} if others else {}
+    said = {"asked": choice.asked, "used": choice.engine, "why": choice.why}
+    write_json(folder / MANIFEST, manifest | {ENGINE: said | earlier})
+
+
+def engine_said(folder: Path) -> dict[str, Any]:
+    """What the manifest says of engines; of an older folder, that SimPy was used. Raises nothing."""
+    held = _read_manifest(folder).get(ENGINE)
+    return held if isinstance(held, dict) else {"asked": SIMPY, "used": SIMPY, "why": REFERENCE.why}
 
 
 def other_run(folder: Path, loaded, seed: int) -> str | None:

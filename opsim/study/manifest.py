@@ -12,7 +12,9 @@ from opsim import __version__
 from opsim.study.resolved import decides_rows
 
 _PACKAGES = ("numpy", "scipy", "numba", "simpy", "pyyaml", "pydantic", "duckdb")
-_NAMES_ONLY = ("scenario", "variant", "file")
+ENGINE = "engine"
+"""Which engine was asked for, which was used and why: both give the same rows."""
+_NAMES_ONLY = ("scenario", "variant", "file", ENGINE)
 
 
 def manifest_of(loaded, seed: int) -> dict[str, Any]:

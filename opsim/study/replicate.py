@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from opsim.engine.choice import REFERENCE, Choice, runner_of
 from opsim.kpi import figures, samples
 from opsim.kpi.locked import locked
 from opsim.log import EventLog, names_of
@@ -15,11 +16,18 @@ from opsim.plan import Plan
 from opsim.results import events_name
 from opsim.study.pool import cores, pays, pooled
 from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned
+from opsim.study.threads import threaded
 
 Progress = Callable[[int, int], None]
 
 LOADING_S = 3.0
 """The first replication may also load compiled code for so long: if it took less, a second one is timed too."""
+
+
+IN_THREADS: frozenset[str] = frozenset()
+"""Engines whose replications are run several at once in threads of this process, as they leave Python to others while
+they run; those of the others are run in processes. Rows and figures are the same either way.
+"""
 
 
 def events_file(folder: Path, replication: int) -> Path:
@@ -42,6 +50,7 @@ def replicate(
     progress: Progress | None = None,
     outputs: Sequence[str] = (),
     meanwhile: Callable[[], None] | None = None,
+    engine: Choice = REFERENCE,
 ) -> list[Replicated]:
     """Run replications first .. n-1; each one's events file is whole as soon as it is there, and is not run again.
 
@@ -49,12 +58,14 @@ def replicate(
     processes : None takes one, and all cores where the work left is worth it
     outputs   : figures that are asked for, since some are made only then
     meanwhile : what is best done once while other processes compute
+    engine    : what runs them; it has been made ready (``make_ready``), so that no process compiles
     Raises BrokenLog where a log contradicts itself, ProcessLost where a process is killed, OSError where a file cannot
     be written. Whatever stops it, Ctrl-C too, what is finished is kept.
     """
     done = Together()
-    runner = Once(partial(_runner, make_plan, folder, made_from, tuple(outputs)))
-    with closing(_results(runner, range(first, replications), processes, meanwhile)) as results:
+    runner = Once(partial(_runner, make_plan, folder, made_from, tuple(outputs), engine))
+    in_threads = engine.engine in IN_THREADS
+    with closing(_results(runner, range(first, replications), processes, meanwhile, in_threads)) as results:
         for result in results:
             done.add(result)
             if progress is not None:
@@ -62,16 +73,22 @@ def replicate(
     return done.in_order()
 
 
-def run_one(plan: Plan, replication: int, folder: Path, made_from: str = "", outputs: Sequence[str] = ()) -> Replicated:
+def run_one(
+    plan: Plan,
+    replication: int,
+    folder: Path,
+    made_from: str = "",
+    outputs: Sequence[str] = (),
+    engine: Choice = REFERENCE,
+) -> Replicated:
     """One replication: run, audited, written; or read, where its file is there already and is the one asked for."""
-    from opsim.engine.simpy_engine import run_plan
     from opsim.laws import audit
     from opsim.log_store import write_events
 
     path = events_file(folder, replication)
     log = _finished(path, plan, replication, made_from)
     if log is None:
-        log = run_plan(plan, replication)
+        log = runner_of(engine)(plan, replication)
         audit(log, plan)
         write_events(log, path, made_from)
     kept = {key: thinned(values, MOST_SAMPLES) for key, values in samples(log, plan).items()}
@@ -96,6 +113,7 @@ def _results(
     replications: Sequence[int],
     processes: int | None,
     meanwhile: Callable[[], None] | None = None,
+    in_threads: bool = False,
 ) -> Generator[Replicated, None, None]:
     left = list(replications)
     if processes is None:
@@ -107,7 +125,8 @@ def _results(
             processes = _that_pay(took_s, len(left))
     processes = min(processes or 1, len(left))
     if processes > 1:
-        yield from pooled(runner, left, processes, meanwhile)
+        several = threaded if in_threads else pooled
+        yield from several(runner, left, processes, meanwhile)
     elif left:
         with one_database():
             yield from map(runner(), left)
@@ -135,9 +154,11 @@ class Once:
         return Once, (self._make,)
 
 
-def _runner(make_plan: MakePlan, folder: Path, made_from: str, outputs: tuple[str, ...]) -> Callable[[int], Replicated]:
+def _runner(
+    make_plan: MakePlan, folder: Path, made_from: str, outputs: tuple[str, ...], engine: Choice = REFERENCE
+) -> Callable[[int], Replicated]:
     from opsim import laws, log_store  # noqa: F401
-    from opsim.engine import simpy_engine  # noqa: F401
 
     plan = make_plan()
-    return lambda replication: run_one(plan, replication, folder, made_from, outputs)
+    runner_of(engine)  # imported now: what a process has before it forks, its copies have
+    return lambda replication: run_one(plan, replication, folder, made_from, outputs, engine)

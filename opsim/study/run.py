@@ -4,12 +4,14 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from opsim.engine.choice import SIMPY, Choice
 from opsim.kpi.better import read_asked
 from opsim.plan import Plan, compile_plan
 from opsim.results import Result
 from opsim.study.assumed.assumptions import Asked
-from opsim.study.precision import MOST, Precision, replicate_until
-from opsim.study.replicate import Once, Progress, replicate
+from opsim.study.engine_choice import Chosen, compiled_for, engine_of
+from opsim.study.precision import FEWEST, MOST, Precision, replicate_until
+from opsim.study.replicate import Once, Progress, events_file, replicate
 from opsim.study.replicated import Replicated, together
 
 
@@ -24,6 +26,8 @@ def run_scenario(
     overwrite: bool = False,
     precision: Sequence[Precision] = (),
     meanwhile: Callable[[], None] | None = None,
+    engine: str | Choice = SIMPY,
+    chosen: Chosen | None = None,
 ) -> Result:
     """Run all replications of a scenario that was read and write the results folder (without its report).
 
@@ -33,12 +37,14 @@ def run_scenario(
         are there of just this run are taken as they are
     precision : run as many replications as these figures need, at least 10 and at most ``replications`` (or 1,000)
     meanwhile : what is best done once while other processes compute
-    Raises OtherRun where the folder holds another run, Busy where somebody writes there now, OSError where it cannot be
-    written, BrokenLog where a run contradicts itself, ProcessLost where a process is killed, ValueError where postures
-    cannot be had.
+    engine : ``simpy``, ``fast`` or ``auto``, which give the same rows (opsim/engine/choice.py)
+    chosen : is told the engine before anything is run; what it gives back is told how far the compiling is
+    Raises ScenarioError where the fast engine is asked for and does not run this, OtherRun where the folder holds
+    another run, Busy where somebody writes there now, OSError where it cannot be written, BrokenLog where a run
+    contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
     """
     from opsim.study.finished import finished, say_finished
-    from opsim.study.folder import LOCK, clear_results, open_folder, say_replications
+    from opsim.study.folder import LOCK, clear_results, open_folder, say_engine, say_replications
     from opsim.study.lock import locked
     from opsim.study.manifest import digest
     from opsim.study.summary import summary_of, write_kpis
@@ -47,12 +53,16 @@ def run_scenario(
     make_plan = Once(partial(compile_plan, loaded, seed=seed))
     plan: Plan = make_plan()
     n = replications if replications is not None else MOST if precision else loaded.scenario.run.replications
+    choice = engine_of(engine, loaded, plan, FEWEST if precision else n)
     with locked(folder / LOCK, f"{folder}: another 'opsim run' writes there now; take another folder with -o, or wait"):
         manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
         asks = {"replications": replications, "seed": seed, "precision": [one.name for one in precision]}
         if finished(folder, loaded, manifest, asks):
             return Result.load(folder)
         clear_results(folder)
+        if not all(events_file(folder, number).exists() for number in range(n)):
+            say_engine(folder, choice)
+            compiled_for(choice, plan, chosen)
         run = partial(
             _replicated,
             make_plan,
@@ -62,6 +72,7 @@ def run_scenario(
             progress=progress,
             outputs=_outputs(loaded, precision),
             meanwhile=partial(_meanwhile, meanwhile),
+            engine=choice,
         )
         done, reached = replicate_until(precision, n, run) if precision else (run(0, n), [])
         done = together(done)

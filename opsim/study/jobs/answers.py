@@ -10,9 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from opsim.engine.choice import SIMPY
 from opsim.problems import Problem, ScenarioError
 from opsim.results import Key
+from opsim.study.engine_choice import Chosen
 from opsim.study.jobs.decides import decided_by
+from opsim.study.jobs.engines import Engines
 from opsim.study.jobs.evaluate import loaded_of
 from opsim.study.jobs.far_away import Work, by_executor
 from opsim.study.jobs.in_memory import InMemory
@@ -42,6 +45,8 @@ class Answers:
         shard: Shard | None = None,
         compute: bool = True,
         keep: Sequence[str] | None = None,
+        engine: str = SIMPY,
+        chosen: Chosen | None = None,
     ):
         """kept : where answers are and go; None: in memory only (see ``open_study`` for a folder)
 
@@ -49,12 +54,15 @@ class Answers:
         shard     : only its part of the first jobs asked for is computed, then ShardDone is raised
         compute   : False raises Missing where an answer is not there
         keep      : figures that are kept of each replication, where these are more than those of the source
+        engine    : ``simpy``, ``fast`` or ``auto``: the same answers (opsim/engine/choice.py)
+        chosen    : told each engine that is used; what it gives back is told how far the compiling is
         """
         self.source, self.progress = source, progress
         self._kept = InMemory() if kept is None else kept
         self._computing = source if keep is None else replace(source, kpis=tuple(keep))
         self._here = OnThisMachine(self._computing, processes)
         self._executor, self._shard, self._compute = executor, shard, compute
+        self.engines = Engines(self._computing, engine, chosen)
         self._decided: dict[Point, str] = {}
         self._asked: dict[Job, None] = {}
         self._done, self._said_s = 0, 0.0
@@ -134,13 +142,15 @@ class Answers:
         self._here.close()
 
     def _find(self, jobs: Sequence[Job]) -> None:
-        missing = [(job, self._decided_by(job.point)) for job in jobs if self._address(job) not in self._kept]
-        if not missing:
+        left = [job for job in jobs if self._address(job) not in self._kept]
+        if not left:
             return
+        self.engines.prepare(left, compile_here=self._executor is None)
+        missing = [Work(job, self._decided_by(job.point), self.engines.of(job.point)) for job in left]
         total = self._done + len(missing)
         with closing(self._results(missing)) as results:
-            for (job, decided), answer in results:
-                self._kept.add((decided, *job.key[1:]), answer)
+            for work, answer in results:
+                self._kept.add((work.decided, *work.job.key[1:]), answer)
                 self._done += 1
                 self._say(total)
 

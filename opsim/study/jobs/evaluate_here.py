@@ -6,6 +6,7 @@ import json
 from threading import Lock
 from typing import Any
 
+from opsim.engine.choice import SIMPY
 from opsim.one_thread import one_blas_thread
 from opsim.problems import ScenarioError
 from opsim.study.jobs.answer import Answer
@@ -30,13 +31,13 @@ class NotThere(Exception):
     """A process that cannot read the scenario or one of its files; the text says which."""
 
 
-def answer(source: Source, job: Job) -> Answer:
+def answer(source: Source, job: Job, engine: str = SIMPY) -> Answer:
     """The answer to a job, on one BLAS thread. Raises as ``evaluate``."""
     with _one_at_a_time, one_blas_thread():
-        return Answer.of(evaluate(source, job))
+        return Answer.of(evaluate(source, job, engine))
 
 
-def answer_far_away(source: Source, job: Job, decided: str) -> Answer:
+def answer_far_away(source: Source, job: Job, decided: str, engine: str = SIMPY) -> Answer:
     """As ``answer``, in a process of which nothing is known.
 
     decided : what decides the answer, as who asks knows it. Raises OtherProcess where that is not the same here,
@@ -49,4 +50,4 @@ def answer_far_away(source: Source, job: Job, decided: str) -> Answer:
         raise NotThere(str(error)) from None
     if not same:
         raise OtherProcess(json.dumps(made_from(source, job.point.variant)))
-    return answer(source, job)
+    return answer(source, job, engine)

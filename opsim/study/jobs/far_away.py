@@ -7,7 +7,9 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
+from opsim.engine.choice import SIMPY
 from opsim.study.jobs.answer import Answer
 from opsim.study.jobs.decides import made_from
 from opsim.study.jobs.evaluate_here import NotThere, OtherProcess, answer_far_away
@@ -18,8 +20,14 @@ from opsim.study.pool import ProcessLost
 
 AT_A_TIME = 64
 """Jobs in an executor's hands where it does not say how many it can do at once."""
-Work = tuple[Job, str]
-"""A job, and what decides its answer."""
+
+
+class Work(NamedTuple):
+    """A job, what decides its answer, and the engine that is asked for, which does not."""
+
+    job: Job
+    decided: str
+    engine: str = SIMPY
 
 
 class OtherWorker(ValueError):
@@ -34,7 +42,7 @@ def by_executor(executor: Executor, source: Source, work: Iterable[Work]) -> Gen
     try:
         while True:
             for one in islice(left, at_a_time - len(waiting)):
-                waiting[executor.submit(answer_far_away, source, one[0], one[1])] = one
+                waiting[executor.submit(answer_far_away, source, *one)] = one
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
@@ -51,7 +59,7 @@ def _result(future: Future[Answer], source: Source, work: Work) -> Answer:
     try:
         return future.result()
     except OtherProcess as other:
-        differ = made_differ(other.made, made_from(source, work[0].point.variant))
+        differ = made_differ(other.made, made_from(source, work.job.point.variant))
         raise OtherWorker(f"a worker would not give the same answers; it has: {'; '.join(differ)}") from None
     except NotThere as error:
         raise OtherWorker(f"a worker cannot read what it needs (every worker must): {error}") from None

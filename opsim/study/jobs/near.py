@@ -64,4 +64,4 @@ def _prepared(source: Source) -> Callable[[Work], Done]:
 
 
 def _do(source: Source, one: Work) -> Done:
-    return one, answer(source, one[0])
+    return one, answer(source, one.job, one.engine)

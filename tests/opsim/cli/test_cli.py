@@ -17,9 +17,10 @@ def verbs(group=main, before=()):
     context = click.Context(group)
     for name in group.list_commands(context):
         command = group.get_command(context, name)
-        if isinstance(command, click.Group):
+        alone = not isinstance(command, click.Group)
+        if not alone:
             yield from verbs(command, (*before, name))
-        else:
+        if alone or command.invoke_without_command:
             yield (*before, name), command
 
 
@@ -30,7 +31,7 @@ def test_the_verbs_are_these():
     assert set(VERBS) == {
         *(("init",), ("check",), ("run",), ("compare",), ("warm-up",), ("fit",)),
         *(("sweep",), ("select",), ("labour",), ("layout",), ("long-run",), ("merge",)),
-        *(("report",), ("view",), ("export",), ("sql",), ("schema",), ("effects",), ("doctor",)),
+        *(("report",), ("view",), ("export",), ("sql",), ("schema",), ("effects",), ("doctor",), ("doctor", "engines")),
         *(
             ("motion", verb)
             for verb in ("import", "clean", "segment", "fit", "sample", "show", "score", "judge", "people")

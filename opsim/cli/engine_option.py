@@ -1,0 +1,47 @@
+"""The option ``--engine`` of all verbs that run something, and what is said of the engine that is taken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from opsim.engine.choice import AUTO, ENGINES, SIMPY, Choice, Told, known
+
+if TYPE_CHECKING:
+    from opsim.cli.progress import Report
+    from opsim.study.engine_choice import Chosen
+
+COMPILING = "compiling the fast engine (once)"
+
+
+class EngineWord(click.Choice):  # type: ignore[type-arg]  # of click 8.1 it takes none
+    """One of the engines; of another word the nearest one is said."""
+
+    def __init__(self) -> None:
+        super().__init__(ENGINES)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Raises BadParameter."""
+        try:
+            return known(value)
+        except ValueError as error:
+            self.fail(str(error).removeprefix("engine: "), param, ctx)
+
+
+def engine_option(default: str | None = SIMPY) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """default : None where it is known later whether anything is run; that is SIMPY then"""
+    words = "What runs it; the results are the same. auto: the fast one where that is sooner.  [default: simpy]"
+    return click.option("--engine", type=EngineWord(), default=default, help=words)
+
+
+def telling(what: str, report: Report) -> Chosen:
+    """Says which engine ``auto`` takes, and that the fast one is compiled; ``what`` is being done."""
+
+    def chosen(choice: Choice) -> Told | None:
+        if choice.asked == AUTO:
+            report.say(f"{what}: {choice.words}")
+        return lambda done, total: report.once(done, total, COMPILING)
+
+    return chosen

@@ -1,0 +1,140 @@
+"""Which engine runs a Plan: the reference (SimPy), the fast one, or whichever is sooner done.
+
+Both give the same rows, so that the choice decides nothing but the time it takes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from opsim.problems import did_you_mean, shown
+
+if TYPE_CHECKING:
+    from opsim.log import EventLog
+    from opsim.plan import Plan
+
+ENGINES = ("simpy", "fast", "auto")
+SIMPY, FAST, AUTO = ENGINES
+COMPILING_S, LOADING_S = 20.0, 1.0
+"""What the fast engine costs before its first row: compiled for the first time on a machine, and read again later."""
+Run = Callable[["Plan", int], "EventLog"]
+Told = Callable[[int, int], None]
+"""``told(done, total)`` while something is compiled."""
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """engine : ``simpy`` or ``fast``; why : in words that follow its name; asked : one of ``ENGINES``
+
+    may_pay : whether the fast engine was only not worth it, and would be for more replications
+    """
+
+    engine: str
+    why: str
+    asked: str = SIMPY
+    may_pay: bool = False
+
+    @property
+    def words(self) -> str:
+        """One sentence."""
+        return f"the {'fast' if self.engine == FAST else 'SimPy'} engine, {self.why}"
+
+
+REFERENCE = Choice(SIMPY, "which is the reference")
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Something that the fast engine does not run, in words; places : paths of the scenario where it may stand."""
+
+    words: str
+    places: tuple[tuple[str, ...], ...] = ()
+
+
+class NotFast(ValueError):
+    """A Plan that the fast engine does not run; ``refusals`` is all of what it does not."""
+
+    def __init__(self, refusals: Sequence[Refusal]):
+        self.refusals = tuple(refusals)
+        super().__init__(self.refusals)
+
+    def __str__(self) -> str:
+        return "\n".join(f"the fast engine does not run this: {one.words}" for one in self.refusals)
+
+
+def choose(asked: str, plan: Plan, runs: int = 1) -> Choice:
+    """The engine for ``runs`` replications of a Plan, or of Plans like it.
+
+    ``auto`` is the fast engine where it runs the Plan and SimPy's work, as estimated, is more than what compiling (the
+    first time) or reading compiled code takes. Raises ValueError for an unknown word, NotFast.
+    """
+    able = able_to(asked, plan)
+    return _worth(plan, runs) if asked == AUTO and able.engine == FAST else able
+
+
+def able_to(asked: str, plan: Plan) -> Choice:
+    """As ``choose``, where the fast engine is worth it, or its compiling is over: ``auto`` is what can run the Plan."""
+    known(asked)
+    if asked == SIMPY:
+        return REFERENCE
+    refusals = refused(plan)
+    if not refusals:
+        return Choice(FAST, "as asked" if asked == FAST else "as it runs all of this scenario", asked)
+    if asked == FAST:
+        raise NotFast(refusals)
+    more = f", and {len(refusals) - 1} more" if len(refusals) > 1 else ""
+    return Choice(SIMPY, f"as the fast one does not run this: {refusals[0].words}{more}", AUTO)
+
+
+def refused(plan: Plan) -> list[Refusal]:
+    """All that the fast engine does not run of a Plan: rules that are plug-ins, then what it says itself."""
+    from opsim.engine.fast_engine import unsupported
+    from opsim.engine.plugin_rules import plugin_rules
+
+    rules: dict[str, tuple[tuple[str, ...], ...]] = {}
+    for rule in plugin_rules(plan):
+        rules[str(rule)] = tuple(dict.fromkeys((*rules.get(str(rule), ()), *rule.places)))
+    others = (words for words in unsupported(plan) if words not in rules)
+    return [Refusal(words, places) for words, places in rules.items()] + [Refusal(words) for words in others]
+
+
+def runner_of(choice: Choice) -> Run:
+    """What runs one replication: ``run_plan`` of the chosen engine, imported now."""
+    if choice.engine == FAST:
+        from opsim.engine.fast_engine import run_plan
+    else:
+        from opsim.engine.simpy_engine import run_plan
+    return run_plan
+
+
+def make_ready(choice: Choice, plan: Plan, told: Told | None = None) -> None:
+    """Compile what the chosen engine needs for a Plan, where that is not done: before other processes are started."""
+    if choice.engine == FAST:
+        from opsim.engine.fast_engine import ready
+
+        ready(plan, told)
+
+
+def known(asked: str) -> str:
+    """The word itself. Raises ValueError with the nearest one where there is no such engine."""
+    if asked not in ENGINES:
+        words = f"expected {', '.join(ENGINES[:-1])} or {ENGINES[-1]}"
+        raise ValueError(f"engine: found {shown(asked)}, {words}; {did_you_mean(asked, ENGINES)}".rstrip("; "))
+    return asked
+
+
+def _worth(plan: Plan, runs: int) -> Choice:
+    from opsim.engine.fast_engine import compiled
+    from opsim.engine.simpy_work import simpy_s
+
+    work_s, there = runs * simpy_s(plan), compiled(plan)
+    work = "less than a second of work" if work_s < 1 else f"about {work_s:.2g} s of work"
+    if there:
+        costs = "is compiled already"
+    else:
+        costs = f"would first be compiled (about {COMPILING_S:.0f} s, once on this machine)"
+    if work_s > (LOADING_S if there else COMPILING_S):
+        return Choice(FAST, f"as this is {work} for SimPy, and the fast one {costs}", AUTO)
+    return Choice(SIMPY, f"as this is {work} for it, and the fast one {costs}", AUTO, may_pay=True)

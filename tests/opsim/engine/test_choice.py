@@ -1,0 +1,115 @@
+"""Which engine is taken, and what is said of it; the engines themselves are not run."""
+
+import pickle
+
+import pytest
+from plans import line, plan, queue
+from stand_in_engine import install_rule, stand_in
+
+from opsim.engine import choice
+from opsim.engine.choice import NotFast, Refusal, able_to, choose, known, make_ready, runner_of
+from opsim.engine.simpy_engine import run_plan
+
+SHORT = line(2, 1, horizon="1 h")
+LONG = queue(horizon="2000 h")
+
+
+def test_simpy_is_taken_without_a_look_at_the_fast_engine(monkeypatch):
+    stand_in(monkeypatch, refuses=lambda plan: 1 / 0)
+    assert choose("simpy", plan(SHORT)).engine == "simpy"
+
+
+def test_fast_is_taken_where_it_runs_all_of_a_plan(monkeypatch):
+    made = stand_in(monkeypatch)
+    chosen = choose("fast", plan(SHORT))
+    assert (chosen.engine, chosen.asked) == ("fast", "fast") and runner_of(chosen) == made.run_plan
+
+
+def test_fast_is_refused_with_everything_that_it_does_not_run(monkeypatch, tmp_path):
+    stand_in(monkeypatch, refuses=["belts", "kits"])
+    install_rule(tmp_path, monkeypatch, "opsim.dispatch", "mine")
+    install_rule(tmp_path, monkeypatch, "opsim.sequencing", "yours")
+    made = plan(SHORT + "\nallocation: {rule: mine}\nflow: {dispatch: yours}")
+    with pytest.raises(NotFast) as refused:
+        choose("fast", made)
+    assert [one.words for one in refused.value.refusals] == [
+        "the rule 'mine' of opsim.dispatch is a plug-in in Python",
+        "the rule 'yours' of opsim.sequencing is a plug-in in Python",
+        "belts",
+        "kits",
+    ]
+    own = [("stations", station, "dispatch") for station in ("s1", "s2")]
+    assert {*refused.value.refusals[1].places} == {*own, ("flow", "dispatch")}
+
+
+def test_a_refusal_says_the_same_in_another_process():
+    said = NotFast([Refusal("belts"), Refusal("kits", (("stations", "a"),))])
+    there = pickle.loads(pickle.dumps(said))
+    assert there.refusals == said.refusals and str(there) == str(said) and str(said).count("does not run this") == 2
+
+
+def test_a_rule_that_the_engine_names_too_is_said_once(monkeypatch, tmp_path):
+    stand_in(monkeypatch, refuses=["the rule 'mine' of opsim.dispatch is a plug-in in Python"])
+    install_rule(tmp_path, monkeypatch, "opsim.dispatch", "mine")
+    with pytest.raises(NotFast) as refused:
+        choose("fast", plan(SHORT + "\nallocation: {rule: mine}"))
+    assert len(refused.value.refusals) == 1
+
+
+def test_our_own_rules_are_no_plug_ins(monkeypatch):
+    stand_in(monkeypatch)
+    made = plan(SHORT + "\nallocation: {rule: oldest_job}\nflow: {dispatch: spt, routing: first_free}")
+    assert choose("fast", made).engine == "fast"
+
+
+def test_auto_takes_simpy_for_what_the_fast_engine_does_not_run_and_says_what(monkeypatch):
+    stand_in(monkeypatch, refuses=["belts", "kits"])
+    chosen = choose("auto", plan(LONG), 1000)
+    assert chosen.engine == "simpy" and not chosen.may_pay
+    assert chosen.words == "the SimPy engine, as the fast one does not run this: belts, and 1 more"
+
+
+def test_auto_takes_simpy_for_the_work_of_a_moment_and_says_what_compiling_costs(monkeypatch):
+    stand_in(monkeypatch)
+    chosen = choose("auto", plan(SHORT))
+    assert chosen.engine == "simpy" and chosen.may_pay
+    assert "less than a second of work" in chosen.why and "would first be compiled (about 20 s, once" in chosen.why
+
+
+def test_auto_takes_the_fast_engine_for_much_work(monkeypatch):
+    stand_in(monkeypatch)
+    chosen = choose("auto", plan(LONG), 10)
+    assert chosen.engine == "fast" and "s of work for SimPy" in chosen.why
+
+
+def test_more_replications_are_more_work(monkeypatch):
+    stand_in(monkeypatch)
+    one_hour = plan(SHORT)
+    assert [choose("auto", one_hour, runs).engine for runs in (1, 100_000)] == ["simpy", "fast"]
+
+
+def test_what_is_compiled_already_is_sooner_worth_it(monkeypatch):
+    made, some = stand_in(monkeypatch), plan(queue(horizon="20 h"))
+    assert choose("auto", some, 2).engine == "simpy"
+    made.is_compiled = True
+    chosen = choose("auto", some, 2)
+    assert chosen.engine == "fast" and "is compiled already" in chosen.why
+    assert choose("auto", plan(SHORT)).engine == "simpy"
+
+
+def test_where_the_work_is_over_auto_is_what_can_run_the_plan(monkeypatch):
+    stand_in(monkeypatch)
+    assert able_to("auto", plan(SHORT)).engine == "fast"
+
+
+def test_only_the_fast_engine_is_made_ready(monkeypatch):
+    made, some, told = stand_in(monkeypatch), plan(SHORT), []
+    make_ready(choice.REFERENCE, some)
+    assert made.asked_for == [] and runner_of(choice.REFERENCE) is run_plan
+    make_ready(choose("fast", some), some, lambda *steps: told.append(steps))
+    assert made.asked_for == [some] and told == [(0, 3), (1, 3), (2, 3), (3, 3)]
+
+
+def test_an_unknown_engine_is_answered_with_the_nearest():
+    with pytest.raises(ValueError, match=r"found 'fsat', expected simpy, fast or auto; did you mean 'fast'\?"):
+        known("fsat")
