@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import ClassVar
 
 from opsim.human.parameter import Checked, parameter
@@ -51,7 +52,7 @@ class Schultz(Checked):
 
     def share(self, waiting: float, places: float) -> float:
         """How full a buffer is: 1 where somebody waits for one that does not exist."""
-        room = min(places, self.full_at) if places == float("inf") else places
+        room = min(places, self.full_at) if places == inf else places
         if room <= 0.0:
             return 1.0 if waiting > 0 else 0.0
         return min(1.0, waiting / room)

@@ -113,17 +113,7 @@ class ThreeCompartment(Checked):
 
     def rest_to_s(self, state: Compartments, level: float) -> float:
         """Seconds of rest after which no joint is above a level, above 0; to 1 ms, from above."""
-
-        def after(seconds: float) -> float:
-            return self.rested(Compartments(state.shares.copy()), seconds).worst
-
-        low, high = 0.0, 1.0
-        while after(high) > level:
-            low, high = high, 2.0 * high
-        while high - low > 1e-3:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if after(middle) > level else (low, middle)
-        return high
+        return float(_kernel().rest_to_s(state.shares, state.shares.copy(), level))
 
 
 def endurance_s(region: str, share: float) -> float:

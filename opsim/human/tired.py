@@ -42,24 +42,31 @@ class Tired:
         at_s = self.at_s
         if now <= at_s:
             return
-        self.at_s, task, until_s = now, self._task, self._until_s
+        self.at_s, task = now, self._task
         if task < 0:
             self.state = self.model.rested(self.state, now - at_s)
             return
-        to_s, rest_s = now, 0.0
-        if now >= until_s:
-            self._task, to_s, rest_s = -1, until_s, now - until_s
-        begun_s, done = self._begun_s, self._done
-        if done == 0.0 and at_s == begun_s and to_s == until_s:  # NOTE: a whole performance, most often
-            first, last = 0.0, 1.0
-        else:
-            a_second = (1.0 - done) / (until_s - begun_s)
-            first, last = done + a_second * (at_s - begun_s), min(1.0, done + a_second * (to_s - begun_s))
+        first, last, work_s, rest_s = piece(at_s, now, self._begun_s, self._until_s, self._done)
+        if now >= self._until_s:
+            self._task = -1
         if task in self.burdens:
             burden = self.burdens[task]
         else:
             burden = self.burdens[task] = self._burden_of(task)
-        self.state = self.model.passed(self.state, burden, first, last, to_s - at_s, rest_s)
+        self.state = self.model.passed(self.state, burden, first, last, work_s, rest_s)
+
+
+def piece(at_s: float, now: float, begun_s: float, until_s: float, done: float) -> tuple[float, float, float, float]:
+    """What passes from a time until now of a performance that was begun at share ``done``, and goes on until then: from
+    which share of it to which, how many seconds of work, and how many of rest after its end.
+    """
+    to_s, rest_s = now, 0.0
+    if now >= until_s:
+        to_s, rest_s = until_s, now - until_s
+    if done == 0.0 and at_s == begun_s and to_s == until_s:  # NOTE: a whole performance, most often
+        return 0.0, 1.0, to_s - at_s, rest_s
+    a_second = (1.0 - done) / (until_s - begun_s)
+    return done + a_second * (at_s - begun_s), min(1.0, done + a_second * (to_s - begun_s)), to_s - at_s, rest_s
 
 
 def tired(model: Any, burdens: Any, worker: int) -> Tired:

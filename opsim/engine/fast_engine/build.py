@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import Any
 
-from opsim.engine.fast_engine import blocks, completion, material, settle
+from opsim.engine.fast_engine import blocks, completion, material, release, settle
 from opsim.engine.fast_engine.machine import Arena, Handle, line_of, step_of
 from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.parts import structs_of_blocks
@@ -21,13 +21,16 @@ from opsim.plan.release import POISSON, RENEWAL, SATURATED, SCHEDULE
 WHEN_IDLE = ("stay", "home", "patrol")
 ALWAYS = (
     *(settle.run_on, settle.start, settle.close, settle.report),
-    *(completion.stretch_done, completion.automatic_done, material.operation_done),
+    *(completion.stretch_done, completion.automatic_done, material.operation_done, release.arrived, release.ordered),
 )
 """Steps that every floor needs, by way of its lines."""
 
 
 class Build:
-    """A floor that is being set up: ``floor`` and what it leads to are handles. steps : that its lines lead to."""
+    """A floor that is being set up: ``floor`` and what it leads to are handles. steps : that its lines lead to.
+
+    answers : what Python is asked in a run, besides numbers: each is told ``begin(numbers)`` as a replication begins
+    """
 
     def __init__(self, plan: Plan):
         self.plan, self.arena = plan, Arena()
@@ -35,6 +38,7 @@ class Build:
         self.floor = self.arena.new("Floor")
         self.names: dict[str, Any] = {}
         self.gates: dict[tuple[int, ...], Handle] = {}
+        self.answers: list[Any] = []
         self._set_floor()
         self.outside = self.floor.outside = self._outside()
         self.tasks = [self._task(rank) for rank in range(len(plan.tasks))]

@@ -1,4 +1,4 @@
-"""Not there yet."""
+"""Paced lines: stations whose jobs move together."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ from typing import Any
 
 
 def install(build: Any) -> None:
-    """Refuses plans with this block."""
-    plan = build.plan
-    if plan.lines:
-        raise NotImplementedError("the fast engine does not know: lines")
+    """A line that moves jobs at intervals, or all the time, for each that the plan has."""
+    if not build.plan.lines:
+        return
+    from opsim.engine.fast_engine.indexed_line import indexed_line
+    from opsim.engine.fast_engine.moving_line import moving_line
+
+    build.keep_jobs()
+    for plan in build.plan.lines:
+        (moving_line if plan.moves else indexed_line)(build, plan)

@@ -10,6 +10,7 @@ from opsim.engine.fast_engine.machine import (
     drop,
     fresh,
     give_back,
+    give_items_back,
     inlined,
     step,
     tell_1,
@@ -404,4 +405,6 @@ def forget_job(floor: Floor, job: Job) -> None:
     """Nobody refers to the job any more: its memory is free."""
     if job.visits:
         give_bytes_back(floor.memory, address_of(job.visits), 16 * ((job.plan.n_steps + 1) >> 1))
+    give_items_back(floor, job.passes)
+    give_items_back(floor, job.reworks)
     _forget_job(floor, job)

@@ -44,6 +44,8 @@ class Machine:
         floor, at = self.floor, self.floor.address
         self.build.arena.restore()
         self.numbers.begin(replication)
+        for one in self.build.answers:
+            one.begin(self.numbers)
         self._used = 0
         start_floor(at)
         while (state := run_floor(at, MOST_EVENTS)) not in (DONE, FAILED) and self.numbers.failed is None:

@@ -138,6 +138,30 @@ def spend(state, course, first, last, work_s, rest_s):
 
 
 @compiled(error_model="numpy", nogil=True)
+def _worst_after(state, spare, seconds):
+    """The worst fatigue after a rest, on trial: ``spare`` is written to, and ``state`` is not."""
+    for joint in range(state.shape[0]):
+        for number in range(state.shape[1]):
+            spare[joint, number] = state[joint, number]
+    return rest(spare, seconds)
+
+
+@compiled(error_model="numpy", nogil=True)
+def rest_to_s(state, spare, level):
+    """Seconds of rest after which no joint is above a level, above 0; to 1 ms, from above. ``spare`` : as ``state``."""
+    low, high = 0.0, 1.0
+    while _worst_after(state, spare, high) > level:
+        low, high = high, 2.0 * high
+    while high - low > 1e-3:
+        middle = 0.5 * (low + high)
+        if _worst_after(state, spare, middle) > level:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@compiled(error_model="numpy", nogil=True)
 def exhausted_s(load, tires, recovers, most_s):
     """Seconds for which a fresh muscle meets a load: until no resting muscle is left for it; -1: beyond ``most_s``."""
     pull = TRACKING_PER_S + tires

@@ -9,6 +9,7 @@ from opsim.engine.fast_engine.machine.compiling import inlined as inlined
 from opsim.engine.fast_engine.machine.lists import clear as clear
 from opsim.engine.fast_engine.machine.lists import drop as drop
 from opsim.engine.fast_engine.machine.lists import drop_at as drop_at
+from opsim.engine.fast_engine.machine.lists import give_items_back as give_items_back
 from opsim.engine.fast_engine.machine.lists import has as has
 from opsim.engine.fast_engine.machine.lists import index_of as index_of
 from opsim.engine.fast_engine.machine.lists import insert as insert

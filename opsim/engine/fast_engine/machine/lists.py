@@ -110,6 +110,17 @@ def drop(items: Any, item: Any) -> bool:
 
 
 @inlined
+def give_items_back(floor: Any, items: Any) -> None:
+    """Take all items out, and their room is free: before the struct with the list in it is given back."""
+    room = word(items, ROOM)
+    if room:
+        give_bytes_back(floor.memory, word(items, DATA), 8 * room)
+    set_word(items, FIRST, 0)
+    set_word(items, N, 0)
+    set_word(items, ROOM, 0)
+
+
+@inlined
 def clear(items: Any) -> None:
     """Take all items out; their room stays."""
     set_word(items, FIRST, 0)

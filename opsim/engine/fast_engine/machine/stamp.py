@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from hashlib import blake2b
 from os import environ
+from os.path import relpath
 from pathlib import Path
 
 ENGINE = Path(__file__).parents[1]
-RULES = ENGINE.parent / "rules"
+OPSIM = ENGINE.parents[1]
+COMPILED_TOO = (ENGINE.parent / "rules", OPSIM / "human", OPSIM / "ergonomics" / "kernels")
+"""Whose functions are compiled into steps as they are written."""
 SEEN_FROM_PYTHON = ("arena.py", "table.py", "stamp.py", "__init__.py")
 """Nothing of these is compiled."""
 
@@ -19,9 +22,9 @@ SEEN_FROM_PYTHON = ("arena.py", "table.py", "stamp.py", "__init__.py")
 def _stamp() -> str:
     """Of names, sizes and times of all sources; of fewer, where ``OPSIM_STAMP=parts`` says so, to work on one file."""
     fewer = environ.get("OPSIM_STAMP") == "parts"
-    folders = (ENGINE / "machine", ENGINE / "parts") if fewer else (ENGINE, RULES)
+    folders = (ENGINE / "machine", ENGINE / "parts") if fewer else (ENGINE, *COMPILED_TOO)
     found = sorted(path for folder in folders for path in folder.rglob("*.py") if path.name not in SEEN_FROM_PYTHON)
-    told = [f"{path.relative_to(ENGINE.parent)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in found]
+    told = [f"{relpath(path, ENGINE.parent)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in found]
     return blake2b("\n".join(told).encode(), digest_size=8).hexdigest()
 
 

@@ -63,9 +63,13 @@ def step_of(call: Any) -> Step:
     return _OF_CALLABLE[id(call)]
 
 
-def line_of(call: Any) -> int:
+class Line(int):
+    """A number of a line. NOTE: where a step names one, it needs that step."""
+
+
+def line_of(call: Any) -> Line:
     """Its line of the table: what hooks and events say for what is to be done."""
-    return step_of(call).line
+    return Line(step_of(call).line)
 
 
 def needed(roots: Iterable[Step]) -> Iterator[Step]:
@@ -82,7 +86,9 @@ def needed(roots: Iterable[Step]) -> Iterator[Step]:
 def _named_in(function: Callable, seen: set[int]) -> Iterator[Step]:
     """The steps that a function names, and those that the compiled functions that it names do."""
     for value in _values(function):
-        if id(value) in _OF_CALLABLE:
+        if isinstance(value, Line):
+            yield STEPS[value]
+        elif id(value) in _OF_CALLABLE:
             yield _OF_CALLABLE[id(value)]
         elif hasattr(value, "py_func") and id(value) not in seen:
             seen.add(id(value))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined
 from opsim.engine.fast_engine.parts.state import Floor, Stream
 
-DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE = range(1, 12)
+DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE, HOLD, HOLD_RUN = range(1, 14)
 """Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``luck_of`` of the engine."""
 new_stream = fresh(Stream)
 

@@ -92,12 +92,16 @@ class Row:
 
 @struct
 class Claim:
-    """What a job puts down where it waits for something: served by (before, since_s, number); before : -priority."""
+    """What a job puts down where it waits for something: served by (before, since_s, number); before : -priority
+
+    seen : whether the guard of a gate with cards has looked at it
+    """
 
     before: float
     since_s: float
     number: int
     job: Job
+    seen: int
 
 
 @struct
@@ -490,6 +494,7 @@ class Floor:
     drawn_line: int
     works_line: int
     stops_line: int
+    errors_line: int
     asked_task: int
     asked_k: int
     asked_s: float

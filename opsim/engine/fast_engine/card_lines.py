@@ -1,0 +1,83 @@
+"""Who is to be asked at a gate with cards: one of each line outside, and everybody who is on the floor."""
+
+from __future__ import annotations
+
+from opsim.engine.fast_engine.machine import (
+    List,
+    clear,
+    drop_at,
+    fresh,
+    give_back,
+    inlined,
+    insert,
+    pop_first,
+    push,
+    step,
+)
+from opsim.engine.fast_engine.parts.loops import Guard, is_outside, is_there, line_of_job, place_of
+from opsim.engine.fast_engine.parts.state import Claim, Floor
+
+_new_claim, _forget_claim = fresh(Claim), give_back(Claim)
+
+
+@inlined
+def _copy(floor: Floor, claim: Claim) -> Claim:
+    made: Claim = _new_claim(floor)
+    made.before, made.since_s, made.number, made.job = claim.before, claim.since_s, claim.number, claim.job
+    return made
+
+
+@inlined
+def _put(floor: Floor, claims: List[Claim], claim: Claim) -> None:
+    insert(floor, claims, place_of(claims, claim), claim)
+
+
+@step
+def find_first(floor: Floor, guard: Guard) -> None:
+    """Put the claims that decide which one is met into ``guard.asked``, in order. The gate has claims."""
+    claims, inside, asked = guard.gate.claims, guard.inside, guard.asked
+    _look(floor, guard)
+    clear(asked)
+    at = 0
+    while at < len(inside):
+        if is_there(claims, inside[at]):
+            push(floor, asked, inside[at])
+            at += 1
+        else:
+            _forget_claim(floor, inside[at])
+            drop_at(inside, at)
+    for i in range(guard.n_lines):
+        line = guard.lines[i].claims
+        while len(line) and not is_there(claims, line[0]):
+            _forget_claim(floor, pop_first(line))
+        if len(line):
+            _put(floor, asked, line[0])
+
+
+@step
+def _look(floor: Floor, guard: Guard) -> None:
+    """Put claims that were not looked at before where they belong. Of equal priority, the new ones are the last."""
+    claims = guard.gate.claims
+    if floor.now != guard.until_s:
+        while len(guard.last):
+            _forget_claim(floor, pop_first(guard.last))
+    ordered = claims[0].before == claims[len(claims) - 1].before
+    for at in range(len(claims) - 1, -1, -1):
+        claim = claims[at]
+        if claim.since_s < guard.until_s:
+            if ordered:
+                break
+        elif not claim.seen:
+            _look_at(floor, guard, claim)
+    guard.until_s = floor.now
+
+
+@inlined
+def _look_at(floor: Floor, guard: Guard, claim: Claim) -> None:
+    claim.seen = 1
+    if claim.since_s == floor.now:
+        push(floor, guard.last, _copy(floor, claim))
+    if is_outside(claim.job):
+        _put(floor, line_of_job(guard, claim.job).claims, _copy(floor, claim))
+    else:
+        _put(floor, guard.inside, _copy(floor, claim))

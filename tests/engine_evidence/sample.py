@@ -1,0 +1,79 @@
+"""Floors that together show the whole vocabulary twice: ``python -m engine_evidence.sample`` chooses them anew."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from functools import partial
+
+SAMPLE: tuple[int, ...] = (
+    11,
+    86,
+    101,
+    118,
+    187,
+    198,
+    215,
+    235,
+    259,
+    268,
+    295,
+    306,
+    308,
+    370,
+    381,
+    388,
+    411,
+    465,
+    477,
+    491,
+    545,
+    555,
+    559,
+    586,
+    643,
+    677,
+    746,
+    781,
+    782,
+    815,
+    816,
+    823,
+    835,
+    882,
+    891,
+    907,
+    917,
+    922,
+)
+TIMES = 2
+"""In so many floors of the sample each word is."""
+ROWS_A_WORD = 4000
+"""Rows of a log that are worth a word: short floors are taken rather."""
+
+
+def chosen(words: Mapping[int, frozenset[str]], n_rows: Mapping[int, int]) -> tuple[int, ...]:
+    """Numbers of floors: one after the other that with most words of which the ones before have not enough."""
+    found: list[int] = []
+    lacking = Counter({word: TIMES for of_one in words.values() for word in of_one})
+    while lacking:
+        left = {word for word, n in lacking.items() if n > 0}
+        rest = (number for number in words if number not in found and left & words[number])
+        best = max(rest, key=lambda number: (len(left & words[number]) - n_rows[number] / ROWS_A_WORD, -number))
+        found.append(best)
+        lacking = +(lacking - Counter(words[best]))
+    return tuple(sorted(found))
+
+
+def main() -> None:
+    """Say them."""
+    from engine_evidence.compared import floor_seen
+    from engine_evidence.equality import compared
+    from engine_evidence.floors import N_FLOORS
+
+    found = compared(range(N_FLOORS), partial(floor_seen, simpy_only=True))
+    print(chosen(dict(enumerate(one.words for one in found)), dict(enumerate(one.n_rows for one in found))))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+"""The fast engine writes the log of the SimPy engine, to the last bit, on random floors over the whole vocabulary.
+
+``python -m engine_evidence.equality`` compares all 1,000; here is a sample that together uses every block, and a
+deterministic part of the others in the slow tests.
+"""
+
+import pytest
+from checked_floors import plan_of
+from engine_evidence.floors import N_FLOORS, floor_text, replication_of
+from engine_evidence.rows import first_difference
+from engine_evidence.sample import SAMPLE
+
+from opsim.engine.simpy_engine import run_plan as run_simpy
+
+EVERY = 4
+"""Of the others, one of so many is run here."""
+PARTS = 4
+
+
+def difference(number):
+    """The first row that differs, in words; nothing where the logs are equal."""
+    fast_engine = pytest.importorskip("opsim.engine.fast_engine", reason="the fast engine is not there yet")
+    plan, replication = plan_of(floor_text(number)), replication_of(number)
+    return first_difference(run_simpy(plan, replication), fast_engine.run_plan(plan, replication))
+
+
+@pytest.mark.parametrize("number", SAMPLE)
+def test_a_floor_of_the_sample_has_one_log(number):
+    assert difference(number) == ""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(PARTS))
+def test_many_random_floors_have_one_log(part):
+    numbers = [number for number in range(0, N_FLOORS, EVERY) if number not in SAMPLE][part::PARTS]
+    assert {number: words for number in numbers if (words := difference(number))} == {}
