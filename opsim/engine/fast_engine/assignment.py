@@ -18,7 +18,7 @@ _nearer_to_its_end = inlined(allocation.nearer_to_its_end)
 
 
 def install(build: Any) -> None:
-    """What comes before the rule of allocation, where the plan has some of it; one operation a stop, where it says so."""
+    """What comes before the rule of allocation, where there is some; one operation a stop, where the plan says so."""
     for part in _parts(build.plan):
         build.hang(build.floor.prefixes, part)
     if build.plan.idle == "patrol" and build.plan.serve == "one":

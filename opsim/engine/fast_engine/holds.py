@@ -89,7 +89,7 @@ def _is_as_it_was(job: Job, doing: Doing) -> bool:
 
 
 @step
-def _take_up(floor: Floor, job: Job, worker: Worker, attended: bool) -> None:
+def _take_up(floor: Floor, job: Job, worker: Worker, attended: int) -> None:
     """The worker goes on with a performance."""
     doing = job.block.doing
     doing.worker = worker

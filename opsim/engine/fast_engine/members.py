@@ -40,9 +40,8 @@ def _best_of(floor: Floor, job: Job, station: Station) -> Worker:
     for i in range(len(able)):
         worker = able[i]
         stays = worker.staying is job
-        if best:
-            if stays != (best.staying is job) and not stays:
-                continue
+        if best and stays != (best.staying is job) and not stays:
+            continue
         pair_key(floor, worker, station, job, 1 + len(station.queue), job.since_s)
         better = True
         if best:

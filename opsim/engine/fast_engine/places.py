@@ -33,9 +33,8 @@ def install(build: Any) -> None:
 def has_place(floor: Floor, subject: Any, job: Job) -> bool:
     """Claim a place at the next operation; True where it is kept, or none is needed."""
     ahead = job.ahead
-    if ahead:
-        if ahead.step < 0 or ahead.station:
-            return True
+    if ahead and (ahead.step < 0 or ahead.station):
+        return True
     step = ahead.step if ahead else step_after(floor, job)  # who lost his server may have lost his place too
     gate = job.plan.steps[step].gate if step >= 0 else job.gate
     stays = step >= 0 and _may_stay(gate, job)

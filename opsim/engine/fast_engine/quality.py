@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.fast_engine.machine import List, index_of, inlined, push, step, tell_2
+from opsim.engine.fast_engine.machine import index_of, inlined, push, step, tell_2
 from opsim.engine.fast_engine.material import go_to, leave_floor, leave_station, withdraw
 from opsim.engine.fast_engine.parts.gauges import Chances, Gauge
 from opsim.engine.fast_engine.parts.luck import QUALITY, YIELD, number_at, stream_of
@@ -90,7 +90,7 @@ def _chance(floor: Floor, chances: Chances, purpose: int, visit: int, job: Job) 
 def _is_open(gauge: Gauge, bad: int) -> bool:
     """Whether an inspection of such a job may end either way."""
     share = gauge.finds if bad else gauge.false_alarms
-    return 0 < share and share < 1
+    return share > 0 and share < 1
 
 
 @inlined

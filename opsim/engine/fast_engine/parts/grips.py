@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @struct
 class Grip:
-    """Tools of a job, for a purpose. needs : n_needs pairs of a tool and how many of it; task : -1 the station itself."""
+    """Tools of a job, for a purpose. needs : n_needs pairs of a tool and how many; task : -1 the station itself."""
 
     purpose: int
     n_needs: int
@@ -46,7 +46,7 @@ class Want:
 
 @struct
 class JobTools:
-    """Of one job. wanted, since_s : purposes, and since when tools are wanted for each; calling : for a worker with tools
+    """Of one job. wanted, since_s : purposes, and since when for each; calling : for a worker with tools
 
     known : whether it had, wanted or called for some at the station where it is
     """

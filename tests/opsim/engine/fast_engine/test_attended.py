@@ -18,7 +18,7 @@ workers: {w1: {skills: {s: 1.0}}, w2: {skills: {s: 0.5}}}
 
 
 def test_a_run_that_is_broken_off_is_gone_on_with_by_anybody():
-    log = twins(CELL, ("STOP", "maintenance: {wash: {every: {fixed: 21 s}, duration: {fixed: 4 s}, when: at_once}}"))
+    log = twins(CELL, ("STOP", "maintenance: {wash: {every: 21 s, lasts: 4 s, when: at_once}}"))
     work = log.of(WORK)
     assert len(work.where(work["progress_from"] > 0)) > 10
 

@@ -35,7 +35,7 @@ TIRED = ("allocation:", "human: {fatigue: {model: lffrm, tires_half_in: 20 min}}
 @pytest.fixture
 def known(monkeypatch):
     """How fast heavy and light work add to a dose; ben gathers it faster."""
-    monkeypatch.setattr(DoseRates, "per_s", lambda self, worker, task: (6.0, 2.0)[task] + 0.1 * (worker == 1))
+    monkeypatch.setattr(DoseRates, "per_s", lambda self, worker, task: (6.0, 2.0, 1.0)[task] + 0.1 * (worker == 1))
 
 
 @pytest.mark.parametrize("edits", [(), (TURN,), (TIRED,), (TIRED, TURN)])

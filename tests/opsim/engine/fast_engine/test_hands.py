@@ -8,7 +8,7 @@ from opsim.log import HELD, NO_TOOL, TEAM, TOOL, WAIT
 CELL = """
 opsim: 1
 name: hands
-run: {horizon: 1800 s, seed: 8}
+run: {start: Mon 06:00, horizon: 1800 s, seed: 8}
 layout: {places: {p: [0 m, 0 m], q: [3 m, 0 m], r: [3 m, 4 m]}}
 tools: {gun: {n: 1}, jig: {n: 2}}
 tasks:
@@ -37,8 +37,8 @@ STOPS = {
 }
 SHIFTS = """
 shifts:
-  open: {start: 00:00, end: 08:00, breaks: [00:05 + 1 min, 00:11 + 2 min, 00:20 + 1 min]}
-  day: {start: 00:00, end: 08:00, at_break: RULE, breaks: [00:03 + 2 min, 00:10 + 1 min, 00:17 + 2 min]}
+  open: {from: 06:00, to: 06:15}
+  day: {from: 06:00, to: 14:00, at_break: RULE, breaks: {tea: {at: 06:03, lasts: 2 min}, rest: {at: 06:10, lasts: 9 s}}}
 """
 
 

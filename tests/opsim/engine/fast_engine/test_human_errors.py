@@ -9,7 +9,7 @@ from opsim.log import BAD, FINISH, REWORK
 
 INSPECTED = LINE.replace(
     "c: {at: three, tasks: [paint], buffer: 2}",
-    "c: {at: three, tasks: [paint], buffer: 2, yield: 95 %, inspect: {finds: 0.5, then: {rework: c}}}",
+    "c: {at: three, tasks: [paint], buffer: 2, yield: 0.95, inspect: {finds: 0.5, then: {rework: c}}}",
 ).replace("{b: 1.0}", "{b: {pace: 1.0, quality: 0.9}}")
 TIRED = "fatigue: {model: lffrm, tires_half_in: 1 h, recovers_half_in: 10 min}, "
 

@@ -11,12 +11,12 @@ opsim: 1
 name: tired
 run: {start: Mon 06:00, horizon: 90 min, seed: 4}
 layout: {places: {a: [0 m, 0 m], b: [6 m, 0 m]}}
-shifts: {day: {from: '06:00', to: '07:20', breaks: {tea: {at: '06:31', lasts: 4 min}}, at_break: interrupt}}
+shifts: {day: {from: '06:00', to: '07:20', breaks: {tea: {at: '06:31', lasts: 4 min}}, at_break: resume_any}}
 tasks: {cut: {dist: lognormal, mean: 50 s, cv: 0.3}, drill: {dist: gamma, mean: 30 s, cv: 0.5, repeat: 2}}
 stations:
-  one: {at: a, tasks: [cut], buffer: 2, breakdowns: {jam: {every: {dist: exponential, mean: 5 min}, repair: {fixed: 40 s}}}}
+  one: {at: a, tasks: [cut], buffer: 2, breakdowns: {jam: {every: {fixed: 4 min}, repair: {fixed: 40 s}}}}
   two: {at: b, tasks: [drill, cut], buffer: 1}
-products: {p: {route: [one, two]}, q: {route: [two], priority: 1}}
+products: {p: {share: 0.5, route: [one, two]}, q: {share: 0.5, route: [two], priority: 1}}
 release: {kind: poisson, every: 70 s}
 workers:
   ana: {shift: day, walk: 1 m/s, skills: {one: 1.0, two: 0.8}}

@@ -18,7 +18,7 @@ stations:
   two: {at: there, tasks: [look, fit], buffer: 2}
 products: {part: {route: [one, two]}}
 release: {kind: saturated}
-shifts: {early: {from: 06:00, to: 14:00, days: [Mon, Fri], breaks: {tea: {at: 13:20, lasts: 3 min}}, at_break: interrupt}}
+shifts: {early: {from: 06:00, to: 14:00, days: [Mon, Fri], breaks: {tea: {at: 13:20, lasts: 3 min}}, at_break: resume_any}}
 workers:
   ana: {skills: {one: 1.0, two: 0.9}, shift: early, experience: {fit: 7}}
   ben: {skills: {one: 1.1, two: 1.0}, shift: early, walk: 1 m/s}
@@ -41,7 +41,3 @@ def test_people_forget_as_they_do_in_the_reference(forgetting):
     log = of_both(planned(BENCH, f"human: {{{LEARNING}, forgetting: {{model: lfcm, {forgetting}}}}}"))
     pieces = log.of(WORK)
     assert (pieces["progress_to"] < 1.0).sum() > 2 and len(log.of(HELD)) > 2
-
-
-def test_forgetting_alone_changes_nothing():
-    of_both(planned(BENCH, "human: {forgetting: {model: lfcm, least_pause: 0 s}}"))

@@ -20,7 +20,7 @@ name: bench
 run: {start: Mon 06:00, horizon: 40 min, seed: 8}
 libraries: {work: libraries/bench_work.npz}
 layout: {places: {a: [0 m, 0 m], b: [2 m, 0 m]}}
-shifts: {day: {from: '06:00', to: '06:35', breaks: {tea: {at: '06:15', lasts: 4 min}}, at_break: interrupt}}
+shifts: {day: {from: '06:00', to: '06:35', breaks: {tea: {at: '06:15', lasts: 4 min}}, at_break: resume_any}}
 tasks:
   raise: {emulator: work/lift, load: 8 kg}
   stoop: {emulator: work/stoop, load: 4 kg}

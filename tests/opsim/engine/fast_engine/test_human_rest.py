@@ -47,8 +47,3 @@ def test_rests_are_cut_short_by_breaks_meetings_and_the_end_of_the_shift():
 def test_rests_come_before_posts_are_given_out_and_beside_crews():
     turn = "human:", "rotations: {turn: {workers: [ana, ben], posts: [a, b], every: 9 min}}\nhuman:"
     assert len(rests(twins(FLOOR, turn))) > 5
-
-
-def test_nobody_rests_without_fatigue():
-    fatigue = "  fatigue: {model: lffrm, tires_half_in: 12 min, recovers_half_in: 4 min, slows: 0.1}\n"
-    assert not len(rests(twins(FLOOR, (fatigue, ""))))

@@ -11,14 +11,14 @@ opsim: 1
 name: leaving
 run: {start: Mon 06:00, horizon: 55 min, seed: 3}
 layout: {places: {bay: [0 m, 0 m], shed: [20 m, 0 m]}}
-tools: {crane: {count: 1}, gun: {count: 2}}
+tools: {crane: {n: 1}, gun: {n: 2}}
 tasks:
-  lift: {fixed: 70 s, workers: 2, repeat: 2}
-  weld: {dist: lognormal, mean: 40 s, cv: 0.3, tools: {gun: 1}, INTERRUPTED}
-  turn: {fixed: 25 s, tools: {crane: 1, gun: 1}}
+  lift: {fixed: 70 s, team: 2, repeat: 2}
+  weld: {dist: lognormal, mean: 40 s, cv: 0.3, needs: {gun: 1}, INTERRUPTED}
+  turn: {fixed: 25 s, needs: {crane: 1, gun: 1}}
 stations:
-  bench: {at: bay, tasks: [weld, turn, weld], servers: 2}
-  frame: {at: shed, tasks: [weld, lift, lift], servers: 2, setups: {default: 30 s, by: product}}
+  bench: {at: bay, tasks: [weld, turn, weld], servers: 2, buffer: 2}
+  frame: {at: shed, tasks: [weld, lift, lift], servers: 2, setup: {otherwise: 30 s}}
 products: {part: {route: [bench, frame]}, top: {route: [frame], carried: true}}
 sources: {s: {kind: saturated, products: [part]}, t: {kind: poisson, every: 150 s, products: [top]}}
 shifts:

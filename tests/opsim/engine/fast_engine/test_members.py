@@ -9,7 +9,7 @@ opsim: 1
 name: members
 run: {horizon: 600 s, seed: 1}
 layout: {places: {a: [0 m, 0 m], b: [6 m, 0 m]}}
-tasks: {carry: {fixed: 10 s, team: 3, per_lot: true, repeat: 2}, sort: {fixed: 7 s, team: 2}}
+tasks: {carry: {fixed: 10 s, team: 3, per: lot, repeat: 2}, sort: {fixed: 7 s, team: 2}}
 stations: {s: {at: a, tasks: [carry], servers: 2, buffer: 3}, t: {at: b, tasks: [sort], servers: 2, buffer: 3}}
 products: {x: {share: 0.5, lot: 3, route: [s, t]}, y: {share: 0.5, route: [t, s]}}
 release: {kind: renewal, every: {fixed: 25 s}}

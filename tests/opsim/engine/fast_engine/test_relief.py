@@ -11,7 +11,7 @@ name: relief
 run: {start: Mon 06:00, horizon: 55 min, seed: 2}
 layout: {places: {bay: [0 m, 0 m], shed: [30 m, 0 m], canteen: [0 m, 20 m]}}
 tasks: {weld: {fixed: 100 s}, file: {dist: lognormal, mean: 50 s, cv: 0.3}}
-stations: {bench: {at: bay, tasks: [weld, file], servers: 2}, press: {at: shed, tasks: [file], servers: 2}}
+stations: {bench: {at: bay, tasks: [weld, file], servers: 2, buffer: 2}, press: {at: shed, tasks: [file], servers: 2}}
 products: {part: {route: [bench, press]}, top: {route: [press, bench], priority: 2}}
 sources: {s: {kind: saturated, products: [part]}, t: {kind: poisson, every: 90 s, products: [top]}}
 shifts:

@@ -8,7 +8,7 @@ from opsim.log import TEAM, WAIT, WORK
 CELL = """
 opsim: 1
 name: teams
-run: {horizon: 900 s, seed: 1}
+run: {start: Mon 06:00, horizon: 900 s, seed: 1}
 layout: {places: {a: [0 m, 0 m], b: [6 m, 0 m]}}
 tools: {jig: {n: 1}}
 tasks:
@@ -27,7 +27,7 @@ workers:
 """
 STOPS = (
     *("breakdowns: {jam: {every: {fixed: 17 s}, by: busy, repair: {fixed: 7 s}, job: resume}}",),
-    *("maintenance: {clean: {every: {fixed: 40 s}, duration: {fixed: 9 s}, when: at_once}}", "preempt: resume"),
+    *("maintenance: {clean: {every: 40 s, lasts: 9 s, when: at_once}}", "preempt: resume"),
 )
 
 
@@ -52,6 +52,7 @@ def test_a_team_that_is_broken_up_leaves_the_same_rows(stop):
 
 @pytest.mark.parametrize("rule", ["finish", "finish_job", "resume", "resume_any", "restart"])
 def test_a_team_before_a_break(rule):
-    shift = f"shifts: {{day: {{start: 00:00, end: 08:00, at_break: {rule}, breaks: [00:03 + 1 min, 00:08 + 1 min]}}}}\n"
+    breaks = "breaks: {tea: {at: 06:03, lasts: 1 min}, rest: {at: 06:08, lasts: 1 min}}"
+    shift = f"shifts: {{day: {{from: 06:00, to: 14:00, at_break: {rule}, {breaks}}}}}\n"
     edits = [(f"{w}: {{walk", f"{w}: {{shift: day, walk") for w in ("w1", "w2")]
     assert len(members(twins(CELL.replace("MORE", "") + shift, *edits))) > 20

@@ -47,7 +47,7 @@ def test_who_loses_his_server_gives_his_tools_back():
 
 
 def test_tools_of_a_station_go_on_to_the_next_of_a_batch():
-    batch = ("at: c, tasks: [one], buffer: 9", "at: c, tasks: [one], buffer: 0, batch: {size: 2, most_wait: 30 s}")
+    batch = ("at: c, tasks: [one], buffer: 9", "at: c, tasks: [one], buffer: 2, batch: {size: 2, most_wait: 30 s}")
     line = ("s2, s3]}", "s2, s3, s4]}"), ("s3: {", "s4: {at: a, tasks: [two], buffer: 0}\n  s3: {")
     more = ("v: {walk: 1 m/s, skills: {", "v: {walk: 1 m/s, skills: {s4: 1.0, ")
     log = twins(CELL.replace("MORE", ""), batch, *line, more)
