@@ -56,20 +56,34 @@ def find_first(floor: Floor, guard: Guard) -> None:
 
 @step
 def _look(floor: Floor, guard: Guard) -> None:
-    """Put claims that were not looked at before where they belong. Of equal priority, the new ones are the last."""
+    """Put claims that were not looked at before where they belong: of each priority, they are the last."""
     claims = guard.gate.claims
     if floor.now != guard.until_s:
         while len(guard.last):
             _forget_claim(floor, pop_first(guard.last))
-    ordered = claims[0].before == claims[len(claims) - 1].before
-    for at in range(len(claims) - 1, -1, -1):
+    at = len(claims) - 1
+    while at >= 0:
         claim = claims[at]
-        if claim.since_s < guard.until_s:
-            if ordered:
-                break
-        elif not claim.seen:
+        if claim.since_s < guard.until_s:  # and so are all before it of the same priority
+            at = _first_of(claims, claim.before) - 1
+            continue
+        if not claim.seen:
             _look_at(floor, guard, claim)
+        at -= 1
     guard.until_s = floor.now
+
+
+@inlined
+def _first_of(claims: List[Claim], before: float) -> int:
+    """Where the claims of a priority begin."""
+    low, high = 0, len(claims)
+    while low < high:
+        middle = (low + high) >> 1
+        if claims[middle].before < before:
+            low = middle + 1
+        else:
+            high = middle
+    return low
 
 
 @inlined

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.fast_engine.machine import inlined, step
-from opsim.engine.fast_engine.parts.humans import level
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
+from opsim.engine.fast_engine.parts.tiring import level
 from opsim.human.errors import ErrorsByFatigue
 
 _share_of_good: Any = inlined(ErrorsByFatigue.share_of_good)

@@ -10,8 +10,9 @@ from opsim.engine.fast_engine import human_muscles
 from opsim.engine.fast_engine.bodies import bodies_of
 from opsim.engine.fast_engine.machine import call_out, inlined, step
 from opsim.engine.fast_engine.machine.structs import Pointer
-from opsim.engine.fast_engine.parts.humans import Human, pass_to_now
+from opsim.engine.fast_engine.parts.humans import Human
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
+from opsim.engine.fast_engine.parts.tiring import pass_to_now
 from opsim.human.lffrm import Lffrm
 from opsim.human.three_compartment import ThreeCompartment
 from opsim.human.tired import piece
@@ -77,17 +78,3 @@ def has_to_rest(floor: Floor, human: Human) -> None:
     """For how many seconds, until he is rested enough."""
     effects = human.effects
     effects.answer = _rest_to_s(effects.fatigue, human.tired, effects.rest.until)
-
-
-@inlined
-def tires(floor: Floor, human: Human, task: int, until_s: float, done: float) -> None:
-    """He works on a task from now, at a share of it, until it is done then."""
-    pass_to_now(floor, human)
-    human.task, human.begun_s, human.until_s, human.done = task, floor.now, until_s, done
-
-
-@inlined
-def stops_tiring(floor: Floor, human: Human) -> None:
-    """He works no more."""
-    pass_to_now(floor, human)
-    human.task = -1

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import nan
 from typing import Any
 
-from opsim.engine.fast_engine.human_curves import CURVES, multiplier_of
 from opsim.engine.fast_engine.human_memory import begins
 from opsim.engine.fast_engine.machine import step
+from opsim.engine.fast_engine.parts.curves import CURVES, multiplier_of
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 from opsim.human.memory import experience_of, first_times
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.fast_engine.human_curves import work_of
 from opsim.engine.fast_engine.machine import inlined, step
+from opsim.engine.fast_engine.parts.curves import work_of
 from opsim.engine.fast_engine.parts.humans import Human
+from opsim.engine.fast_engine.parts.memories import memory_passes
 from opsim.engine.fast_engine.parts.state import Floor
 from opsim.human.forgetting import LearnForgetCurve
 
@@ -16,7 +17,7 @@ _remembered_of: Any = inlined(LearnForgetCurve.remembered)
 @step
 def begins(floor: Floor, human: Human, task: int, k: int) -> float:
     """Which repetition of a task his k-th is if he begins it now: what he remembers, and one."""
-    _pass_to_now(floor, human)
+    memory_passes(floor, human)
     behind = human.units[task]
     last_s = human.last_s[task]
     if last_s == last_s:  # not NaN
@@ -24,32 +25,6 @@ def begins(floor: Floor, human: Human, task: int, k: int) -> float:
     human.asked, human.asked_task, human.asked_k, human.asked_units = 1, task, k, behind + 1.0
     human.busy = 0
     return behind + 1.0
-
-
-@inlined
-def memory_works(floor: Floor, human: Human, task: int, k: int, until_s: float) -> None:
-    """He works on his k-th of a task from now until then, if nothing comes between."""
-    _pass_to_now(floor, human)
-    if human.asked and (human.asked_task != task or human.asked_k != k):
-        human.asked = 0  # it came to nothing
-    human.busy, human.busy_task, human.busy_from_s, human.busy_until_s = 1, task, floor.now, until_s
-
-
-@inlined
-def memory_stops(floor: Floor, human: Human) -> None:
-    """What he worked on is broken off."""
-    _pass_to_now(floor, human)
-    human.busy = 0
-
-
-@inlined
-def _pass_to_now(floor: Floor, human: Human) -> None:
-    """What he has worked on until now counts; of one performance, once."""
-    if not human.busy or floor.now <= human.busy_from_s:
-        return
-    human.last_s[human.busy_task] = min(floor.now, human.busy_until_s)
-    if human.asked:
-        human.units[human.busy_task], human.asked = human.asked_units, 0
 
 
 @inlined

@@ -10,8 +10,9 @@ from numba.core import types
 from opsim.engine.fast_engine.bodies import UNKNOWN, bodies_of
 from opsim.engine.fast_engine.machine import call_out, inlined, step
 from opsim.engine.fast_engine.machine.compiling import intrinsic
-from opsim.engine.fast_engine.parts.humans import Human, pass_to_now
+from opsim.engine.fast_engine.parts.humans import Human
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
+from opsim.engine.fast_engine.parts.tiring import pass_to_now
 from opsim.ergonomics.kernels.compartments import rest, rest_to_s, spend
 from opsim.human.burden import PARTS
 from opsim.human.three_compartment import JOINTS, ThreeCompartment

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.fast_engine.machine import NOTHING, cast, drop_at, inlined, insert, line_of, step, tell_1
+from opsim.engine.fast_engine.machine import NOTHING, cast, drop_at, line_of, step, tell_1
 from opsim.engine.fast_engine.parts.events import alarm, cancel
-from opsim.engine.fast_engine.parts.humans import Effects, Human, level
+from opsim.engine.fast_engine.parts.humans import Effects, Human
 from opsim.engine.fast_engine.parts.state import DUTY, Event, Floor, Worker
+from opsim.engine.fast_engine.parts.tiring import level, note_that_he_works
 from opsim.engine.fast_engine.worker import set_free, take_off
 from opsim.engine.rules import CALENDAR
 from opsim.log import BREAK, REST
@@ -27,19 +28,6 @@ def install(build: Any, effects: Any) -> None:
     build.hang(build.floor.dispatchers, look, effects)  # again: who is seen to stay on may be too tired
 
 
-@inlined
-def note(floor: Floor, human: Human) -> None:
-    """He works: nobody else can have become too tired. Those are in the order of their ranks."""
-    if human.has_worked:
-        return
-    human.has_worked = 1
-    worked, rank = human.effects.worked, human.worker.rank
-    at = len(worked)
-    while at > 0 and worked[at - 1].rank > rank:
-        at -= 1
-    insert(floor, worked, at, human.worker)
-
-
 @step
 def look(floor: Floor, effects: Effects) -> bool:
     """Who has to go rests no more; who has come free tired rests. True where something changed."""
@@ -50,7 +38,7 @@ def look(floor: Floor, effects: Effects) -> bool:
             if worker.human.resting and worker.limited[DUTY]:
                 cancel(worker.human.resting)
                 _over(floor, worker)
-                note(floor, worker.human)  # and may be too tired still when he is back
+                note_that_he_works(floor, worker.human)  # and may be too tired still when he is back
                 changed = True
     at = 0
     while at < len(effects.worked):

@@ -14,13 +14,13 @@ from opsim.engine.fast_engine import (
     human_pace,
     human_rest,
 )
-from opsim.engine.fast_engine.human_fatigue import stops_tiring, tires
-from opsim.engine.fast_engine.human_memory import memory_stops, memory_works
-from opsim.engine.fast_engine.human_rest import note
 from opsim.engine.fast_engine.machine import step, tell_2
 from opsim.engine.fast_engine.machine.layouts import LAYOUTS
 from opsim.engine.fast_engine.parts.doses import dose_so_far, rate_of
+from opsim.engine.fast_engine.parts.memories import memory_stops, memory_works
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
+from opsim.engine.fast_engine.parts.tiring import note_that_he_works, stops_tiring, tires
+from opsim.human.catalogue import catalogue
 from opsim.plan.human import EFFECTS
 
 INSTALL = (
@@ -56,7 +56,7 @@ def works(floor: Floor, worker: Worker) -> None:
     if effects.forgets:
         memory_works(floor, human, task, floor.asked_k, until_s)
     if effects.rests:
-        note(floor, human)
+        note_that_he_works(floor, human)
     if worker.dose:
         dose = worker.dose
         dose.before = dose_so_far(floor, worker)
@@ -83,6 +83,7 @@ def install(build: Any) -> None:
     plan = build.plan.human
     if not plan.any:
         return
+    _refuse_strangers(plan)
     effects = hang(build)
     effects.on_posture = plan.acts_on == "posture"
     for effect in EFFECTS:
@@ -90,6 +91,15 @@ def install(build: Any) -> None:
             setattr(effects, effect, model_of(build, getattr(plan, effect)))
     for install_effect in INSTALL:
         install_effect(build, effects)
+
+
+def _refuse_strangers(plan: Any) -> None:
+    """NotImplementedError names models of which no formula is compiled here."""
+    known = {one.cls for one in catalogue()}
+    classes = [type(model) for model in (getattr(plan, effect) for effect in EFFECTS) if model is not None]
+    names = [f"the human effect {cls.__module__}.{cls.__qualname__}" for cls in classes if cls not in known]
+    if names:
+        raise NotImplementedError(", ".join(names))
 
 
 def hang(build: Any) -> Any:

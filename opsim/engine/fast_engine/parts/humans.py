@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import Array, List, inlined, struct, tell_1
-from opsim.engine.fast_engine.parts.state import Event, Floor, Hook, Worker
+from opsim.engine.fast_engine.machine import Array, List, struct
+from opsim.engine.fast_engine.parts.state import Event, Hook, Worker
 
 
 @struct
@@ -106,19 +106,3 @@ class Human:
     busy_until_s: float
     has_worked: int
     resting: Event
-
-
-@inlined
-def pass_to_now(floor: Floor, human: Human) -> None:
-    """Time goes on for his fatigue until now."""
-    if human.at_s < floor.now:
-        tell_1(human.effects.pass_line, floor, human)
-
-
-@inlined
-def level(floor: Floor, human: Human) -> float:
-    """How tired he is, 0 (fresh, or where nobody tires) to 1."""
-    if not human.effects.pass_line:
-        return 0.0
-    pass_to_now(floor, human)
-    return human.tired

@@ -29,9 +29,13 @@ workers:
 BREAKS = ", ".join(f"b{n}: {{at: '06:{2 + 4 * n:02d}', lasts: 100 s}}" for n in range(11))
 
 
-def of_both(does, unfinished="send_on", rule="resume_any"):
+JAMS = ("s2: {at: b, tasks: [t2, t2]}", "s2: {at: b, tasks: [t2, t2], breakdowns: {jam: JAM}}")
+JAM = "{every: {fixed: 90 s}, repair: {fixed: 10 s}, job: resume}"
+
+
+def of_both(does, unfinished="send_on", rule="resume_any", edits=()):
     text = LINES.replace("ANDON", f"{{workers: [joker, other], at: 30 s, does: {does}}}").replace("RULE", rule)
-    return twins(text.replace("UNFINISHED", unfinished).replace("BREAKS", f"{{{BREAKS}}}"))
+    return twins(text.replace("UNFINISHED", unfinished).replace("BREAKS", f"{{{BREAKS}}}"), *edits)
 
 
 @pytest.mark.parametrize("rule", ["finish", "hand_over", "resume", "restart"])
@@ -46,3 +50,9 @@ def test_who_is_called_is_there_for_both_lines_alike(does, rule):
 @pytest.mark.parametrize("does", ["help", "take_over"])
 def test_lines_that_stop_until_who_was_called_is_done_go_on_alike(does):
     assert of_both(does, "stop").of(SENT_ON)["job"].size == 0
+
+
+def test_work_of_two_that_is_broken_off_goes_on_alone_alike():
+    log = of_both("help", "stop", edits=(JAMS, ("JAM}", JAM + "}")))
+    pieces = log.of(WORK).where(log.of(WORK)["progress_from"] > 0)
+    assert (pieces["station"] == log.names["station"].index("s2")).sum() > 20

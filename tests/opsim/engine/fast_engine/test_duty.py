@@ -19,7 +19,10 @@ shifts:
     from: 06:00
     to: 14:00
     at_end: AT_END
-    breaks: {tea: {at: 06:00, lasts: 5 min}, rest: {at: 06:05, lasts: 20 min, place: canteen}, last: {at: 13:40, lasts: 20 min}}
+    breaks:
+      tea: {at: 06:00, lasts: 5 min}
+      rest: {at: 06:05, lasts: 20 min, place: canteen}
+      last: {at: 13:40, lasts: 20 min}
     meetings: {board: {at: 10:00, lasts: 15 min}}
   late: {from: 14:00, to: 22:00, overtime: {most: 90 min}, breaks: {tea: {at: 18:00, lasts: 30 s, place: canteen}}}
   night: {from: 22:00, to: 06:00, at_end: AT_END, days: [Mon, Tue, Wed]}

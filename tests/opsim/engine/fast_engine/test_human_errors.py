@@ -14,7 +14,7 @@ INSPECTED = LINE.replace(
 TIRED = "fatigue: {model: lffrm, tires_half_in: 1 h, recovers_half_in: 10 min}, "
 
 
-@pytest.mark.parametrize(("fatigue", "share"), [(TIRED, 0.4), (TIRED, 0), ("", 0.4), (TIRED, 1)])
+@pytest.mark.parametrize(("fatigue", "share"), [(TIRED, 0.4), (TIRED, 0), (TIRED, 1)])
 def test_the_tired_leave_the_same_defects_as_in_the_reference(fatigue, share):
     log = of_both(planned(INSPECTED, f"human: {{{fatigue}errors: {{at_full_fatigue: {share}}}}}"))
     assert np.count_nonzero(log["kind"] == REWORK) > 3

@@ -34,7 +34,9 @@ workers:
   ana: {shift: day, height: 1.65 m, mass: 62 kg, sex: f, skills: {one: 1.0, two: 0.9}}
   ben: {height: 1.80 m, mass: 82 kg, sex: m, skills: {two: 1.0, one: 1.0}}
 """  # noqa: E501
-MUSCLES = "human: {fatigue: {model: 3cc_r, slows: 0.6}, rest: {above: 0.3, until: 0.1}, errors: {at_full_fatigue: 0.5}}"
+MUSCLES = (
+    "human: {fatigue: {model: 3cc_r, slows: 0.6}, rest: {above: 0.06, until: 0.02}, errors: {at_full_fatigue: 0.5}}"
+)
 POSTURE = "human: {fatigue: {model: lffrm, by: posture, tires_half_in: 10 min, recovers_half_in: 2 min, slows: 0.5}}"
 
 
@@ -42,7 +44,12 @@ def test_muscles_tire_and_rest_as_they_do_in_the_reference():
     log = of_both(planned(FLOOR, MUSCLES))
     work = log.of(WORK)
     assert np.count_nonzero((log["kind"] == BREAK) & (log["cause"] == REST)) > 3
-    assert (work["progress_to"] < 1.0).any() and work["pace_shift"].max() > 0.05
+    assert (work["progress_to"] < 1.0).any() and work["pace_shift"].max() > 0.02
+
+
+def test_a_task_without_a_body_is_a_rest_for_muscles_as_in_the_reference():
+    log = of_both(planned(FLOOR, "human: {fatigue: {model: 3cc_r, slows: 5}}"))
+    assert log.of(WORK)["pace_shift"].max() > 0.1
 
 
 def test_heavy_work_tires_more_as_in_the_reference():

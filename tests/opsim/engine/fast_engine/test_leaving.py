@@ -49,6 +49,8 @@ def test_by_the_rule_of_the_shift(rule):
     left(rule, rule)
 
 
-@pytest.mark.parametrize(("rule", "of_task"), [*zip(INTERRUPTION_RULES, [*INTERRUPTION_RULES][2:] + ["finish", "resume"])])
+@pytest.mark.parametrize(
+    ("rule", "of_task"), [*zip(INTERRUPTION_RULES, [*[*INTERRUPTION_RULES][2:], "finish", "resume"])]
+)
 def test_by_the_rule_of_the_task(rule, of_task):
     left(rule, "resume_any", f", interruption: {of_task}")

@@ -18,7 +18,10 @@ shifts:
 CELL = (
     HEAD
     + """
-tasks: {load: {fixed: 40 s}, mill: {dist: lognormal, mean: 3 min, cv: 0.9, automatic: true}, lift: {fixed: 30 s, team: 2}}
+tasks:
+  load: {fixed: 40 s}
+  mill: {dist: lognormal, mean: 3 min, cv: 0.9, automatic: true}
+  lift: {fixed: 30 s, team: 2}
 stations:
   mill: {at: bay, tasks: [load, mill, load], servers: 2, buffer: 2}
   oven: {at: bay, tasks: [mill], servers: 2, buffer: 1, HOURS}

@@ -52,5 +52,6 @@ def test_on_patrol_only_who_stands_there_takes_over():
 def test_who_is_on_the_way_may_have_to_go_himself():
     """The breaks of the second are a minute after those of the first, and he is a minute away."""
     other = ("ben: {shift: early, walk: 1 m/s,", "ben: {shift: other, walk: 0.5 m/s, home: shed,")
-    shift = ("  late: {", "  other: {from: 06:00, to: 06:30, at_break: hand_over, breaks: {tea: {at: 06:06, lasts: 2 min}}}\n  late: {")  # fmt: skip
+    tea = "at_break: hand_over, breaks: {tea: {at: 06:06, lasts: 2 min}}"
+    shift = ("  late: {", f"  other: {{from: 06:00, to: 06:30, {tea}}}\n  late: {{")
     assert len(twins(CELL, other, shift, ("walk: 2 m/s, home: shed", "walk: 0.3 m/s, home: shed")).of(BREAK)) >= 4

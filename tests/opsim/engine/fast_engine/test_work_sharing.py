@@ -13,11 +13,11 @@ layout: {places: {hall: [0 m, 0 m], far: [6 m, 0 m]}}
 tasks:
   base: {dist: exponential, mean: 4 s}
   lid: {dist: exponential, mean: 5 s, repeat: 2}
-  seal: {fixed: 2 s}
+  cap: {fixed: 2 s}
   close: {dist: exponential, mean: 6 s}
   look: {fixed: 3 s}
 stations:
-  front: {at: hall, tasks: [base, lid, seal], servers: 2, share: {tasks: [lid, seal], with: back, when: RULE}}
+  front: {at: hall, tasks: [base, lid, cap], buffer: 1, servers: 2, share: {tasks: [lid, cap], with: back, when: RULE}}
   back: {at: far, tasks: [close, look], buffer: 2MORE, share: {tasks: [look], with: end, when: RULE}}
   end: {at: far, tasks: [look], buffer: 1}
 products: {part: {route: [front, back, end]}, other: {route: [front, back, end], lot: 2}}
