@@ -26,6 +26,21 @@ LONG_FIRST = (
 """Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 
 
+def pytest_addoption(parser):
+    parser.addoption(
+        "--both-engines", action="store_true", help="what SimPy runs the fast engine runs too, and equally"
+    )
+
+
+def pytest_configure(config):
+    if config.getoption("--both-engines"):
+        from both_engines import BothEngines
+
+        both = BothEngines()
+        both.plant()
+        config.pluginmanager.register(both, "both engines")
+
+
 def pytest_collection_modifyitems(items):
     rank = {name: number for number, name in enumerate(LONG_FIRST)}
     items.sort(key=lambda item: rank.get(item.path.name, len(rank)))

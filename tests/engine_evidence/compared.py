@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 from checked_floors import plan_of
 from engine_evidence.coverage import blocks_of, finished, shown_by
@@ -14,6 +15,9 @@ from engine_evidence.ties import contested_ties
 
 from opsim.engine.simpy_engine import run_plan as run_simpy
 from opsim.plan import Plan, compile_plan
+
+REPLICATIONS = (0, 1)
+"""Of each variant of a shipped scenario: two, as a floor that was used before must be as good as a new one."""
 
 
 @dataclass(frozen=True)
@@ -49,16 +53,18 @@ def floor_seen(number: int, only: str = "", simpy_only: bool = False) -> Seen | 
     return seen(f"floor {number}", plan, replication_of(number), simpy_only)
 
 
-def shipped() -> Iterator[tuple[str, str]]:
-    """(file, variant) of every shipped scenario."""
+def shipped() -> Iterator[tuple[str, str, int]]:
+    """(file, variant, replication) of every shipped scenario."""
     from opsim.scenario.read import scenarios_in
     from opsim.shipped import shipped_folder
 
     for path in sorted(shipped_folder().glob("*.yaml")):
-        yield from ((path.stem, variant) for variant in scenarios_in(path.read_bytes(), path))
+        yield from product((path.stem,), scenarios_in(path.read_bytes(), path), REPLICATIONS)
 
 
-def shipped_seen(name: str, variant: str, horizon_s: float | None = None, simpy_only: bool = False) -> Seen:
+def shipped_seen(
+    name: str, variant: str, replication: int, horizon_s: float | None = None, simpy_only: bool = False
+) -> Seen:
     """What a shipped scenario shows, to its own horizon or to a shorter one."""
     from opsim.scenario.read import scenarios_in
     from opsim.shipped import shipped_folder
@@ -67,7 +73,7 @@ def shipped_seen(name: str, variant: str, horizon_s: float | None = None, simpy_
     plan = compile_plan(scenarios_in(path.read_bytes(), path)[variant])
     if horizon_s is not None:
         plan = replace(plan, horizon_s=min(plan.horizon_s, horizon_s))
-    return seen(f"{name}, {variant}", plan, 0, simpy_only)
+    return seen(f"{name}, {variant}, replication {replication}", plan, replication, simpy_only)
 
 
 def seen(name: str, plan: Plan, replication: int, simpy_only: bool = False) -> Seen:

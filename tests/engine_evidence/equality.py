@@ -1,14 +1,15 @@
 """Must-show: the fast engine writes the log of the SimPy engine, row by row, on 1,000 random floors.
 
 ``PYTHONPATH=tests python -m engine_evidence.equality [n]`` runs the first n floors (1000) on both engines and compares
-all columns to the last bit; then how many floors use each block of the vocabulary. ``--shipped`` runs all shipped
-scenarios with their variants. Exit code 1 where anything differs, and over all floors where a block is in fewer than 25
-of them, fewer than 20 jobs finish in one, or nothing ties.
+all columns to the last bit; then how many floors use each block of the vocabulary. ``--shipped`` runs all variants of
+all shipped scenarios, two replications each. Exit code 1 where anything differs, and over all floors where a block is
+in fewer than 25 of them, fewer than 20 jobs finish in one, or nothing ties.
 """
 
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import os
 import sys
 import time
@@ -17,6 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
+from multiprocessing import get_context
 from typing import Any
 
 from engine_evidence.compared import Seen, floor_seen, shipped, shipped_seen
@@ -26,41 +28,61 @@ from engine_evidence.sample import SAMPLE
 
 ENOUGH_FLOORS = 25
 PROCESSES = 2
+MOST_S = 600.0
+"""That one job may take, compiling included, before its process is ended."""
 Look = Callable[[Any], Seen | None]
 """What looks at one job: a floor's number, or a shipped file and variant."""
 
 
-def compared(jobs: Iterable, look: Look, processes: int = PROCESSES) -> list[Seen]:
+def compared(
+    jobs: Iterable, look: Look, processes: int = PROCESSES, most_s: float = MOST_S, how: str | None = None
+) -> list[Seen]:
     """What each of some jobs shows, in their order, with a word on how far it is.
 
-    A job whose process dies (an engine that writes where it may not) is told of, and the others go on.
+    A job whose process dies (an engine that writes where it may not), or which does not come to an end, is told of, and
+    the others go on. ``how`` processes are begun, as multiprocessing says it.
     """
     left, found = list(enumerate(jobs)), dict[int, Seen | None]()
-    n, began = len(left), time.monotonic()
+    n, began, watched = len(left), time.monotonic(), partial(_watched, look, most_s)
+    until_one_dies = partial(_until_one_dies, look=watched, how=how)
     while left:
-        for number, one in _until_one_dies(left, look, processes):
+        for number, one in until_one_dies(left, processes=processes):
             found[number] = one
             _tell(one)
             _progress(len(found), n, time.monotonic() - began)
         left = [(number, job) for number, job in left if number not in found]
         for number, job in left[: 2 * processes + 1]:  # one of those that were begun has died: each of them alone
-            alone = list(_until_one_dies([(number, job)], look, 1))
-            found[number] = alone[0][1] if alone else Seen(f"{job}", frozenset(), trouble="its process died")
+            since = time.monotonic()
+            alone = list(until_one_dies([(number, job)], processes=1))
+            why = "no end" if time.monotonic() - since > most_s else "its process died"
+            found[number] = alone[0][1] if alone else Seen(f"{job}", frozenset(), trouble=why)
             _tell(found[number])
         left = [(number, job) for number, job in left if number not in found]
     sys.stderr.write("\n")
     return [one for number in sorted(found) if (one := found[number]) is not None]
 
 
-def _until_one_dies(jobs: Sequence[tuple[int, Any]], look: Look, processes: int) -> Iterator[tuple[int, Seen | None]]:
+def _until_one_dies(
+    jobs: Sequence[tuple[int, Any]], look: Look, processes: int, how: str | None
+) -> Iterator[tuple[int, Seen | None]]:
     """(number, what it shows) of jobs, up to the first whose process dies."""
-    with ProcessPoolExecutor(processes) as pool:
+    with ProcessPoolExecutor(processes, mp_context=get_context(how)) as pool:
         futures = [(number, pool.submit(look, job)) for number, job in jobs]
         for number, future in futures:
             try:
                 yield number, future.result()
             except BrokenProcessPool:
                 return
+
+
+def _watched(look: Look, most_s: float, job: Any) -> Seen | None:
+    """What a job shows; its process ends where that takes too long, whatever it does: compiled code hears no signal."""
+    with open(os.devnull, "w") as nowhere:
+        faulthandler.dump_traceback_later(most_s, exit=True, file=nowhere)
+        try:
+            return look(job)
+        finally:
+            faulthandler.cancel_dump_traceback_later()
 
 
 def _tell(one: Seen | None) -> None:
@@ -129,8 +151,8 @@ def main() -> int:
     return int(bool(n_wrong(found) or short))
 
 
-def _shipped(name_and_variant: tuple[str, str], **how) -> Seen:
-    return shipped_seen(*name_and_variant, **how)
+def _shipped(which: tuple[str, str, int], **how) -> Seen:
+    return shipped_seen(*which, **how)
 
 
 def _asked() -> argparse.Namespace:

@@ -1,116 +1,137 @@
-"""Must-show: a fault planted in one engine is caught by the comparison of logs.
+"""Must-show: a fault planted in the fast engine is caught by the comparison of logs.
 
-``PYTHONPATH=tests python -m engine_evidence.mutants [n]`` plants three faults in the SimPy engine, one after the other,
-and tells on how many of the first n floors (60) its log is no more that of the sound engine: of the fast one, or with
-``--simpy`` of SimPy itself. Exit code 1 where a fault goes unseen.
+``PYTHONPATH=tests python -m engine_evidence.mutants [n]`` plants one fault after the other, and tells on how many of
+the first n floors (60), or with ``--sample`` of those of ``engine_evidence.sample``, and of ``helped.yaml``, the fast
+engine's log is no more that of SimPy. Exit code 1 where a fault goes unseen, or where the sound engine is wrong.
 """
 
 from __future__ import annotations
 
 import argparse
+import io
+import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any
+from collections.abc import Sequence
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from functools import cache, partial
+from pathlib import Path
 
 from checked_floors import plan_of
+from engine_evidence.compared import Seen, seen
+from engine_evidence.equality import compared
 from engine_evidence.floors import floor_text, replication_of
-from engine_evidence.rows import first_difference
+from engine_evidence.planted import make_ready, plant
+from engine_evidence.sample import SAMPLE
 
-from opsim.log import EventLog
 from opsim.plan import Plan
 
-Runs = Callable[[Plan, int], EventLog]
+MOST_S = 120.0
+"""That one floor may take: a faulty engine may go on for ever."""
+HELPED = "helped"
+"""A floor beside the random ones, as a file of this folder."""
 
 
-@contextmanager
-def wrong_tie() -> Iterator[None]:
-    """Of two workers to whom everything else is alike the last goes, not the first."""
-    from opsim.engine.simpy_engine import floor
+@dataclass(frozen=True)
+class Fault:
+    """says : what goes wrong; place : the function, ``file.name``; old, new : its words, and those instead"""
 
-    sound = floor.dispatch_rule
-
-    def turned(name: str) -> Callable[..., tuple[float, ...]]:
-        rule = sound(name)
-        return lambda *asked: (*rule(*asked)[:-1], -asked[-1])
-
-    with _in_place_of((floor, "dispatch_rule", turned)):
-        yield
+    says: str
+    place: str
+    old: str
+    new: str
 
 
-@contextmanager
-def stale_timeout() -> Iterator[None]:
-    """What was called off happens all the same."""
-    from opsim.engine.simpy_engine import boarding, human_rest, interruption, line_clock, wear
-
-    modules = (boarding, human_rest, interruption, line_clock, wear)
-    with _in_place_of(*((module, "cancel", lambda _event: None) for module in modules)):
-        yield
-
-
-@contextmanager
-def lost_interruption() -> Iterator[None]:
-    """Who is stopped in the middle of a stretch never hears of it, and goes on to its end."""
-    from simpy import Process
-
-    with _in_place_of((Process, "interrupt", lambda *_: None)):
-        yield
-
-
-MUTANTS = {one.__name__: one for one in (wrong_tie, stale_timeout, lost_interruption)}
-"""By name, each a ``with`` in which the SimPy engine has the fault."""
-
-
-@contextmanager
-def _in_place_of(*places: tuple[Any, str, Any]) -> Iterator[None]:
-    """Other things under some names, for a while."""
-    sound = [getattr(home, name) for home, name, _ in places]
-    for home, name, other in places:
-        setattr(home, name, other)
-    try:
-        yield
-    finally:
-        for (home, name, _), one in zip(places, sound):
-            setattr(home, name, one)
+MUTANTS = {
+    "wrong_tie": Fault(
+        "of two workers to whom everything else is alike the last goes, not the first",
+        *("parts.keys.pair_key", "float(worker.rank)", "-float(worker.rank)"),
+    ),
+    "stale_timeout": Fault(
+        "what was called off happens all the same",
+        *("parts.events.cancel", "event.alive = 0", "event.alive = 1"),
+    ),
+    "lost_interruption": Fault(
+        "who is stopped in the middle of a stretch never hears of it, and goes on to its end",
+        *("parts.events.end_stretch", "worker.version += 1", "worker.version += 0"),
+    ),
+    "last_who_waits": Fault(
+        "tools that are given back go to who has waited shortest for them",
+        *("crib.give_out", "crib.asked[i]", "crib.asked[len(crib.asked) - 1 - i]"),
+    ),
+    "late_breaks": Fault(
+        "what a calendar says happens one tick late, 2^-20 s",
+        *("duty.turn", "due.at_s - floor.now,", "due.at_s - floor.now + 2.0**-20,"),
+    ),
+    "rest_of_two": Fault(
+        "what two were at and is broken off takes one of them no longer than both",
+        *("helping.help_broken_off", "job.rest_s * job.block.slower", "job.rest_s"),
+    ),
+}
+"""By name: three faults of any simulator, then three of single blocks."""
 
 
-def caught(name: str, number: int, sound: Runs) -> str:
-    """How a floor tells a faulty SimPy engine from a sound one, in words; nothing where it does not.
+def found_by(name: str, floors: Sequence[int | str], processes: int = 1) -> list[Seen]:
+    """What each of some floors, by number or name, shows of the fast engine with a fault, or the sound one ('')."""
+    with redirect_stdout(io.StringIO()):  # of which each floor would be told
+        return compared(floors, partial(_look, name), processes, MOST_S, "spawn")
 
-    A run that the fault makes impossible tells it as well.
-    """
-    from opsim.engine.simpy_engine import run_plan
 
-    plan, replication = plan_of(floor_text(number)), replication_of(number)
-    log = sound(plan, replication)
-    with MUTANTS[name]():
-        try:
-            other = run_plan(plan, replication)
-        except Exception as error:  # whatever becomes of a run in which something is wrong
-            return f"{type(error).__name__}: {error}"
-    return first_difference(other, log, ("faulty", "sound"))
+def make_sound_code(floors: Sequence[int | str]) -> None:
+    """Have the machine code of the sound engine on disk for some floors."""
+    from opsim.engine.fast_engine import ready
+
+    for floor in floors:
+        ready(_plan(floor)[0])
+
+
+def _look(name: str, floor: int | str) -> Seen:
+    plan, replication = _plan(floor)
+    if name:
+        make_ready(plan, _plant(name))
+    return seen(f"{floor}", plan, replication)
+
+
+@cache
+def _plant(name: str):
+    """The function that has the fault, once in a process."""
+    fault = MUTANTS[name]
+    return plant(fault.place, fault.old, fault.new)
+
+
+def _plan(floor: int | str) -> tuple[Plan, int]:
+    if isinstance(floor, str):
+        return plan_of(Path(__file__).with_name(f"{floor}.yaml").read_text()), 0
+    return plan_of(floor_text(floor)), replication_of(floor)
+
+
+def _tell(name: str, told: Sequence[Seen], n: int) -> None:
+    """On how many of n floors a fault was caught, how the first of them shows it, and which they are."""
+    print(f"{name}: {MUTANTS[name].says}\n  caught on {len(told)} of {n} floors")
+    if told:
+        print(f"  floor {told[0].name}: {told[0].differs or told[0].refused or told[0].trouble}")
+        print(f"  {', '.join(one.name for one in told)}", flush=True)
 
 
 def main() -> int:
     """The exit code."""
     parser = argparse.ArgumentParser(prog="engine_evidence.mutants", description=__doc__)
     parser.add_argument("n", type=int, nargs="?", default=60, help="so many floors")
-    parser.add_argument("--simpy", action="store_true", help="compare with SimPy itself")
+    parser.add_argument("--sample", action="store_true", help="the floors of engine_evidence.sample")
+    parser.add_argument("--only", choices=MUTANTS, action="append", help="this fault")
+    parser.add_argument("--processes", type=int, default=1)
     asked = parser.parse_args()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    floors: list[int | str] = [*(SAMPLE if asked.sample else range(asked.n)), HELPED]
+    make_sound_code(floors)
+    wrong = [one for one in found_by("", floors, asked.processes) if one.is_wrong]
+    print(f"the sound engine: {len(wrong)} of {len(floors)} floors differ")
     unseen = 0
-    for name, fault in MUTANTS.items():
-        told = [words for number in range(asked.n) if (words := caught(name, number, _sound(asked.simpy)))]
+    for name in asked.only or MUTANTS:
+        told = [one for one in found_by(name, floors, asked.processes) if one.is_wrong]
         unseen += not told
-        print(f"{name}: {fault.__doc__}\n  caught on {len(told)} of {asked.n} floors, first:\n  {(told or ['-'])[0]}")
-    return int(bool(unseen))
-
-
-def _sound(simpy: bool) -> Runs:
-    if simpy:
-        from opsim.engine.simpy_engine import run_plan
-    else:
-        from opsim.engine.fast_engine import run_plan
-    return run_plan
+        _tell(name, told, len(floors))
+    return int(bool(unseen or wrong))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 from known_answers.case import HERE
 from recordings import reference
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.choice import SIMPY, able_to, runner_of
 from opsim.kpi.crews import HandOvers, hand_overs
 from opsim.laws import audit
 from opsim.log import FINISH
@@ -32,10 +32,10 @@ def expected(variant: str) -> tuple[list[float], float]:
     return answer["handoffs"], answer["rate"]
 
 
-def brigade(variant: str) -> tuple[HandOvers, np.ndarray, tuple[int, ...]]:
+def brigade(variant: str, engine: str = SIMPY) -> tuple[HandOvers, np.ndarray, tuple[int, ...]]:
     """(hand-overs, (n,) times of finishing in s, members) of a run of a variant, from its start."""
     plan = compile_plan(read_scenarios(HERE / "bucket_brigade.yaml", [variant])[variant])
-    log = run_plan(plan)
+    log = runner_of(able_to(engine, plan))(plan, 0)
     audit(log, plan)
     return hand_overs(log, plan, plan.crews[0]), log["end_s"][log["kind"] == FINISH], plan.crews[0].workers
 
@@ -50,10 +50,10 @@ def rates(finish_s: np.ndarray) -> np.ndarray:
     return WORK_S / np.diff(finish_s)
 
 
-def told(variant: str) -> bool:
+def told(variant: str, engine: str = SIMPY) -> bool:
     """Print theory beside the last hand-overs of a run; True where all agree to 1e-9."""
     handoffs, rate = expected(variant)
-    found, finish_s, members = brigade(variant)
+    found, finish_s, members = brigade(variant, engine)
     last = [float(position[-1]) for position in positions(found, members)]
     theory, seen = [*handoffs, rate], [*last, float(rates(finish_s)[-1])]
     worst = max(abs(one / other - 1) for one, other in zip(seen, theory, strict=True))

@@ -1,5 +1,9 @@
-"""Prints theory beside simulation for every case, at the replications the files ask for: ``make known-answers``."""
+"""Prints theory beside simulation for every case, at the replications the files ask for: ``make known-answers``.
 
+``python -m known_answers.show --engine fast`` has the fast engine simulate them.
+"""
+
+import argparse
 import os
 import sys
 from pathlib import Path
@@ -10,6 +14,7 @@ from known_answers.cases import CASES, Case
 from known_answers.simulate import simulate
 from recordings import data_folder
 
+from opsim.engine.choice import ENGINES, SIMPY
 from opsim.study.interval import t_interval
 
 MOST_OUTSIDE_95 = 4 / 46
@@ -18,6 +23,9 @@ MOST_OUTSIDE_95 = 4 / 46
 
 def main() -> int:
     """0 where theory holds: none outside the 99.9 % interval, at most 4 of 46 outside the 95 %, all precise enough."""
+    parser = argparse.ArgumentParser(prog="known_answers.show", description=__doc__)
+    parser.add_argument("--engine", choices=ENGINES, default=SIMPY)
+    engine = parser.parse_args().engine
     if not (data_folder() / "reference" / "known_answers.json").exists():
         print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
         return 2
@@ -25,7 +33,7 @@ def main() -> int:
         print("fitting made motions of 300 people at three shares ...", file=sys.stderr, flush=True)
         emulated, mean_s = emulated_staffing.written(Path(folder))
         asked = (*CASES, *staffing.CASES, *emulated)
-        runs = simulate(asked, processes=os.cpu_count() or 1, done=_progress)
+        runs = simulate(asked, processes=os.cpu_count() or 1, done=_progress, engine=engine)
     print(f"\n{'figure':42} {'theory':>10} {'simulated':>10} {'95 %':>8}  half-width  n")
     verdicts = [_line(case, runs[case.file, case.variant][case.kpi]) for case in CASES]
     outside = [sum(verdict == word for verdict in verdicts) for word in ("outside 95 %", "outside 99.9 %", "imprecise")]
@@ -34,7 +42,7 @@ def main() -> int:
     for case in emulated:
         rates = emulated_staffing.rates(runs, case, mean_s[case.variant])
         staffed.append(_staffing("staffing, emulated", case.variant, rates))
-    staffed += [crews.told(variant) for variant in crews.VELOCITIES]
+    staffed += [crews.told(variant, engine) for variant in crews.VELOCITIES]
     return int(outside[0] > MOST_OUTSIDE_95 * len(CASES) or any(outside[1:]) or not all(staffed))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import drop_at, inlined, step, tell_2
+from opsim.engine.fast_engine.machine import drop_at, here, inlined, step, tell_2
 from opsim.engine.fast_engine.parts.bits import clear_bit, lowest_bit, may_serve
 from opsim.engine.fast_engine.parts.claims import take_claim
 from opsim.engine.fast_engine.parts.keys import is_better, keep_best, pair_key
@@ -19,7 +19,7 @@ STAY, HOME, PATROL = range(3)
 def send_workers(floor: Floor) -> None:
     """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
     while True:
-        while len(floor.free) and floor.n_calling and _serve_best(floor):
+        while len(floor.free) and floor.n_calling and _serve_one(floor):
             pass
         if floor.idle == STAY or not len(floor.free):
             return
@@ -67,7 +67,7 @@ def _serve_best(floor: Floor) -> bool:
         floor.found_worker, floor.found_station = best, best_station
         tell_2(floor.tools_line, floor, best_station, best_station.calling[0].job)
         best, best_station = floor.found_worker, floor.found_station
-    send(floor, best, best_station, best_station.calling[0].job)
+    _send(floor, best, best_station, best_station.calling[0].job)
     return True
 
 
@@ -136,3 +136,6 @@ def _walk_on(floor: Floor) -> bool:
                 came = True
                 break
     return came
+
+
+_serve_one, _send = here(_serve_best), here(send)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import Any
 
-from opsim.engine.fast_engine import blocks, completion, material, release, settle
+from opsim.engine.fast_engine import blocks, columns, completion, material, release, settle
 from opsim.engine.fast_engine.machine import Arena, Handle, line_of, step_of
 from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.parts import structs_of_blocks
@@ -20,7 +20,7 @@ from opsim.plan.release import POISSON, RENEWAL, SATURATED, SCHEDULE
 
 WHEN_IDLE = ("stay", "home", "patrol")
 ALWAYS = (
-    *(settle.run_on, settle.start, settle.close, settle.report),
+    *(settle.run_on, settle.start, settle.close, settle.report, columns.flush_rows),
     *(completion.stretch_done, completion.automatic_done, material.operation_done, release.arrived, release.ordered),
 )
 """Steps that every floor needs, by way of its lines."""
@@ -122,6 +122,7 @@ class Build:
         floor.start_s = plan.start_s
         floor.stretch_line, floor.automatic_line = line_of(completion.stretch_done), line_of(completion.automatic_done)
         floor.operation_line, floor.report_line = line_of(material.operation_done), line_of(settle.report)
+        floor.flush_line = line_of(columns.flush_rows)
 
     def _outside(self) -> Handle:
         made = self.arena.new("Station")

@@ -1,63 +1,76 @@
-"""Rows as the engine writes them -> columns of an EventLog, in their one order.
+"""Rows as steps write them -> columns of an EventLog, in their one order, a few hundred at a time.
 
 Rows are written when they end, so they come in the order of ``end_s`` by themselves: only those of one instant have to
-be put in order. Where a block writes rows of the past at the end (closed hours), all are sorted first.
+be put in order. Where a block writes rows of the past at the end (closed hours), ``in_order`` sorts all of them after.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
-from opsim.engine.fast_engine.machine import cast, inlined
-from opsim.engine.fast_engine.machine.compiling import entered
+from opsim.engine.fast_engine.machine import Array, call_out, cast, inlined, step
+from opsim.engine.fast_engine.machine.memory import take_bytes, words_at
+from opsim.engine.fast_engine.machine.narrow import set_byte, set_half
 from opsim.engine.fast_engine.parts.rows import ROW_BYTES
-from opsim.engine.fast_engine.parts.state import Row
-from opsim.log import COLUMNS, ORDER
+from opsim.engine.fast_engine.parts.state import Floor, Row
+from opsim.log import ORDER
 
-CHUNK = 1 << 13
-"""Rows in a chunk."""
+AT_ONCE = 256
+"""Rows before they are put into columns: as many as stay in the fastest memory."""
+WORDS = ROW_BYTES // 8
 _as_row = cast(Row)
 
 
-def columns_of(chunks: Sequence[np.ndarray], n_rows: int) -> dict[str, np.ndarray]:
-    """The columns of all rows in the order of ``ORDER``; rows alike in these stay as they were written.
+@step
+def flush_rows(floor: Floor) -> None:
+    """Put what was written into columns, in order; those of the instant at hand stay, since more may come."""
+    first, n = floor.row_first, (floor.row_at - floor.row_first) // ROW_BYTES
+    ready = n
+    while ready and _row(first, ready - 1).end_s == floor.now:
+        ready -= 1
+    put_rows(floor, ready)
+    for i in range(n - ready):
+        _copy(first, ready + i, i)
+    floor.row_at = first + (n - ready) * ROW_BYTES
+    if 2 * (n - ready) > n:
+        _have_twice_the_room(floor, n - ready)
 
-    chunks : of bytes, each full of CHUNK rows but for the last
-    """
-    at = np.array([chunk.ctypes.data for chunk in chunks], dtype=np.int64)
-    end_s, order = np.empty(n_rows), np.arange(n_rows)
-    if not _ends(at, end_s):
-        order = np.argsort(end_s, kind="stable")
-    _order_ties(at, end_s, order)
-    columns = {name: np.empty(n_rows, dtype=kind) for name, kind in COLUMNS.items()}
-    _fill(at, order, *columns.values())
-    return columns
+
+@step
+def flush_all(floor: Floor) -> None:
+    """Put everything into columns: no more rows will come."""
+    put_rows(floor, (floor.row_at - floor.row_first) // ROW_BYTES)
 
 
 @inlined
-def _row(at: Any, number: int) -> Row:
-    """The row of a number, as it was written."""
-    return _as_row(at[number // CHUNK] + (number % CHUNK) * ROW_BYTES)
+def _have_twice_the_room(floor: Floor, n: int) -> None:
+    n_bytes = floor.row_end - floor.row_first
+    made = take_bytes(floor.memory, 2 * n_bytes)
+    old, new = words_at(floor.row_first), words_at(made)
+    for i in range(n * WORDS):
+        new[i] = old[i]
+    floor.row_first, floor.row_at, floor.row_end = made, made + n * ROW_BYTES, made + 2 * n_bytes
+    floor.row_order = words_at(take_bytes(floor.memory, 16 * n_bytes // ROW_BYTES))
 
 
-@entered
-def _ends(at: Any, end_s: Any) -> bool:
-    """When each row ends; whether they are in the order of that."""
-    in_order, last_s = True, -1.0
-    for number in range(end_s.size):
-        this_s = _row(at, number).end_s
-        end_s[number] = this_s
-        in_order = in_order and last_s <= this_s
-        last_s = this_s
-    return in_order
+@inlined
+def _row(first: int, number: int) -> Row:
+    return _as_row(first + number * ROW_BYTES)
+
+
+@inlined
+def _copy(first: int, source: int, goal: int) -> None:
+    """A row onto another one."""
+    old, new = words_at(first + source * ROW_BYTES), words_at(first + goal * ROW_BYTES)
+    for i in range(WORDS):
+        new[i] = old[i]
 
 
 @inlined
 def _comes_before(one: Row, other: Row) -> bool:
-    """By ``ORDER``, of rows that end at the same time."""
+    """By ``ORDER``."""
+    if one.end_s != other.end_s:
+        return one.end_s < other.end_s
     if one.start_s != other.start_s:
         return one.start_s < other.start_s
     if one.kind != other.kind:
@@ -74,56 +87,56 @@ def _comes_before(one: Row, other: Row) -> bool:
 
 
 assert ORDER == ("end_s", "start_s", "kind", "worker", "station", "source", "job", "k"), (
-    "_comes_before is another order"
+    "_comes_before differs"
 )
 
 
-@entered
-def _order_ties(at: Any, end_s: Any, order: Any) -> None:
-    """Put the rows of each instant in order, by insertion: they are few, or nearly in order. Those alike stay as they are."""
-    first = 0
-    for number in range(order.size):
-        if end_s[order[number]] != end_s[order[first]]:
-            first = number
-        here, one = number, order[number]
-        row = _row(at, one)
-        while here > first and _comes_before(row, _row(at, order[here - 1])):
+@inlined
+def _sort(first: int, n: int, order: Array[int]) -> None:
+    """Numbers of rows in order, those alike as they were written: by insertion, as they nearly are."""
+    for number in range(n):
+        here, row = number, _row(first, number)
+        while here and _comes_before(row, _row(first, order[here - 1])):
             order[here] = order[here - 1]
             here -= 1
-        order[here] = one
+        order[here] = number
 
 
-@entered
-def _fill(
-    at: Any,
-    order: Any,
-    kind: Any,
-    start_s: Any,
-    end_s: Any,
-    worker: Any,
-    station: Any,
-    place_from: Any,
-    place_to: Any,
-    source: Any,
-    job: Any,
-    product: Any,
-    operation: Any,
-    task: Any,
-    performance_id: Any,
-    k: Any,
-    progress_from: Any,
-    progress_to: Any,
-    pace_shift: Any,
-    cause: Any,
-) -> None:
-    """Row after row into the columns, in the order of ``COLUMNS``."""
-    for number in range(order.size):
-        row = _row(at, order[number])
-        kind[number], start_s[number], end_s[number] = row.kind, row.start_s, row.end_s
-        worker[number], station[number] = row.worker, row.station
-        place_from[number], place_to[number] = row.place_from, row.place_to
-        source[number], job[number], product[number] = row.source, row.job, row.product
-        operation[number], task[number] = row.operation, row.task
-        performance_id[number], k[number] = row.performance_id, row.k
-        progress_from[number], progress_to[number] = row.progress_from, row.progress_to
-        pace_shift[number], cause[number] = row.pace_shift, row.cause
+@step
+def put_rows(floor: Floor, n: int) -> None:
+    """The first n rows behind those in the columns; ``floor.unordered`` says where they do not belong there."""
+    if floor.n_rows + n > floor.room:
+        call_out(floor.more_rows, floor.arena, floor.n_rows + n)
+    columns, at, first, order = floor.columns, floor.n_rows, floor.row_first, floor.row_order
+    _sort(first, n, order)
+    if n and _row(first, order[0]).end_s < floor.last_end_s:
+        floor.unordered = 1
+    for i in range(n):
+        row, to = _row(first, order[i]), at + i
+        set_byte(columns.kind, to, row.kind)
+        columns.start_s[to] = row.start_s
+        columns.end_s[to] = row.end_s
+        set_half(columns.worker, to, row.worker)
+        set_half(columns.station, to, row.station)
+        set_half(columns.place_from, to, row.place_from)
+        set_half(columns.place_to, to, row.place_to)
+        set_half(columns.source, to, row.source)
+        columns.job[to] = row.job
+        set_half(columns.product, to, row.product)
+        set_half(columns.operation, to, row.operation)
+        set_half(columns.task, to, row.task)
+        columns.performance_id[to] = row.performance_id
+        columns.k[to] = row.k
+        columns.progress_from[to] = row.progress_from
+        columns.progress_to[to] = row.progress_to
+        columns.pace_shift[to] = row.pace_shift
+        set_byte(columns.cause, to, row.cause)
+    if n:
+        floor.last_end_s = _row(first, order[n - 1]).end_s
+    floor.n_rows = at + n
+
+
+def in_order(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """All rows in the order of ``ORDER``, those alike as they were."""
+    order = np.lexsort([columns[name] for name in reversed(ORDER)])
+    return {name: column[order] for name, column in columns.items()}

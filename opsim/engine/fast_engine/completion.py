@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import NOTHING, ask_3, step
+from opsim.engine.fast_engine.machine import NOTHING, ask_3, here, step
 from opsim.engine.fast_engine.material import operation_done
 from opsim.engine.fast_engine.parts.performing import ended, task_done
 from opsim.engine.fast_engine.parts.rows import log_worker
@@ -31,7 +31,7 @@ def stretch_done(floor: Floor, event: Event) -> None:
         for i in range(len(acteds)):
             if ask_3(acteds[i].line, floor, acteds[i].subject, job, worker):
                 return
-        performed(floor, job, worker)
+        _performed(floor, job, worker)
 
 
 @step
@@ -42,7 +42,7 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
         job.setup_task = -1
         proceed(floor, job, worker)
     elif task_done(job):
-        operation_over(floor, job, worker)
+        _operation_over(floor, job, worker)
     else:
         next_task(floor, job, worker)
 
@@ -51,7 +51,7 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
 def operation_over(floor: Floor, job: Job, worker: Worker) -> None:
     """The operation is done, by a worker who stays with the job where it is carried, or held, and has to wait."""
     carried = job.plan.carried
-    operation_done(floor, job)
+    _operation_done(floor, job)
     if (carried or floor.held_when_blocked) and job.on_floor and _stays(floor, job):
         hold(floor, worker, job)
     else:
@@ -88,6 +88,9 @@ def automatic_done(floor: Floor, event: Event) -> None:
         job.setup_task = -1
         proceed(floor, job, floor.no_worker)
     elif task_done(job):
-        operation_done(floor, job)
+        _operation_done(floor, job)
     else:
         next_task(floor, job, floor.no_worker)
+
+
+_performed, _operation_over, _operation_done = here(performed), here(operation_over), here(operation_done)

@@ -11,7 +11,9 @@ from opsim.engine.fast_engine.machine import (
     fresh,
     give_back,
     give_items_back,
+    here,
     inlined,
+    pop_first,
     step,
     tell_1,
     tell_2,
@@ -27,7 +29,7 @@ from opsim.engine.fast_engine.parts.keys import is_better, keep_best, put
 from opsim.engine.fast_engine.parts.rows import job_now, log_instant, log_job
 from opsim.engine.fast_engine.parts.state import Ahead, Floor, Gate, Job, Source, Station, Worker
 from opsim.engine.fast_engine.parts.ways import aim, first_step, product_of, step_after
-from opsim.engine.fast_engine.station import fill_servers, proceed
+from opsim.engine.fast_engine.station import fill_servers, proceed, seat
 from opsim.engine.fast_engine.transport import bring
 from opsim.engine.fast_engine.worker import set_free
 from opsim.engine.rules import release, routing
@@ -41,7 +43,7 @@ _shortest_queue, _source_in_turn = inlined(routing.shortest_queue), inlined(rele
 @step
 def create(floor: Floor, source: Source) -> Job:
     """The next job of a source, standing at the gate of its first station."""
-    job = new_job(floor, source, product_of(floor, source, source.n_released), -1, -1, -1)
+    job = _makes(floor, source, product_of(floor, source, source.n_released), -1, -1, -1)
     source.next_gate = NOTHING
     want_in(floor, job, floor.now)
     return job
@@ -109,7 +111,7 @@ def operation_done(floor: Floor, job: Job) -> None:
     station = job.station
     if station.meter:
         tell_1(station.meter.cycle_line, floor, station.meter)
-    ask_after(floor, job)
+    _ask_after(floor, job)
 
 
 @step
@@ -120,21 +122,21 @@ def ask_after(floor: Floor, job: Job) -> None:
         after = station.afters[i]
         if not ask_2(after.line, floor, after.subject, job):
             return
-    move_on(floor, job)
+    _move_on(floor, job)
 
 
 @step
 def move_on(floor: Floor, job: Job) -> None:
     """The job wants to go where its way leads, or is finished."""
-    go_to(floor, job, job.ahead.step if job.ahead else step_after(floor, job))
+    _go_to(floor, job, job.ahead.step if job.ahead else step_after(floor, job))
 
 
 @step
 def go_to(floor: Floor, job: Job, step: int) -> None:
     """The job wants to go to a step of its route; -1: out."""
     if step < 0:
-        leave_station(floor, job)
-        leave_floor(floor, job, FINISH, BAD if job.bad else 0, -1, -1)
+        _leave_station(floor, job)
+        _leave_floor(floor, job, FINISH, BAD if job.bad else 0, -1, -1)
         return
     job_now(floor, job, BLOCKED, 0)
     aim(job, step)
@@ -159,7 +161,7 @@ def want_place(floor: Floor, job: Job, step: int) -> None:
 def admit(floor: Floor) -> None:
     """Let jobs in as long as a claim meets room; the oldest claim first."""
     while len(floor.stirred):
-        gate = first_gate(floor)
+        gate = _first_gate(floor)
         if not gate:
             return
         job = gate.claims[gate.next].job
@@ -167,7 +169,7 @@ def admit(floor: Floor) -> None:
         if not len(gate.claims):
             be_still(floor, gate)
         if not job.ahead:
-            _enter(floor, job, gate)
+            _come_in(floor, job, gate)
         elif not job.ahead.station:
             _keep_place(floor, job, gate)
         else:
@@ -207,11 +209,11 @@ def release_saturated(floor: Floor) -> None:
         able: Source = floor.no_source
         for i in range(len(floor.saturated)):
             source = floor.saturated[i]
-            if _next_has_room(floor, source) and (not able or _comes_first(source, able)):
+            if _has_next(floor, source) and (not able or _comes_first(source, able)):
                 able = source
         if not able:
             return
-        create(floor, able)
+        _create(floor, able)
         admit(floor)
 
 
@@ -282,7 +284,7 @@ def _enter(floor: Floor, job: Job, gate: Gate) -> None:
     station = gate.stations[0] if gate.n_stations == 1 else _chosen(floor, gate, job)
     station.n_inside += 1
     _told_entered(floor, gate, job)
-    depart_for(floor, job, station)
+    _depart_for(floor, job, station)
 
 
 @step
@@ -336,7 +338,7 @@ def depart_for(floor: Floor, job: Job, station: Station) -> None:
             job.held_by = NOTHING
         leave_station(floor, job)
     job.station = station
-    bring(floor, job, station, carrier)
+    _bring(floor, job, station, carrier)
 
 
 @step
@@ -357,8 +359,11 @@ def leave_station(floor: Floor, job: Job) -> None:
         leave_server(floor, station, job)
     else:
         station.free_servers += 1
-        if len(station.queue):
-            fill_servers(floor, station)
+        if station.serve or station.order:
+            if len(station.queue):
+                fill_servers(floor, station)
+        elif len(station.queue):
+            _seat(floor, station, pop_first(station.queue))
     stir(floor, station)
 
 
@@ -397,7 +402,7 @@ def leave_floor(floor: Floor, job: Job, kind: int, cause: int, station: int, oth
     for i in range(len(floor.left_floor)):
         tell_2(floor.left_floor[i].line, floor, floor.left_floor[i].subject, job)
     if not floor.keeps_jobs:
-        forget_job(floor, job)
+        _forgets(floor, job)
 
 
 @step
@@ -408,3 +413,11 @@ def forget_job(floor: Floor, job: Job) -> None:
     give_items_back(floor, job.passes)
     give_items_back(floor, job.reworks)
     _forget_job(floor, job)
+
+
+_ask_after, _move_on, _go_to, _first_gate = here(ask_after), here(move_on), here(go_to), here(first_gate)
+_come_in, _depart_for, _bring, _seat = here(_enter), here(depart_for), here(bring), here(seat)
+
+
+_makes, _forgets, _leave_floor, _leave_station = here(new_job), here(forget_job), here(leave_floor), here(leave_station)
+_create, _has_next = here(create), here(_next_has_room)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import cast, inlined, line_of, step, tell_1
+from opsim.engine.fast_engine.machine import cast, here, inlined, line_of, step, tell_1
 from opsim.engine.fast_engine.material import create, new_job
 from opsim.engine.fast_engine.parts.clock import INF, on_grid
 from opsim.engine.fast_engine.parts.gates import want_in
@@ -34,7 +34,7 @@ def source_happens(floor: Floor, event: Event) -> None:
     if source.kind == BY_TIME:
         source.n_arrived += 1
         tell_1(floor.report_line, floor, event)
-        _wait_for_next(floor, source)
+        _waits(floor, source)
     else:
         source.next_order += 1
         tell_1(floor.report_line, floor, event)
@@ -88,7 +88,7 @@ def arrived(floor: Floor, event: Event) -> None:
     """Jobs of a source come in."""
     source: Source = _as_source(event.subject)
     for _ in range(source.at_once):
-        create(floor, source)
+        _create(floor, source)
 
 
 @step
@@ -106,3 +106,6 @@ def ordered(floor: Floor, event: Event) -> None:
 
 
 line_of_arrived, line_of_ordered = line_of(arrived), line_of(ordered)
+
+
+_create, _waits = here(create), here(_wait_for_next)

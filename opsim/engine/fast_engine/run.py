@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable
 from threading import local
 
-import numpy as np
-
 from opsim.engine.fast_engine.build import Build
-from opsim.engine.fast_engine.columns import CHUNK, columns_of
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
-from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.numbers import Numbers
-from opsim.engine.fast_engine.parts.rows import ROW_BYTES
+from opsim.engine.fast_engine.room import Columns
 from opsim.engine.fast_engine.settle import DONE, FAILED, MOST_ROUNDS
 from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import EventLog, names_of
@@ -33,20 +28,17 @@ class Machine:
         complete(needed(self.build.steps.values()), told)
         self.floor.table = TABLE.ctypes.data
         self.numbers = Numbers(plan, self.build.arena, self.floor)
-        self._more_rows = MORE(self._give_rows)
-        self.floor.more_rows = ctypes.cast(self._more_rows, ctypes.c_void_p).value
-        self.rows: list[np.ndarray] = []
-        self._used = 0
+        self.columns = Columns(self.build.arena, self.floor)
         self.build.arena.freeze()
 
     def run(self, replication: int) -> EventLog:
         """One replication. Raises EndlessInstant, and whatever a model raises when it is asked for times."""
-        floor, at = self.floor, self.floor.address
+        at = self.floor.address
         self.build.arena.restore()
         self.numbers.begin(replication)
         for one in self.build.answers:
             one.begin(self.numbers)
-        self._used = 0
+        self.columns.begin()
         start_floor(at)
         while (state := run_floor(at, MOST_EVENTS)) not in (DONE, FAILED) and self.numbers.failed is None:
             pass
@@ -55,17 +47,7 @@ class Machine:
         if state == FAILED:
             self._refuse()
         close_floor(at)
-        columns = columns_of(self.rows[: self._used], floor.n_rows)
-        return EventLog(replication, self.plan.horizon_s, columns, names_of(self.plan))
-
-    def _give_rows(self, _arena: int, _other: int) -> int:
-        """Called by the engine: room for more rows."""
-        if self._used == len(self.rows):
-            self.rows.append(np.empty(CHUNK * ROW_BYTES, dtype=np.uint8))
-        chunk = self.rows[self._used]
-        self._used += 1
-        self.floor.row_at, self.floor.row_end = chunk.ctypes.data, chunk.ctypes.data + chunk.nbytes
-        return 0
+        return EventLog(replication, self.plan.horizon_s, self.columns.end(), names_of(self.plan))
 
     def _refuse(self) -> None:
         stations = [station for gate in self.floor.stirred for station in self._stations_of(gate)]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.allocation import send_workers
-from opsim.engine.fast_engine.machine import ask_1, clear, inlined, push, step, tell_1
+from opsim.engine.fast_engine.columns import flush_all
+from opsim.engine.fast_engine.machine import ask_1, clear, here, inlined, push, step, tell_1
 from opsim.engine.fast_engine.material import admit, release_saturated, turn_away
 from opsim.engine.fast_engine.parts.events import NOBODYS, wake
 from opsim.engine.fast_engine.parts.heap import forget_event, pop_event
@@ -28,7 +29,7 @@ def run_on(floor: Floor, most: int) -> int:
             return DONE
         else:
             floor.env_now = floor.heap_time[0]
-            _happen(floor, pop_event(floor))
+            _happens(floor, pop_event(floor))
         if floor.error:
             return FAILED
     return MORE
@@ -40,17 +41,17 @@ def _happen(floor: Floor, event: Event) -> None:
     if event.line == NOBODYS or not event.alive:
         forget_event(floor, event)
     elif event.kind == ARRIVAL:
-        source_happens(floor, event)
+        _source_happens(floor, event)
     elif event.worker:
         if event.version != event.worker.version:
             forget_event(floor, event)
             return
         event.worker.version += 1
         floor.active = event.worker
-        report(floor, event)
+        _report(floor, event)
         floor.active = floor.no_worker
     else:
-        report(floor, event)
+        _report(floor, event)
 
 
 @step
@@ -60,7 +61,7 @@ def report(floor: Floor, event: Event) -> None:
         floor.now = floor.env_now  # the instant has no other event, so this is its end already
         tell_1(event.line, floor, event)
         forget_event(floor, event)
-        dispatch(floor)
+        _dispatch(floor)
     else:
         push(floor, floor.reports, event)
         wake(floor)
@@ -99,7 +100,7 @@ def dispatch(floor: Floor) -> None:
     """Move jobs, give out tools, parts, vehicles and what else they wait for, send workers, until nothing changes."""
     for _ in range(MOST_ROUNDS):
         if len(floor.stirred):
-            admit(floor)
+            _admit(floor)
         if len(floor.saturated):
             release_saturated(floor)
         if floor.losing:
@@ -110,7 +111,7 @@ def dispatch(floor: Floor) -> None:
             if ask_1(given_out.line, floor, given_out.subject):
                 changed = True
         if len(floor.free):
-            send_workers(floor)
+            _send_workers(floor)
         if not len(floor.stirred) and not changed:
             return
         if floor.error:
@@ -142,3 +143,10 @@ def close(floor: Floor) -> None:
     while job:
         log_job(floor, job)
         job = job.next_on_floor
+    flush_all(floor)
+
+
+_happens, _report, _admit, _send_workers = here(_happen), here(report), here(admit), here(send_workers)
+
+
+_source_happens, _dispatch = here(source_happens), here(dispatch)

@@ -7,6 +7,7 @@ from opsim.engine.fast_engine.machine import (
     ask_2,
     ask_3,
     drop_at,
+    here,
     pop_first,
     push,
     step,
@@ -37,7 +38,7 @@ def arrive(floor: Floor, station: Station, job: Job) -> None:
         push(floor, station.queue, job)
         tell_1(station.serve.line, floor, station)
     elif station.free_servers:
-        seat(floor, station, job)
+        _seat(floor, station, job)
     else:
         push(floor, station.queue, job)
 
@@ -80,7 +81,7 @@ def seat(floor: Floor, station: Station, job: Job) -> None:
     if len(station.stages):
         proceed(floor, job, NOTHING)
     else:
-        next_task(floor, job, NOTHING)
+        _next_task(floor, job, floor.no_worker)
 
 
 @step
@@ -114,11 +115,11 @@ def next_task(floor: Floor, job: Job, worker: Worker) -> None:
     elif station.automatic[job.task_position]:
         if worker:
             set_free(floor, worker)
-        run_automatic(floor, station, job)
+        _run_automatic(floor, station, job)
     elif worker:
         perform(floor, job, worker)
     else:
-        call(floor, station, job)
+        _call(floor, station, job)
 
 
 @step
@@ -269,3 +270,6 @@ def run_automatic(floor: Floor, station: Station, job: Job) -> None:
     over.job = job
     job.over = over
     push_event(floor, floor.env_now + duration_s, over)
+
+
+_seat, _next_task, _run_automatic, _call = here(seat), here(next_task), here(run_automatic), here(call)

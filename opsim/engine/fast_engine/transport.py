@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import inlined, step
+from opsim.engine.fast_engine.machine import here, inlined, step
 from opsim.engine.fast_engine.parts.rows import job_now, log_worker
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
 from opsim.engine.fast_engine.station import arrive
@@ -22,7 +22,7 @@ def bring(floor: Floor, job: Job, station: Station, carrier: Worker) -> None:
             carrier.place = station.place
             _stand_at(carrier, station)
             set_free(floor, carrier)
-        arrive(floor, station, job)
+        _arrive(floor, station, job)
         return
     log_worker(floor, carrier)
     job.kind = TRANSPORT
@@ -62,3 +62,6 @@ def _stand_at(carrier: Worker, station: Station) -> None:
         if carrier.patrol[i] == station.rank:
             carrier.round = i
             return
+
+
+_arrive = here(arrive)

@@ -14,6 +14,7 @@ from opsim.clock import on_grid
 from opsim.engine.simpy_engine import run_plan
 from opsim.engine.simpy_engine.draws import Draws
 from opsim.log import CREATE, FINISH
+from opsim.plan import Plan
 
 
 def mm1(until_s, seed):
@@ -38,11 +39,15 @@ def pool(until_s, seed):
 
 def numbers(variant: str, until_s: float, seed: int, n: int) -> Given:
     """The first n numbers of each kind that ``variant(until_s, seed)`` uses, on the engine's grid of time."""
-    plan = PLANS[variant](until_s, seed)
-    draws = Draws(plan, 0)
+    return numbers_of(PLANS[variant](until_s, seed), 0, n)
+
+
+def numbers_of(plan: Plan, replication: int, n: int) -> Given:
+    """The first n numbers of each kind that a replication of one of ``PLANS`` uses."""
+    draws = Draws(plan, replication)
     saturated = plan.release.kind == "saturated"
     gaps = [] if saturated else [on_grid(gap_s) for gap_s in islice(draws.gaps(0), n)]
-    if variant == "pool":
+    if len(plan.workers) > 1 and len(plan.tasks) == 1:
         streams = [draws.durations(0, worker) for worker in range(len(plan.workers))]
     elif plan.workers:
         streams = [draws.durations(rank, rank) for rank in range(len(plan.stations))]

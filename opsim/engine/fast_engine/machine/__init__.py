@@ -23,10 +23,12 @@ from opsim.engine.fast_engine.machine.memory import words_at as words_at
 from opsim.engine.fast_engine.machine.steps import ask_1 as ask_1
 from opsim.engine.fast_engine.machine.steps import ask_2 as ask_2
 from opsim.engine.fast_engine.machine.steps import ask_3 as ask_3
+from opsim.engine.fast_engine.machine.steps import here as here
 from opsim.engine.fast_engine.machine.steps import line_of as line_of
 from opsim.engine.fast_engine.machine.steps import needed as needed
 from opsim.engine.fast_engine.machine.steps import step as step
 from opsim.engine.fast_engine.machine.steps import step_of as step_of
+from opsim.engine.fast_engine.machine.steps import tell_0 as tell_0
 from opsim.engine.fast_engine.machine.steps import tell_1 as tell_1
 from opsim.engine.fast_engine.machine.steps import tell_2 as tell_2
 from opsim.engine.fast_engine.machine.steps import tell_3 as tell_3

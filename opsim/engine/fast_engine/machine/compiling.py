@@ -22,6 +22,11 @@ def inlined(function: F) -> F:
     return numba.njit(**NO_WRAPPERS)(function)
 
 
+def forced(function: F) -> F:
+    """As ``inlined``, and put into its callers however long it is."""
+    return numba.njit(forceinline=True, **NO_WRAPPERS)(function)
+
+
 def kept(signature: Any, function: Callable) -> Any:
     """A function compiled for one signature, its machine code kept on disk, or not where nothing can be written."""
     try:

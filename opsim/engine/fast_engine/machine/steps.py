@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from llvmlite import ir
 from numba.core import cgutils, types
 
-from opsim.engine.fast_engine.machine.compiling import intrinsic
+from opsim.engine.fast_engine.machine.compiling import forced, intrinsic
 from opsim.engine.fast_engine.machine.structs import POINTER, at_byte, type_of
 
 F = TypeVar("F", bound=Callable)
@@ -72,6 +72,11 @@ def line_of(call: Any) -> Line:
     return Line(step_of(call).line)
 
 
+def here(call: F) -> F:
+    """The function of a step, to be compiled into the step that calls it: faster, where that happens all the time."""
+    return forced(step_of(call).function)
+
+
 def needed(roots: Iterable[Step]) -> Iterator[Step]:
     """The steps that can be come to from some, themselves included: those that each names in its code."""
     todo, seen = list(roots), set[int]()
@@ -96,10 +101,13 @@ def _named_in(function: Callable, seen: set[int]) -> Iterator[Step]:
 
 
 def _values(function: Callable) -> Iterator[Any]:
-    """What the names in a function's code stand for, where they are known."""
+    """What the names in a function's code stand for, where they are known; as in ``line.stop`` too."""
     known = inspect.getclosurevars(function)
-    yield from known.globals.values()
     yield from known.nonlocals.values()
+    for value in known.globals.values():
+        yield value
+        if inspect.ismodule(value):
+            yield from (getattr(value, name) for name in function.__code__.co_names if hasattr(value, name))
 
 
 def _call(builder: Any, context: Any, line: Any, answer: Any, arguments: Any, values: Any) -> Any:
@@ -146,10 +154,10 @@ def _hook(answer: Any, n_arguments: int) -> Any:
 
 ask_1, ask_2, ask_3 = (_hook(types.int64, n) for n in (1, 2, 3))
 """``ask_2(line, floor, subject, job)``: the number, or truth, that a hook answers."""
-tell_1, tell_2, tell_3 = (_hook(types.none, n) for n in (1, 2, 3))
+tell_0, tell_1, tell_2, tell_3 = (_hook(types.none, n) for n in range(4))
 """The same for hooks that answer nothing."""
 
 __all__ = [
-    *("LINES", "STEPS", "Step", "ask_1", "ask_2", "ask_3", "inlined", "line_of", "needed", "step", "step_of"),
-    *("tell_1", "tell_2", "tell_3"),
+    *("LINES", "STEPS", "Step", "ask_1", "ask_2", "ask_3", "here", "line_of", "needed", "step", "step_of"),
+    *("tell_0", "tell_1", "tell_2", "tell_3"),
 ]

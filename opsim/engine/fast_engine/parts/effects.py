@@ -9,7 +9,7 @@ from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 
 @inlined
 def human_drawn(floor: Floor, station: Station, worker: Worker, task: int, k: int, drawn_s: float) -> float:
-    """His own next time as it is now, by ``humans.drawn``; ``worker.pace_shift`` says by how much log time is shifted."""
+    """His own next time as it is now, by ``humans.drawn``; ``worker.pace_shift`` is the shift of log time."""
     floor.asked_task, floor.asked_k, floor.asked_s = task, k, drawn_s
     tell_2(floor.drawn_line, floor, worker, station)
     return floor.asked_s

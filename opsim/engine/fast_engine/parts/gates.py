@@ -46,9 +46,8 @@ def is_allowed(floor: Floor, gate: Gate, job: Job) -> bool:
 @inlined
 def may_enter(floor: Floor, gate: Gate, job: Job) -> bool:
     """Whether there is room for a job, and nothing else keeps it out."""
-    if job.ahead:
-        if job.ahead.station:
-            return True
+    if job.ahead and job.ahead.station:
+        return True
     room = has_room(gate) or (leads_to(gate, job) and keeps_place(job))
     return room and is_allowed(floor, gate, job)
 

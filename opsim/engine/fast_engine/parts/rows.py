@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import call_out, cast, inlined
+from opsim.engine.fast_engine.machine import cast, inlined, tell_0
 from opsim.engine.fast_engine.machine.structs import size_of
 from opsim.engine.fast_engine.parts.clock import NAN
 from opsim.engine.fast_engine.parts.state import Floor, Job, Row, Worker
@@ -16,10 +16,9 @@ _as_row = cast(Row)
 def new_row(floor: Floor, kind: int, start_s: float) -> Row:
     """A row of a kind from a time until now, with nothing else in it."""
     if floor.row_at == floor.row_end:
-        call_out(floor.more_rows, floor.arena, 0)
+        tell_0(floor.flush_line, floor)
     row: Row = _as_row(floor.row_at)
     floor.row_at += ROW_BYTES
-    floor.n_rows += 1
     row.kind, row.start_s, row.end_s = kind, start_s, floor.now
     row.worker = row.station = row.place_from = row.place_to = row.source = row.job = -1
     row.product = row.operation = row.task = row.performance_id = row.k = -1

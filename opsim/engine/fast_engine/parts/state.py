@@ -91,6 +91,30 @@ class Row:
 
 
 @struct
+class Columns:
+    """Where the columns of the event log are, in the order of ``opsim.log.COLUMNS``: addresses of their first items."""
+
+    kind: int
+    start_s: Array[float]
+    end_s: Array[float]
+    worker: int
+    station: int
+    place_from: int
+    place_to: int
+    source: int
+    job: Array[int]
+    product: int
+    operation: int
+    task: int
+    performance_id: Array[int]
+    k: Array[int]
+    progress_from: Array[float]
+    progress_to: Array[float]
+    pace_shift: Array[float]
+    cause: int
+
+
+@struct
 class Claim:
     """What a job puts down where it waits for something: served by (before, since_s, number); before : -priority
 
@@ -432,9 +456,16 @@ class Floor:
     has_orders: int
     reports: List[Event]
     n_settled: int
+    row_first: int
     row_at: int
     row_end: int
+    row_order: Array[int]
+    flush_line: int
     more_rows: int
+    columns: Columns
+    room: int
+    unordered: int
+    last_end_s: float
     more_luck: int
     arena: int
     n_rows: int

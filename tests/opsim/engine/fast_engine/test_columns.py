@@ -1,28 +1,45 @@
-"""Rows in their order, without a sort of all of them: as the sort of all of them has it."""
+"""Rows are put in order as they come: as a stable sort of all of them has it."""
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from made_machine import as_floor, empty_floor
 
-from opsim.engine.fast_engine.columns import CHUNK, columns_of
-from opsim.engine.fast_engine.machine.layouts import LAYOUTS
-from opsim.engine.fast_engine.parts.rows import ROW_BYTES
+from opsim.engine.fast_engine.columns import AT_ONCE, flush_all, flush_rows
+from opsim.engine.fast_engine.machine import complete, line_of, needed, step_of
+from opsim.engine.fast_engine.machine.compiling import entered
+from opsim.engine.fast_engine.parts.rows import new_row
+from opsim.engine.fast_engine.room import Columns
 from opsim.log import COLUMNS, ORDER
 
-FIELDS = LAYOUTS["Row"].fields
-ROW = np.dtype([(name, np.float64 if FIELDS[name].kind == "float" else np.int64) for name in COLUMNS])
 rows = st.tuples(*([st.integers(0, 3)] * len(ORDER)))
 
 
-def chunks_of(found):
-    """Rows as the engine leaves them, in chunks of bytes."""
-    assert ROW.itemsize == ROW_BYTES
-    packed = np.zeros(max(1, -(-len(found) // CHUNK)) * CHUNK, ROW)
-    for i, row in enumerate(found):
-        for name, value in zip(ORDER, row):
-            packed[name][i] = value
-        packed["performance_id"][i], packed["pace_shift"][i] = i, np.nan
-    return [chunk.view(np.uint8).reshape(-1) for chunk in packed.reshape(-1, CHUNK)]
+@entered
+def written(floor_at, found):
+    """Writes rows that end when they say, in the order of ``ORDER``; ``performance_id`` is which one it is."""
+    floor = as_floor(floor_at)
+    for i in range(found.shape[0]):
+        floor.now = found[i, 0]
+        row = new_row(floor, found[i, 2], found[i, 1])
+        row.worker, row.station, row.source = found[i, 3], found[i, 4], found[i, 5]
+        row.job, row.k, row.performance_id = found[i, 6], found[i, 7], i
+    floor.now = 1e9
+    flush_all(floor)
+
+
+def columns_of(found, times=1):
+    arena, floor = empty_floor()
+    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    floor.flush_line = line_of(flush_rows)
+    columns = Columns(arena, floor)
+    arena.freeze()
+    for _ in range(times):
+        arena.restore()
+        columns.begin()
+        written(floor.address, np.array(found, dtype=np.int64).reshape(-1, len(ORDER)))
+        made = columns.end()
+    return made
 
 
 def sorted_whole(found):
@@ -30,18 +47,40 @@ def sorted_whole(found):
     return sorted(range(len(found)), key=lambda i: found[i])
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.lists(rows, max_size=60), st.booleans())
 def test_the_order_is_that_of_a_stable_sort(found, as_they_end):
     if as_they_end:
         found = sorted(found, key=lambda row: row[0])
-    columns = columns_of(chunks_of(found), len(found))
+    columns = columns_of(found)
     assert columns["performance_id"].tolist() == sorted_whole(found)
     assert all(columns[name].dtype == kind for name, kind in COLUMNS.items())
     assert np.isnan(columns["pace_shift"]).all()
+    assert (columns["task"] == -1).all()
 
 
-def test_rows_of_several_chunks():
-    found = [(i // 3, 0, i % 2, 0, 0, 0, 0, 0) for i in range(2 * CHUNK + 17)]
-    columns = columns_of(chunks_of(found), len(found))
-    assert columns["performance_id"].tolist() == sorted_whole(found)
+def test_more_rows_than_there_is_room_for():
+    found = [(i // 3, 0, i % 2, 0, 0, 0, 0, 0) for i in range(100_000)]
+    assert columns_of(found, times=3)["performance_id"].tolist() == sorted_whole(found)
+
+
+def test_an_instant_of_more_rows_than_are_put_in_order_at_once():
+    found = [(7, 0, i % 2, 0, 0, 0, i, 0) for i in range(5 * AT_ONCE)]
+    assert columns_of(found)["performance_id"].tolist() == sorted_whole(found)
+
+
+def test_the_columns_of_one_run_stay_when_another_one_has_begun():
+    first = [(i, 0, 1, 2, 3, 4, i, 5) for i in range(1000)]
+    arena, floor = empty_floor()
+    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    floor.flush_line = line_of(flush_rows)
+    columns = Columns(arena, floor)
+    arena.freeze()
+    kept = []
+    for shift in range(4):
+        arena.restore()
+        columns.begin()
+        written(floor.address, np.array(first, dtype=np.int64) + shift)
+        kept.append(columns.end())
+    assert [made["job"][0] for made in kept] == [0, 1, 2, 3]
+    assert [made["source"][999] for made in kept] == [4, 5, 6, 7]

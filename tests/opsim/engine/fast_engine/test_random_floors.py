@@ -10,6 +10,7 @@ from engine_evidence.floors import N_FLOORS, floor_text, replication_of
 from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
 
+from opsim.engine.fast_engine import run_plan as run_fast
 from opsim.engine.simpy_engine import run_plan as run_simpy
 
 EVERY = 4
@@ -19,9 +20,8 @@ PARTS = 4
 
 def difference(number):
     """The first row that differs, in words; nothing where the logs are equal."""
-    fast_engine = pytest.importorskip("opsim.engine.fast_engine", reason="the fast engine is not there yet")
     plan, replication = plan_of(floor_text(number)), replication_of(number)
-    return first_difference(run_simpy(plan, replication), fast_engine.run_plan(plan, replication))
+    return first_difference(run_simpy(plan, replication), run_fast(plan, replication))
 
 
 @pytest.mark.parametrize("number", SAMPLE)
