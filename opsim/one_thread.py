@@ -1,9 +1,12 @@
 """BLAS on one thread, so that results do not depend on how many cores a machine has."""
 
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import lru_cache
+from typing import Any
 
 _held: ContextVar[bool] = ContextVar("one BLAS thread is held", default=False)
 
@@ -12,19 +15,26 @@ _held: ContextVar[bool] = ContextVar("one BLAS thread is held", default=False)
 def one_blas_thread() -> Iterator[None]:
     """Whatever multiplies matrices inside does so on one thread.
 
-    NOTE: finding the libraries takes 0.5 to 5 ms, so that inside such a block another one does nothing.
+    NOTE: finding the libraries takes 0.5 to 5 ms, a third of a short replication: they are looked for again only when
+    something was imported since, and inside such a block another one does nothing.
     """
     if _held.get():
         yield
         return
-    from threadpoolctl import threadpool_limits
-
     token = _held.set(True)
     try:
-        with threadpool_limits(limits=1, user_api="blas"):
+        with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
             yield
     finally:
         _held.reset(token)
+
+
+@lru_cache(maxsize=1)
+def _libraries(_n_modules: int) -> Any:
+    """The libraries that are loaded; ``_n_modules`` : imported so far, since a library comes with one."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()
 
 
 def lean() -> None:

@@ -1,12 +1,15 @@
 """What is measured of the fast engine in a process of its own: ``python -m bench.fast_runs WHAT ...`` prints numbers.
 
-first_row SCENARIO : clock seconds of importing opsim and reading the scenario, of making ready, of the first run
+first_row SCENARIO : clock seconds of reading the scenario, importing the engine, making ready, the first run; CPU too
 memory             : MB of a floor of 100 stations and 100 workers
 replications HOW N : N replications of a line on 2 cores; clock seconds, CPU seconds, jobs finished in each
 """
 
 import json
+import os
+import re
 import resource
+import subprocess
 import sys
 from functools import cache, partial
 from pathlib import Path
@@ -27,10 +30,13 @@ def first_row(file: str, text: str = "") -> dict:
 
     imported = perf_counter()
     compiled = []
+    cpu_s = [_cpu_s()]
     ready(plan, lambda _done, total: compiled.append(total))
     made = perf_counter()
+    cpu_s.append(_cpu_s())
     rows = len(run_plan(plan, 0))
     ran = perf_counter()
+    cpu_s.append(_cpu_s())
     run_plan(plan, 1)
     return {
         "read_s": read - BEGAN,
@@ -38,6 +44,9 @@ def first_row(file: str, text: str = "") -> dict:
         "ready_s": made - imported,
         "run_s": ran - made,
         "again_s": perf_counter() - ran,
+        "before_cpu_s": cpu_s[0],
+        "ready_cpu_s": cpu_s[1] - cpu_s[0],
+        "run_cpu_s": cpu_s[2] - cpu_s[1],
         "rows": rows,
         "compiled": max(compiled, default=0),
     }
@@ -60,7 +69,7 @@ def memory() -> dict:
     from opsim.engine.fast_engine.run import machine_of
 
     test_plant.N_STATIONS = test_plant.N_WORKERS = 100
-    of_plant = {blocks: plan(test_plant.plant(blocks=blocks)) for blocks in (False, True)}
+    of_plant = {blocks: plan(_with_skills(test_plant.plant(blocks=blocks))) for blocks in (False, True)}
     plans = {"line": plan(line_text(100)), "plant": of_plant[False], "plant with blocks": of_plant[True]}
     found = {}
     for name, made in plans.items():
@@ -80,6 +89,14 @@ def memory() -> dict:
             "grown_mb": _resident_mb() - before,
         }
     return found
+
+
+def _with_skills(text: str) -> str:
+    """Each worker for four stations far apart."""
+    for w in range(100):
+        skills = ", ".join(f"s{(w + 27 * k) % 100}: 1.0" for k in range(4))
+        text = re.sub(rf"^  w{w}: .*$", f"  w{w}: {{skills: {{{skills}}}}}", text, flags=re.MULTILINE)
+    return text
 
 
 def _resident_mb() -> float:
@@ -127,6 +144,18 @@ def _cpu_s() -> float:
     """Of this process, all its threads, and of processes that have ended."""
     used = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+def in_a_process(*words, cache: Path | None = None) -> dict:
+    """What a function here finds in a process of its own, and ``whole_s``, its clock seconds with the interpreter's."""
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"} | ({"NUMBA_CACHE_DIR": str(cache)} if cache else {})
+    tests = str(Path(__file__).parents[1])
+    environment["PYTHONPATH"] = os.pathsep.join(filter(None, [tests, os.environ.get("PYTHONPATH", "")]))
+    started = perf_counter()
+    command = [sys.executable, "-m", "bench.fast_runs", *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout) | ({"whole_s": perf_counter() - started} if words[0] == "first_row" else {})
 
 
 if __name__ == "__main__":

@@ -1,20 +1,15 @@
-"""The fast engine, event log on: against SimPy by hand, against our SimPy engine, against drawing; compiling; memory.
+"""The fast engine, event log on: against SimPy by hand, against our SimPy engine, against drawing alone.
 
 Every answer is asserted before it is timed: the rows are those of the SimPy engine. Compiled code is warm, and what is
 timed is one replication of a Plan after another, as in a study.
 """
 
-import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
-from time import perf_counter, process_time
+from time import process_time
 
 import pytest
-from bench import fast_runs
 from bench.cpu import best_s
+from bench.fast_runs import in_a_process
 from bench.peers import compare, in_opsim, in_opsim_fast
 from bench.test_plant import plant
 from engine_evidence.rows import first_difference
@@ -33,7 +28,6 @@ from opsim.tasks import Fixed, Lognormal
 ROUNDS = 5
 BY_HAND, STRETCH, OUR_SIMPY, OF_DRAWING = 50, 100, 50, 1.5
 REPLICATIONS, FEW, MANY_TIMES = 1000, 20, 40
-STATE_MB, COLD_S, WARM_S = 50, 20, 1
 CV = 0.25
 
 
@@ -105,7 +99,7 @@ def test_against_drawing_alone(name):
 def test_a_thousand_replications_on_two_cores():
     """SimPy's time is that of a few, times as many; by the clock, and by CPU, which a busy machine tells too."""
     ways = {"simpy_in_processes": FEW, "fast_in_processes": REPLICATIONS, "fast_in_threads": REPLICATIONS}
-    rounds = [{how: _in_a_process("replications", how, n) for how, n in ways.items()} for _ in range(3)]
+    rounds = [{how: in_a_process("replications", how, n) for how, n in ways.items()} for _ in range(3)]
     jobs = {how: rounds[0][how]["jobs"][:FEW] for how in ways}
     assert jobs["simpy_in_processes"] == jobs["fast_in_processes"] == jobs["fast_in_threads"]
     best = {
@@ -116,43 +110,6 @@ def test_a_thousand_replications_on_two_cores():
     for how, (clock_s, cpu_s) in best.items():
         what = f"1,000 replications, {how.replace('_', ' ')}: {clock_s:.2f} s by the clock, {cpu_s:.2f} s of CPU"
         _told(f"{what}, {simpy_cpu_s / cpu_s:.0f} x by CPU", simpy_s / clock_s, f"SimPy (target {MANY_TIMES})")
-
-
-def test_memory_of_a_hundred_stations_and_a_hundred_workers():
-    for name, found in _in_a_process("memory").items():
-        told = ", ".join(f"{key.replace('_mb', '')} {value:.1f} MB" for key, value in found.items() if key != "rows")
-        print(
-            f"\n{name} of 100 stations and 100 workers, 8 h, {found['rows']} rows: {told} (target {STATE_MB})", end=""
-        )
-        assert found["arena_mb"] + found["frozen_mb"] < STATE_MB
-
-
-@pytest.mark.parametrize("name", ["line", "two_shift_plant"])
-def test_first_run(tmp_path, name):
-    """By the clock: seconds to the first row where nothing is compiled yet, and where all is on disk."""
-    file = name if name == "line" else shipped_folder() / f"{name}.yaml"
-    cold, *warm = [_in_a_process("first_row", file, cache=tmp_path / "cache") for _ in range(4)]
-    assert cold["compiled"] > 0 and all(one["compiled"] == 0 for one in warm)
-    best = min(warm, key=lambda one: one["import_s"] + one["ready_s"] + one["run_s"])
-    for told, one, target in (("nothing compiled", cold, COLD_S), ("all on disk", best, WARM_S)):
-        print(
-            f"\n{name}, {told}: {one['import_s'] + one['ready_s'] + one['run_s']:.2f} s to the first rows (target "
-            f"{target}): import {one['import_s']:.2f}, ready {one['ready_s']:.2f} ({one['compiled']} steps compiled), "
-            f"first run {one['run_s']:.2f}, next {one['again_s']:.3f}; whole process {one['whole_s']:.2f} s",
-            end="",
-        )
-
-
-def _in_a_process(*words, cache: Path | None = None) -> dict:
-    """What ``bench.fast_runs`` finds, and ``whole_s``, its clock seconds with the interpreter's."""
-    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"} | ({"NUMBA_CACHE_DIR": str(cache)} if cache else {})
-    tests = str(Path(fast_runs.__file__).parents[1])
-    environment["PYTHONPATH"] = os.pathsep.join(filter(None, [tests, os.environ.get("PYTHONPATH", "")]))
-    started = perf_counter()
-    command = [sys.executable, "-m", "bench.fast_runs", *map(str, words)]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout) | ({"whole_s": perf_counter() - started} if words[0] == "first_row" else {})
 
 
 def _shipped(name: str) -> Plan:

@@ -8,7 +8,7 @@ from known_answers import assembly, assignment, duty, failures, lines, pull, seq
 from known_answers.case import HERE, Case
 from known_answers.chains import line_rate
 
-__all__ = ["CASES", "HERE", "Case"]
+__all__ = ["CASES", "HERE", "TAKE_LONG", "Case"]
 
 
 def _queue(file: str, variant: str, model: str, few: int = 12) -> list[Case]:
@@ -78,3 +78,12 @@ CASES = (
     *assignment.CASES,
     *lines.CASES,
 )
+
+TAKE_LONG = {
+    *(("gershwin", variant) for variant in ("n10", "n20", "uneven", "infinite")),
+    *(("base_stock", "base"), ("priorities", "restart"), ("priorities", "shortest"), ("batches", "eight")),
+    *(("kitting", "uneven"), ("interrupted", "in_use_spread"), ("transfer_line", "k10")),
+    *(("polling", "limited"), ("mmc", "two_servers"), ("mmc", "eight_servers"), ("priorities", "resume")),
+    ("interrupted", "any_time"),
+}
+"""Variants that need more replications than there is time for in a test with SimPy."""

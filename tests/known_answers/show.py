@@ -1,6 +1,7 @@
 """Prints theory beside simulation for every case, at the replications the files ask for: ``make known-answers``.
 
-``python -m known_answers.show --engine fast`` has the fast engine simulate them.
+``python -m known_answers.show --engine fast`` has the fast engine simulate them; ``--no-audit`` leaves out
+whether every run obeys all laws, which then takes most of the time.
 """
 
 import argparse
@@ -25,7 +26,9 @@ def main() -> int:
     """0 where theory holds: none outside the 99.9 % interval, at most 4 of 46 outside the 95 %, all precise enough."""
     parser = argparse.ArgumentParser(prog="known_answers.show", description=__doc__)
     parser.add_argument("--engine", choices=ENGINES, default=SIMPY)
-    engine = parser.parse_args().engine
+    parser.add_argument("--no-audit", action="store_true", help="do not look whether every run obeys all laws")
+    given = parser.parse_args()
+    engine, audited = given.engine, not given.no_audit
     if not (data_folder() / "reference" / "known_answers.json").exists():
         print("needs reference/known_answers.json in ../shared/data or in $OPSIM_DATA", file=sys.stderr)
         return 2
@@ -33,7 +36,8 @@ def main() -> int:
         print("fitting made motions of 300 people at three shares ...", file=sys.stderr, flush=True)
         emulated, mean_s = emulated_staffing.written(Path(folder))
         asked = (*CASES, *staffing.CASES, *emulated)
-        runs = simulate(asked, processes=os.cpu_count() or 1, done=_progress, engine=engine)
+        how = {"processes": os.cpu_count() or 1, "engine": engine, "audited": audited}
+        runs = simulate(asked, done=_progress, **how)
     print(f"\n{'figure':42} {'theory':>10} {'simulated':>10} {'95 %':>8}  half-width  n")
     verdicts = [_line(case, runs[case.file, case.variant][case.kpi]) for case in CASES]
     outside = [sum(verdict == word for verdict in verdicts) for word in ("outside 95 %", "outside 99.9 %", "imprecise")]

@@ -26,24 +26,26 @@ def simulate(
     processes: int = 1,
     done: Callable | None = None,
     engine: str = SIMPY,
+    audited: bool = True,
 ) -> Runs:
     """Figures by (file, variant) and name, (replications,) each: as many as the files say, or the cases' few.
 
-    ``done(n, total)`` is called after each replication. Raises NotFast where the fast engine is asked for and cannot.
+    ``done(n, total)`` is called after each replication; ``audited`` ones obey all laws. Raises NotFast where the fast
+    engine is asked for and cannot.
     """
     variants = {(case.file, case.variant): case.few for case in cases}
     names = {key: [*ASKED] for key in variants}
     for case in cases:
         names[case.file, case.variant] += [case.kpi] if case.kpi in FROM_LOG else []
     jobs = [
-        (engine, file, variant, replication, tuple(dict.fromkeys(names[file, variant])))
+        (engine, audited, file, variant, replication, tuple(dict.fromkeys(names[file, variant])))
         for (file, variant), n in variants.items()
         for replication in range(n if few else _loaded(file, variant).scenario.run.replications)
     ]
     found: dict[tuple[str, str], list[dict[str, float]]] = {}
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
         results = pool.map(_one, jobs) if processes > 1 else map(_one, jobs)
-        for n, ((_, file, variant, _, _), figure) in enumerate(zip(jobs, results), 1):
+        for n, ((_, _, file, variant, _, _), figure) in enumerate(zip(jobs, results), 1):
             found.setdefault((file, variant), []).append(figure)
             if done is not None:
                 done(n, len(jobs))
@@ -65,10 +67,11 @@ def _runner(engine: str, file: str, variant: str) -> Run:
     return runner_of(able_to(engine, plan_of(file, variant)))
 
 
-def _one(job: tuple[str, str, str, int, tuple[str, ...]]) -> dict[str, float]:
-    engine, file, variant, replication, names = job
+def _one(job: tuple[str, bool, str, str, int, tuple[str, ...]]) -> dict[str, float]:
+    engine, audited, file, variant, replication, names = job
     plan = plan_of(file, variant)
     log = _runner(engine, file, variant)(plan, replication)
-    audit(log, plan)
+    if audited:
+        audit(log, plan)
     found = {f.kpi: f.value for f in figures(log, plan) if f.kpi in ASKED and not f.subject and not f.part}
     return found | {name: FROM_LOG[name](log, plan) for name in names if name in FROM_LOG}

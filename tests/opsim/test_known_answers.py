@@ -1,21 +1,14 @@
 """The files of ``tests/known_answers`` against theory, at a part of what ``make known-answers`` simulates."""
 
 import pytest
-from known_answers.cases import CASES
+from known_answers.cases import CASES, TAKE_LONG
 from known_answers.chains import line_rate
 from known_answers.simulate import simulate
 
 from opsim.study.interval import t_interval
 
-LONG = {
-    *(("gershwin", variant) for variant in ("n10", "n20", "uneven", "infinite")),
-    *(("base_stock", "base"), ("priorities", "restart"), ("priorities", "shortest"), ("batches", "eight")),
-    *(("kitting", "uneven"), ("interrupted", "in_use_spread"), ("transfer_line", "k10")),
-    *(("polling", "limited"), ("mmc", "two_servers"), ("mmc", "eight_servers"), ("priorities", "resume")),
-    ("interrupted", "any_time"),
-}
-"""Need more replications than there is time for here: ``make known-answers`` alone simulates them."""
-HERE = [case for case in CASES if (case.file, case.variant) not in LONG]
+HERE = [case for case in CASES if (case.file, case.variant) not in TAKE_LONG]
+"""The others are simulated by ``make known-answers`` and, with the fast engine, by its own ``test_known_answers``."""
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,10 @@ __all__ = ["compiled", "ready", "run_plan", "unsupported"]
 def unsupported(plan: Plan) -> list[str]:
     """What of a Plan only the reference engine runs, in sentences; nothing where this one runs all of it."""
     from opsim.engine.fast_engine.build import Build
+    from opsim.engine.plugin_rules import plugin_rules
 
+    if rules := plugin_rules(plan):
+        return list(dict.fromkeys(str(rule) for rule in rules))
     try:
         Build(plan)
     except NotImplementedError as error:

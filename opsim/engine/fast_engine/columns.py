@@ -86,9 +86,7 @@ def _comes_before(one: Row, other: Row) -> bool:
     return one.k < other.k
 
 
-assert ORDER == ("end_s", "start_s", "kind", "worker", "station", "source", "job", "k"), (
-    "_comes_before differs"
-)
+assert ORDER == ("end_s", "start_s", "kind", "worker", "station", "source", "job", "k"), "_comes_before differs"
 
 
 @inlined

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 from threading import RLock
+from typing import Any
 from weakref import finalize
 
 import numpy as np
@@ -20,7 +21,7 @@ _lock = RLock()
 def lent(n_bytes: int) -> np.ndarray:
     """(n_bytes or more,) bytes, of any content. Arrays made from it keep it; when the last one is gone it is free."""
     memory = _taken(n_bytes)
-    lease = (ctypes.c_uint8 * memory.nbytes).from_address(memory.ctypes.data)
+    lease: Any = (ctypes.c_uint8 * memory.nbytes).from_address(memory.ctypes.data)
     finalize(lease, _keep, memory).atexit = False
     return np.frombuffer(lease, dtype=np.uint8)
 

@@ -28,11 +28,16 @@ def _chance(word: str) -> Named:
     )
 
 
+def _hold(plan: Plan, task: int) -> Any:
+    """The hold of a task that has one."""
+    return plan.tasks[task].hold
+
+
 NAMED: dict[int, Named] = {
     luck.DURATION: lambda draws, _plan, worker, task, _: draws.durations(task, worker),
     luck.AUTOMATIC: lambda draws, _plan, station, task, _: draws.automatic_runs(task, station),
-    luck.HOLD: lambda draws, plan, worker, task, _: draws.durations_with(plan.tasks[task].hold, task, worker),
-    luck.HOLD_RUN: lambda draws, plan, station, task, _: draws.runs_with(plan.tasks[task].hold, task, station),
+    luck.HOLD: lambda draws, plan, worker, task, _: draws.durations_with(_hold(plan, task), task, worker),
+    luck.HOLD_RUN: lambda draws, plan, station, task, _: draws.runs_with(_hold(plan, task), task, station),
     luck.GAP: lambda draws, _plan, source, *_: draws.gaps(source),
     luck.MIX: lambda draws, _plan, source, *_: draws.products(source),
     luck.REPAIR: lambda draws, plan, stop, *_: draws.repairs(plan.stops[stop]),

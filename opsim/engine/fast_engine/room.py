@@ -61,7 +61,8 @@ class Columns:
 def _arrays(n_rows: int) -> dict[str, np.ndarray]:
     """A column each, side by side in memory that is lent."""
     sizes = [-(-n_rows * np.dtype(kind).itemsize // 64) * 64 for kind in COLUMNS.values()]
-    memory, at, found = lent(sum(sizes)), 0, {}
+    memory, at = lent(sum(sizes)), 0
+    found: dict[str, np.ndarray] = {}
     for (name, kind), size in zip(COLUMNS.items(), sizes):
         found[name] = memory[at : at + size].view(kind)[:n_rows]
         at += size

@@ -13,6 +13,7 @@ from opsim.engine.fast_engine.room import Columns
 from opsim.engine.fast_engine.settle import DONE, FAILED, MOST_ROUNDS
 from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import EventLog, names_of
+from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
 
 MOST_EVENTS = 1_000_000
@@ -76,9 +77,7 @@ def run_plan(plan: Plan, replication: int = 0) -> EventLog:
 
     Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again.
     """
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         return machine_of(plan).run(replication)
 
 

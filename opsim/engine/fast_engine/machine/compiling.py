@@ -19,12 +19,14 @@ def inlined(function: F) -> F:
 
     Used in another file, it belongs into ``parts/`` or ``machine/``: see ``stamp``.
     """
-    return numba.njit(**NO_WRAPPERS)(function)
+    made: Any = numba.njit(**NO_WRAPPERS)(function)
+    return made
 
 
 def forced(function: F) -> F:
     """As ``inlined``, and put into its callers however long it is."""
-    return numba.njit(forceinline=True, **NO_WRAPPERS)(function)
+    made: Any = numba.njit(forceinline=True, **NO_WRAPPERS)(function)
+    return made
 
 
 def kept(signature: Any, function: Callable) -> Any:
@@ -40,8 +42,9 @@ def kept(signature: Any, function: Callable) -> Any:
 def entered(function: F) -> F:
     """A function that Python calls, kept on disk where that can be."""
     try:
-        return numba.njit(cache=True, nogil=True)(function)
+        made: Any = numba.njit(cache=True, nogil=True)(function)
     except RuntimeError as error:
         if "locator" not in str(error):
             raise
-        return numba.njit(nogil=True)(function)
+        made = numba.njit(nogil=True)(function)
+    return made

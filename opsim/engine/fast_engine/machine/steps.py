@@ -74,7 +74,8 @@ def line_of(call: Any) -> Line:
 
 def here(call: F) -> F:
     """The function of a step, to be compiled into the step that calls it: faster, where that happens all the time."""
-    return forced(step_of(call).function)
+    made: Any = forced(step_of(call).function)
+    return made
 
 
 def needed(roots: Iterable[Step]) -> Iterator[Step]:

@@ -104,12 +104,11 @@ class PointerModel(models.PrimitiveModel):
         super().__init__(dmm, fe_type, POINTER)
 
 
-@infer_getattr
-class Fields(AttributeTemplate):
-    key = Pointer
+def _resolve(_template: Any, pointer: Pointer, name: str) -> Any:
+    return _field_type(pointer, name)
 
-    def generic_resolve(self, pointer: Pointer, name: str) -> Any:
-        return _field_type(pointer, name)
+
+infer_getattr(type("Fields", (AttributeTemplate,), {"key": Pointer, "generic_resolve": _resolve}))
 
 
 @lower_getattr_generic(Pointer)

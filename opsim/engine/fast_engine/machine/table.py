@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterable, Sequence
 from threading import RLock
 from typing import Any
 
+import numba
 import numpy as np
 
-from opsim.engine.fast_engine.machine.compiling import kept
+from opsim.engine.fast_engine.machine.compiling import NO_WRAPPERS, kept
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
 
 TABLE = np.zeros(LINES, dtype=np.int64)
@@ -67,9 +68,11 @@ def is_on_disk(one: Step) -> bool:
 
 def _take(one: Step) -> None:
     if not TABLE[one.line]:
-        compiled = kept(one.signature, one.function)
+        compiled, known_by = kept(one.signature, one.function), tuple(one.signature.args)
+        if known_by not in compiled.overloads:  # another source's: numba's files are mixed up where two versions save
+            compiled = numba.njit(one.signature, **NO_WRAPPERS)(one.function)
         _KEPT[one.line] = compiled  # NOTE: the machine code lives as long as this does
-        result = compiled.overloads[tuple(one.signature.args)]
+        result = compiled.overloads[known_by]
         TABLE[one.line] = int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
 
 

@@ -46,7 +46,7 @@ def task_of(job: Job) -> int:
 
 @inlined
 def own_next_s(floor: Floor, worker: Worker, task: int) -> float:
-    """The worker's own next time of a task, at rating 1 and without human effects; ``floor.asked_k`` is its number k."""
+    """The worker's own next time of a task, at rating 1, without human effects; ``floor.asked_k`` is its number."""
     luck = worker.luck[task]
     if not luck:
         luck = stream_of(floor, DURATION, worker.rank, task, 0)

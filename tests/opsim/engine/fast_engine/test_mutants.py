@@ -5,11 +5,11 @@ from engine_evidence.mutants import HELPED, MUTANTS, found_by, make_sound_code
 from engine_evidence.planted import plant
 
 SHOWN_BY = {
-    "wrong_tie": (11, 86, 101),
-    "stale_timeout": (11, 86, 101),
-    "lost_interruption": (11, 86, 101),
-    "last_who_waits": (11, 86, 101),
-    "late_breaks": (11, 86, 101),
+    "wrong_tie": (388, 411, 545),
+    "stale_timeout": (86, 101, 187),
+    "lost_interruption": (86, 101, 187),
+    "last_who_waits": (11, 235, 559),
+    "late_breaks": (86, 101, 411),
     "rest_of_two": (HELPED,),
 }
 """Floors that ``python -m engine_evidence.mutants`` found to show a fault."""

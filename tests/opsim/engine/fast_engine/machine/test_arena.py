@@ -8,7 +8,6 @@ from made_machine import Box, as_box, as_floor, empty_floor
 from opsim.engine.fast_engine.machine import fresh, give_back
 from opsim.engine.fast_engine.machine.compiling import entered
 
-
 _new_box, _forget_box = fresh(Box), give_back(Box)
 
 
