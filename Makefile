@@ -32,7 +32,9 @@ lint: $(READY)
 	$(RUN) -m mypy
 
 # File by file, the longest first (tests/conftest.py), so that both processes end together; slow statistics in a second, smaller pass.
+# The fast engine is compiled before: else each process would compile it.
 tests: $(READY)
+	$(RUN) -m opsim.engine.fast_engine
 	$(RUN) -m pytest $(BY_FILE) -m "not slow"
 	$(RUN) -m pytest $(BY_FILE) -m slow
 

@@ -92,14 +92,19 @@ def _libraries() -> Iterator[Finding]:
 
 def _compiled_code() -> Iterator[Finding]:
     """Where numba may keep what it compiled; without such a place every process compiles anew."""
-    beside = Path(__file__).resolve().parent.parent / "emulator" / "kernels"
-    named = os.environ.get("NUMBA_CACHE_DIR")
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    place = next((folder for folder in (Path(named) if named else beside, home) if _writable(folder)), None)
-    if place is None:
+    here = Path(__file__).resolve().parent
+    places = [_place_of(folder) for folder in (here.parent / "emulator" / "kernels", here / "engine" / "fast_engine")]
+    if None in places:
         yield Finding("compiled code", NOTE, "can be kept nowhere: each process compiles anew; set NUMBA_CACHE_DIR")
     else:
-        yield Finding("compiled code", OK, f"is kept in {place}")
+        yield Finding("compiled code", OK, f"is kept in {' and '.join(map(str, dict.fromkeys(places)))}")
+
+
+def _place_of(beside: Path) -> Path | None:
+    """Where numba keeps what it compiles of the files in a folder."""
+    named = os.environ.get("NUMBA_CACHE_DIR")
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return next((folder for folder in (Path(named) if named else beside, beside, home) if _writable(folder)), None)
 
 
 def _writable(folder: Path) -> bool:

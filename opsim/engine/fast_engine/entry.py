@@ -1,30 +1,13 @@
-"""Where Python enters the compiled engine: three functions of a floor's address. They release the GIL."""
+"""Where Python enters the compiled engine: three steps, called at their addresses. They release the GIL."""
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import cast
-from opsim.engine.fast_engine.machine.compiling import entered
-from opsim.engine.fast_engine.parts.state import Floor
+from opsim.engine.fast_engine.machine.calling import caller
 from opsim.engine.fast_engine.settle import close, run_on, start
 
-_as_floor = cast(Floor)
-
-
-@entered
-def start_floor(at: int) -> int:
-    """Everything that happens before the first instant."""
-    start(_as_floor(at))
-    return 0
-
-
-@entered
-def run_floor(at: int, most: int) -> int:
-    """So many events at most, see ``settle.run_on``."""
-    return run_on(_as_floor(at), most)
-
-
-@entered
-def close_floor(at: int) -> int:
-    """The rows that are open at the horizon."""
-    close(_as_floor(at))
-    return 0
+start_floor = caller(start)
+"""Everything that happens before the first instant, of the floor at an address."""
+run_floor = caller(run_on)
+"""So many events at most, see ``settle.run_on``."""
+close_floor = caller(close)
+"""The rows that are open at the horizon."""

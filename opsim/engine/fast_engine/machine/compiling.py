@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numba
 from numba import extending
+
+from opsim.engine.fast_engine.machine.store import Code
 
 F = TypeVar("F", bound=Callable)
 intrinsic: Any = extending.intrinsic
@@ -14,19 +16,68 @@ NO_WRAPPERS: dict[str, Any] = {"nogil": True, "no_cpython_wrapper": True, "no_cf
 """Nobody calls these from Python, so nothing is made for that."""
 
 
+def _compiler() -> Any:
+    """numba's compiler with less around it; None where this numba is another one than it was written for."""
+    try:
+        from opsim.engine.fast_engine.machine import compiler
+    except (ImportError, AttributeError):
+        return None
+    return compiler
+
+
+LESS = _compiler()
+
+
 def inlined(function: F) -> F:
     """A small function that is compiled into each step that calls it. It may not call itself, in no way round.
 
     Used in another file, it belongs into ``parts/`` or ``machine/``: see ``stamp``.
     """
-    made: Any = numba.njit(**NO_WRAPPERS)(function)
+    made: F = _helper(function)
     return made
 
 
 def forced(function: F) -> F:
     """As ``inlined``, and put into its callers however long it is."""
-    made: Any = numba.njit(forceinline=True, **NO_WRAPPERS)(function)
+    made: F = _helper(function, forceinline=True)
     return made
+
+
+def _helper(function: Callable, **options: bool) -> Any:
+    if LESS is not None:
+        try:
+            return LESS.helper(**options)(function)
+        except (TypeError, AttributeError):  # numba's inner parts are others than they were
+            pass
+    wanted: dict[str, Any] = {**NO_WRAPPERS, **options}
+    return numba.njit(**wanted)(function)
+
+
+class Compiled(NamedTuple):
+    """at : address of a function; alive : what its machine code lives with; code : what can be kept of it"""
+
+    at: int
+    alive: object
+    code: Code | None = None
+
+
+def compiled(signature: Any, function: Callable) -> Compiled:
+    """A function compiled for one signature: as shortly as can be, and else as numba does it by itself."""
+    if LESS is not None:
+        try:
+            return Compiled(*LESS.compiled_step(signature, function))
+        except Exception:  # numba's inner parts are others than they were, or a function asks for more than they give
+            pass
+    return by_numba(signature, function)
+
+
+def by_numba(signature: Any, function: Callable) -> Compiled:
+    """The same by what numba offers to everybody; it keeps the machine code in files of its own."""
+    made, known_by = kept(signature, function), tuple(signature.args)
+    if known_by not in made.overloads:  # another source's: numba's files are mixed up where two versions save at once
+        made = numba.njit(signature, **NO_WRAPPERS)(function)
+    result = made.overloads[known_by]
+    return Compiled(int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name)), made)
 
 
 def kept(signature: Any, function: Callable) -> Any:
@@ -41,10 +92,12 @@ def kept(signature: Any, function: Callable) -> Any:
 
 def entered(function: F) -> F:
     """A function that Python calls, kept on disk where that can be."""
+    made: Any
     try:
-        made: Any = numba.njit(cache=True, nogil=True)(function)
+        made = numba.njit(cache=True, nogil=True)(function)
     except RuntimeError as error:
         if "locator" not in str(error):
             raise
         made = numba.njit(nogil=True)(function)
-    return made
+    entry: F = made
+    return entry

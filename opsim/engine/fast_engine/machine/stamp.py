@@ -15,7 +15,7 @@ ENGINE = Path(__file__).parents[1]
 OPSIM = ENGINE.parents[1]
 COMPILED_TOO = (ENGINE.parent / "rules", OPSIM / "human", OPSIM / "ergonomics" / "kernels")
 """Whose functions are compiled into steps as they are written."""
-SEEN_FROM_PYTHON = ("arena.py", "table.py", "stamp.py", "__init__.py")
+SEEN_FROM_PYTHON = ("arena.py", "calling.py", "linking.py", "stamp.py", "store.py", "table.py", "__init__.py")
 """Nothing of these is compiled."""
 
 

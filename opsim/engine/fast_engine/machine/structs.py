@@ -14,7 +14,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.imputils import lower_cast, lower_getattr_generic, lower_setattr_generic
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
-from numba.extending import lower_builtin, models, overload, register_model
+from numba.extending import lower_builtin, models, register_model
 
 from opsim.engine.fast_engine.machine.compiling import intrinsic
 from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD, layout_of
@@ -104,11 +104,12 @@ class PointerModel(models.PrimitiveModel):
         super().__init__(dmm, fe_type, POINTER)
 
 
-def _resolve(_template: Any, pointer: Pointer, name: str) -> Any:
-    return _field_type(pointer, name)
+@infer_getattr
+class Fields(AttributeTemplate):
+    key = Pointer
 
-
-infer_getattr(type("Fields", (AttributeTemplate,), {"key": Pointer, "generic_resolve": _resolve}))
+    def generic_resolve(self, pointer: Any, name: Any) -> Any:
+        return _field_type(pointer, name)
 
 
 @lower_getattr_generic(Pointer)
@@ -239,29 +240,62 @@ def address_of(_typingctx: Any, pointer: Any) -> Any:
     return types.int64(pointer), lambda _c, builder, _s, args: builder.ptrtoint(args[0], I64)
 
 
-@overload(operator.getitem)
-def _getitem(pointer, index):
-    if isinstance(pointer, Pointer) and pointer.kind == "array":
-        return lambda pointer, index: _load(pointer, index)
-    if isinstance(pointer, Pointer) and pointer.kind == "list":
-        return lambda pointer, index: _load(items(pointer), index)
-    return None
+def _item_type(pointer: Any) -> Any:
+    """The type of what a list or an array holds; None for anything else."""
+    if not isinstance(pointer, Pointer) or pointer.kind == "ref":
+        return None
+    return SCALARS.get(pointer.of) or Ref(pointer.of)
 
 
-@overload(operator.setitem)
-def _setitem(pointer, index, value):
-    if isinstance(pointer, Pointer) and pointer.kind == "array":
-        return lambda pointer, index, value: _store(pointer, index, value)
-    if isinstance(pointer, Pointer) and pointer.kind == "list":
-        return lambda pointer, index, value: _store(items(pointer), index, value)
-    return None
+def _place(context: Any, builder: Any, pointer: Any, given: Any, index: Any) -> Any:
+    """A pointer to item ``index`` of a list or an array."""
+    at = given
+    if pointer.kind == "list":
+        words = builder.bitcast(given, I64.as_pointer())
+        first = builder.load(builder.gep(words, [ir.Constant(I64, 1)], inbounds=True))
+        data = builder.load(builder.bitcast(given, POINTER.as_pointer()))
+        at = builder.bitcast(builder.gep(builder.bitcast(data, I64.as_pointer()), [first]), POINTER)
+    items_at = builder.bitcast(at, context.get_value_type(_item_type(pointer)).as_pointer())
+    return builder.gep(items_at, [index], inbounds=True)
 
 
-@overload(len)
-def _len(pointer):
-    if isinstance(pointer, Pointer) and pointer.kind == "list":
-        return lambda pointer: word(pointer, 2)
-    return None
+@infer_global(operator.getitem)
+class ItemOf(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        item = _item_type(args[0]) if len(args) == 2 and isinstance(args[1], types.Integer) else None
+        return None if item is None else signature(item, args[0], types.int64)
+
+
+@infer_global(operator.setitem)
+class ItemPut(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        item = _item_type(args[0]) if len(args) == 3 and isinstance(args[1], types.Integer) else None
+        return None if item is None else signature(types.none, args[0], types.int64, item)
+
+
+@infer_global(len)
+class ItemsIn(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        is_list = len(args) == 1 and isinstance(args[0], Pointer) and args[0].kind == "list"
+        return signature(types.int64, args[0]) if is_list else None
+
+
+@lower_builtin(operator.getitem, Pointer, types.int64)
+def _get_item(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return builder.load(_place(context, builder, sig.args[0], args[0], args[1]))
+
+
+@lower_builtin(operator.setitem, Pointer, types.int64, types.Any)
+def _set_item(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    value = context.cast(builder, args[2], sig.args[2], _item_type(sig.args[0]))
+    builder.store(value, _place(context, builder, sig.args[0], args[0], args[1]))
+    return context.get_dummy_value()
+
+
+@lower_builtin(len, Pointer)
+def _n_items(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+    words = builder.bitcast(args[0], I64.as_pointer())
+    return builder.load(builder.gep(words, [ir.Constant(I64, 2)], inbounds=True))
 
 
 def cast(struct: Any) -> Any:

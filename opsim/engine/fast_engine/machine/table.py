@@ -6,19 +6,20 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from threading import RLock
-from typing import Any
 
-import numba
 import numpy as np
 
-from opsim.engine.fast_engine.machine.compiling import NO_WRAPPERS, kept
+from opsim.engine.fast_engine.machine.compiling import Compiled, compiled
+from opsim.engine.fast_engine.machine.linking import can_link, link
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
+from opsim.engine.fast_engine.machine.store import folder, keep, path_of, read, used
 
 TABLE = np.zeros(LINES, dtype=np.int64)
 WORTH_HELP = 16
 """So many steps to compile are worth other processes: each takes 0.1 to 0.2 s, and a process 0.7 s to begin."""
-_KEPT: dict[int, object] = {}
+_ALIVE: list[object] = []
 _LOCK = RLock()
 Told = Callable[[int, int], None]
 
@@ -27,25 +28,46 @@ def complete(steps: Iterable[Step], told: Told | None = None) -> None:
     """Have every one of some steps in the table; ``told(done, total)`` of those that have to be compiled."""
     with _LOCK:
         lacking = sorted((one for one in steps if not TABLE[one.line]), key=lambda one: one.line)
-        new = [one for one in lacking if not is_on_disk(one)] if lacking else []
+        new = _linked(lacking)
         helpers = _helpers(new) if len(new) >= WORTH_HELP else []
         try:
-            _complete(lacking, new, told)
+            _compile(new, told)
         finally:
             for helper in helpers:
                 helper.kill()
                 helper.wait()
 
 
-def _complete(lacking: Sequence[Step], new: Sequence[Step], told: Told | None) -> None:
+def _linked(lacking: Sequence[Step]) -> list[Step]:
+    """Put into the table what is kept on disk, all at once. What is left."""
+    found = {one: code for one in lacking if (code := read(_path(one))) is not None and can_link(code)}
+    if found:
+        used(_path(lacking[0]))
+        for one, at in zip(found, link(found.values()), strict=True):
+            TABLE[one.line] = at
+    return [one for one in lacking if one not in found]
+
+
+def _compile(new: Sequence[Step], told: Told | None) -> None:
     for done, one in enumerate(new):
         if told is not None:
             told(done, len(new))
-        _take(one)
-    for one in lacking:
-        _take(one)
+        if _linked([one]):  # another process has not compiled it meanwhile
+            made = compiled(one.signature, one.function)
+            _keep(one, made)
+            _ALIVE.append(made.alive)
+            TABLE[one.line] = made.at
     if new and told is not None:
         told(len(new), len(new))
+
+
+def _keep(one: Step, made: Compiled) -> None:
+    if made.code is not None and can_link(made.code):
+        keep(_path(one), made.code)
+
+
+def _path(one: Step) -> Path | None:
+    return path_of(one.function, one.line)
 
 
 def is_complete(steps: Iterable[Step]) -> bool:
@@ -54,26 +76,9 @@ def is_complete(steps: Iterable[Step]) -> bool:
 
 
 def is_on_disk(one: Step) -> bool:
-    """Whether numba finds the machine code of a step on disk."""
-    from numba.core.caching import FunctionCache
-    from numba.core.registry import cpu_target
-
-    try:
-        cache: Any = FunctionCache(one.function)
-    except RuntimeError:  # no place where it could be
-        return False
-    key = cache._index_key(one.signature, cpu_target.target_context.codegen())
-    return key in cache._cache_file._load_index()
-
-
-def _take(one: Step) -> None:
-    if not TABLE[one.line]:
-        compiled, known_by = kept(one.signature, one.function), tuple(one.signature.args)
-        if known_by not in compiled.overloads:  # another source's: numba's files are mixed up where two versions save
-            compiled = numba.njit(one.signature, **NO_WRAPPERS)(one.function)
-        _KEPT[one.line] = compiled  # NOTE: the machine code lives as long as this does
-        result = compiled.overloads[known_by]
-        TABLE[one.line] = int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
+    """Whether the machine code of a step is kept."""
+    path = _path(one)
+    return path is not None and path.is_file()
 
 
 def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:
@@ -82,7 +87,7 @@ def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:
     None where there is one processor, or no place on disk.
     """
     n_helpers = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 4) - 1
-    if n_helpers < 1 or not _can_keep(new[0]):
+    if n_helpers < 1 or folder() is None:
         return []
     found = []
     for number in range(1, n_helpers + 1):
@@ -93,24 +98,14 @@ def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:
     return found
 
 
-def _can_keep(one: Step) -> bool:
-    from numba.core.caching import FunctionCache
-
-    try:
-        FunctionCache(one.function)
-    except RuntimeError:
-        return False
-    return True
-
-
 def compile_lines(lines: Iterable[int]) -> None:
     """Compile the steps of some lines that are not on disk yet."""
     import opsim.engine.fast_engine.blocks as blocks
 
     blocks.know_all()
-    for line in lines:
-        if not is_on_disk(STEPS[line]):
-            kept(STEPS[line].signature, STEPS[line].function)
+    for one in (STEPS[line] for line in lines):
+        if not is_on_disk(one):
+            _keep(one, compiled(one.signature, one.function))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,127 @@
+"""The table: machine code comes from disk, or is compiled once; where the short way fails, numba's own is taken."""
+
+import pytest
+from made_machine import empty_floor, is_even, is_odd
+
+from opsim.engine.fast_engine.machine import TABLE, compiling, complete, needed, step_of, store, table
+from opsim.engine.fast_engine.machine.calling import caller
+
+STEPS = list(needed([step_of(is_even)]))
+even = caller(is_even)
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    """An empty table and an empty place on disk."""
+    before = [int(TABLE[one.line]) for one in STEPS]
+    forgotten()
+    monkeypatch.setattr(store, "folder", lambda: tmp_path / "steps-now")
+    monkeypatch.setattr(table, "folder", store.folder)
+    yield tmp_path / "steps-now"
+    for one, at in zip(STEPS, before, strict=True):
+        TABLE[one.line] = at
+
+
+@pytest.fixture
+def compilations(monkeypatch):
+    """The steps that were compiled."""
+    found = []
+
+    def counted(signature, function, really=table.compiled):
+        found.append(function.__name__)
+        return really(signature, function)
+
+    monkeypatch.setattr(table, "compiled", counted)
+    return found
+
+
+def forgotten():
+    for one in STEPS:
+        TABLE[one.line] = 0
+
+
+def answers():
+    _, floor = empty_floor()
+    return [even(floor.address, n) for n in range(5)]
+
+
+def test_what_one_process_has_compiled_another_one_reads(place, compilations):
+    complete(STEPS)
+    assert sorted(compilations) == ["is_even", "is_odd"]
+    assert len(list(place.iterdir())) == 2
+    forgotten()
+    told = []
+    complete(STEPS, lambda *so_far: told.append(so_far))
+    assert len(compilations) == 2
+    assert told == []
+    assert answers() == [1, 0, 1, 0, 1]
+
+
+def test_what_is_in_the_table_is_neither_read_nor_compiled(place, compilations, monkeypatch):
+    complete(STEPS)
+    monkeypatch.setattr(table, "read", lambda path: pytest.fail("read again"))
+    complete(STEPS)
+    assert len(compilations) == 2
+
+
+def test_a_file_that_was_cut_off_is_compiled_anew(place, compilations):
+    complete(STEPS)
+    broken = store.path_of(step_of(is_odd).function, step_of(is_odd).line)
+    broken.write_bytes(broken.read_bytes()[:-9])
+    forgotten()
+    complete(STEPS)
+    assert sorted(compilations) == ["is_even", "is_odd", "is_odd"]
+    assert answers() == [1, 0, 1, 0, 1]
+    assert store.read(broken) is not None
+
+
+def test_machine_code_that_calls_what_is_not_there_is_compiled_anew(place, compilations):
+    complete(STEPS)
+    path = store.path_of(step_of(is_odd).function, step_of(is_odd).line)
+    found = store.read(path)
+    store.keep(path, store.Code(found.name, ("no_such_function_anywhere",), found.machine_code))
+    forgotten()
+    complete(STEPS)
+    assert len(compilations) == 3
+    assert answers() == [1, 0, 1, 0, 1]
+
+
+def test_where_nothing_can_be_written_it_is_compiled_and_runs(place, compilations, monkeypatch):
+    monkeypatch.setattr(store, "folder", lambda: None)
+    monkeypatch.setattr(table, "folder", lambda: None)
+    told = []
+    complete(STEPS, lambda *so_far: told.append(so_far))
+    assert told == [(0, 2), (1, 2), (2, 2)]
+    assert answers() == [1, 0, 1, 0, 1]
+    assert not place.exists()
+
+
+def test_nobody_helps_where_nothing_can_be_written(monkeypatch):
+    monkeypatch.setattr(table, "folder", lambda: None)
+    assert table._helpers(STEPS) == []
+
+
+class Fails:
+    def compiled_step(self, signature, function):
+        raise AttributeError("numba has no such thing any more")
+
+
+@pytest.mark.parametrize("less", [None, Fails()])
+def test_without_numbas_inner_parts_it_compiles_as_everybody_does(place, monkeypatch, less):
+    monkeypatch.setattr(compiling, "LESS", less)
+    monkeypatch.setattr(compiling, "kept", lambda signature, function: compiling.numba.njit(signature)(function))
+    complete(STEPS)
+    assert answers() == [1, 0, 1, 0, 1]
+    assert not place.exists()  # what numba makes by itself, it keeps by itself
+
+
+def test_a_helper_that_needs_more_passes_gets_all_of_them():
+    @compiling.inlined
+    def largest(n):
+        return sum([2 * i for i in range(n)])  # a list of Python's, by a closure: none of the few passes knows it
+
+    @compiling.numba.njit
+    def asked(n):
+        return largest(n)
+
+    assert asked(4) == 12
