@@ -1,5 +1,6 @@
-"""``python -m opsim.engine.fast_engine``: compile all of the engine ahead, for an image or before tests; else each floor
-compiles what it needs when it is first run.
+"""``python -m opsim.engine.fast_engine``: compile all of the engine ahead, for an image or before tests.
+
+Else each floor compiles what it needs when it is first run.
 """
 
 from __future__ import annotations
