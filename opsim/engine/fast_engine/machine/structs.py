@@ -108,7 +108,7 @@ class PointerModel(models.PrimitiveModel):
 class Fields(AttributeTemplate):
     key = Pointer
 
-    def generic_resolve(self, pointer: Any, name: Any) -> Any:
+    def generic_resolve(self, pointer: Any, name: Any) -> Any:  # type: ignore[override]
         return _field_type(pointer, name)
 
 

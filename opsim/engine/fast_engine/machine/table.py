@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from importlib import import_module
 from pathlib import Path
 from threading import RLock
 
@@ -93,22 +94,21 @@ def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:
     for number in range(1, n_helpers + 1):
         first = len(new) * number // (n_helpers + 1)
         order = [*reversed(new[first:]), *reversed(new[:first])] if n_helpers == 1 else [*new[first:], *new[:first]]
-        command = [sys.executable, "-m", __name__, *(str(one.line) for one in order)]
+        command = [sys.executable, "-m", __name__, *(f"{one.function.__module__}:{one.line}" for one in order)]
         found.append(subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
     return found
 
 
-def compile_lines(lines: Iterable[int]) -> None:
-    """Compile the steps of some lines that are not on disk yet."""
-    import opsim.engine.fast_engine.blocks as blocks
-
-    blocks.know_all()
-    for one in (STEPS[line] for line in lines):
+def compile_some(names: Iterable[str]) -> None:
+    """Compile the steps ``module:line`` that are not on disk yet."""
+    for module, _, line in (name.rpartition(":") for name in names):
+        import_module(module)
+        one = STEPS[int(line)]
         if not is_on_disk(one):
             _keep(one, compiled(one.signature, one.function))
 
 
 if __name__ == "__main__":
-    from opsim.engine.fast_engine.machine.table import compile_lines as compile_them
+    from opsim.engine.fast_engine.machine.table import compile_some as compile_them
 
-    compile_them(int(line) for line in sys.argv[1:])
+    compile_them(sys.argv[1:])

@@ -1,5 +1,8 @@
 """The table: machine code comes from disk, or is compiled once; where the short way fails, numba's own is taken."""
 
+import subprocess
+import sys
+
 import pytest
 from made_machine import empty_floor, is_even, is_odd
 
@@ -99,6 +102,24 @@ def test_where_nothing_can_be_written_it_is_compiled_and_runs(place, compilation
 def test_nobody_helps_where_nothing_can_be_written(monkeypatch):
     monkeypatch.setattr(table, "folder", lambda: None)
     assert table._helpers(STEPS) == []
+
+
+def test_a_process_that_helps_finds_every_step(monkeypatch):
+    """By its module, which a process that has read no plan may not have imported yet."""
+    from opsim.engine.fast_engine import blocks
+    from opsim.engine.fast_engine.machine import steps
+
+    blocks.know_all()
+    started, really = [], subprocess.run
+    monkeypatch.setattr(table.subprocess, "Popen", lambda command, **_: started.append(command))
+    monkeypatch.setattr(table.os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    engine = [one for one in steps.STEPS.values() if one.function.__module__.startswith("opsim.")]
+    table._helpers(engine)
+    monkeypatch.undo()
+    names = started[0][started[0].index(table.__name__) + 1 :]
+    assert len(names) == len(engine) > 200
+    program = "from opsim.engine.fast_engine.machine import table; table.is_on_disk = lambda one: True"
+    really([sys.executable, "-c", f"import sys; {program}; table.compile_some(sys.argv[1:])", *names], check=True)
 
 
 class Fails:
