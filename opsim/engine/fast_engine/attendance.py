@@ -10,7 +10,8 @@ from opsim.engine.fast_engine.overtime import need
 from opsim.engine.fast_engine.parts.bits import leave_all, leave_none
 from opsim.engine.fast_engine.parts.people import People
 from opsim.engine.fast_engine.parts.presence import Pause, Presence
-from opsim.engine.fast_engine.parts.state import DUTY, Event, Floor, Job, Station, Worker
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import DUTY, Floor, Job, Station, Worker
 from opsim.engine.fast_engine.pauses import begin_pause, end_pause, rest
 from opsim.engine.fast_engine.relief import be_wanted_no_more, send_takers
 from opsim.engine.fast_engine.station import go_on

@@ -25,8 +25,9 @@ from opsim.engine.fast_engine.material import ask_after
 from opsim.engine.fast_engine.parts.clock import INF
 from opsim.engine.fast_engine.parts.events import alarm, stir
 from opsim.engine.fast_engine.parts.ovens import Oven
+from opsim.engine.fast_engine.parts.records import Event, Seat
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job, Seat, Station
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station
 from opsim.engine.fast_engine.station import seat, see_seated
 from opsim.engine.rules import CALENDAR, batch
 from opsim.log import BATCH, HELD, QUEUE

@@ -8,7 +8,8 @@ from opsim.engine.fast_engine.machine import NOTHING, Handle, cast, inlined, lin
 from opsim.engine.fast_engine.parts.belts import Belt, until_open_s
 from opsim.engine.fast_engine.parts.clock import INF
 from opsim.engine.fast_engine.parts.events import alarm, cancel, stir
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job, Station
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station
 from opsim.engine.rules import COMPLETION
 
 _as_belt = cast(Belt)

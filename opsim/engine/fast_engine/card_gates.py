@@ -9,8 +9,9 @@ from opsim.engine.fast_engine.machine import drop, has, inlined, pop_first, push
 from opsim.engine.fast_engine.parts.events import stir_gate
 from opsim.engine.fast_engine.parts.gates import has_room, keeps_place, leads_to
 from opsim.engine.fast_engine.parts.loops import Guard, Loop, as_loop, is_outside, is_there, line_of_job, place_of
+from opsim.engine.fast_engine.parts.records import Source
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import Floor, Gate, Job, Source
+from opsim.engine.fast_engine.parts.state import Floor, Gate, Job
 from opsim.log import BLOCKED, GATE, HELD, NO_CARD, NO_CAUSE
 
 

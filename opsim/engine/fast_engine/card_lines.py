@@ -15,7 +15,8 @@ from opsim.engine.fast_engine.machine import (
     step,
 )
 from opsim.engine.fast_engine.parts.loops import Guard, is_outside, is_there, line_of_job, place_of
-from opsim.engine.fast_engine.parts.state import Claim, Floor
+from opsim.engine.fast_engine.parts.records import Claim
+from opsim.engine.fast_engine.parts.state import Floor
 
 _new_claim, _forget_claim = fresh(Claim), give_back(Claim)
 

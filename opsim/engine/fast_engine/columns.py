@@ -11,8 +11,9 @@ import numpy as np
 from opsim.engine.fast_engine.machine import Array, call_out, cast, inlined, step
 from opsim.engine.fast_engine.machine.memory import take_bytes, words_at
 from opsim.engine.fast_engine.machine.narrow import set_byte, set_half
+from opsim.engine.fast_engine.parts.records import Row
 from opsim.engine.fast_engine.parts.rows import ROW_BYTES
-from opsim.engine.fast_engine.parts.state import Floor, Row
+from opsim.engine.fast_engine.parts.state import Floor
 from opsim.log import ORDER
 
 AT_ONCE = 256

@@ -5,8 +5,9 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import NOTHING, ask_3, here, step
 from opsim.engine.fast_engine.material import operation_done
 from opsim.engine.fast_engine.parts.performing import ended, task_done
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_worker
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job, Worker
+from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
 from opsim.engine.fast_engine.station import next_task, perform, proceed
 from opsim.engine.fast_engine.transport import put_down
 from opsim.engine.fast_engine.worker import hold, set_free

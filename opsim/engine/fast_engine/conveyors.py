@@ -11,8 +11,9 @@ from opsim.engine.fast_engine.machine import Handle, cast, drop, inlined, line_o
 from opsim.engine.fast_engine.material import operation_done
 from opsim.engine.fast_engine.parts.belts import Belt
 from opsim.engine.fast_engine.parts.events import alarm
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job
+from opsim.engine.fast_engine.parts.state import Floor, Job
 from opsim.engine.rules import COMPLETION
 from opsim.log import QUEUE, TRANSPORT
 

@@ -12,8 +12,9 @@ from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.luck import ABSENCE, number_at, stream_of
 from opsim.engine.fast_engine.parts.people import People
 from opsim.engine.fast_engine.parts.presence import Duty, Moment, Presence
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_worker
-from opsim.engine.fast_engine.parts.state import DUTY, Event, Floor, Worker
+from opsim.engine.fast_engine.parts.state import DUTY, Floor, Worker
 from opsim.engine.fast_engine.pauses import end_pause
 from opsim.engine.fast_engine.presence import presence_of
 from opsim.engine.fast_engine.ties import release

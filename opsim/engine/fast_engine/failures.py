@@ -9,7 +9,8 @@ from opsim.engine.fast_engine.machine import NOTHING, Handle, cast, clear, push,
 from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.failing import Shop, Stop
 from opsim.engine.fast_engine.parts.luck import REPAIR, UPTIME
-from opsim.engine.fast_engine.parts.state import Event, Floor
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Floor
 from opsim.engine.fast_engine.parts.wear import Countdown
 from opsim.engine.fast_engine.stops import log_stop, send_team
 from opsim.engine.fast_engine.wear import clock_goes_on, cycle_done, renew, work_begins, work_ends

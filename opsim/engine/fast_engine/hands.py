@@ -9,7 +9,8 @@ from opsim.engine.fast_engine.attended import attend
 from opsim.engine.fast_engine.crib import break_off, sent
 from opsim.engine.fast_engine.holds import act_with_hold, acted_with_hold
 from opsim.engine.fast_engine.machine import inlined, step
-from opsim.engine.fast_engine.parts.state import Floor, Job, Task, Worker
+from opsim.engine.fast_engine.parts.records import Task
+from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
 from opsim.engine.fast_engine.teams import call_team, come_to_team, done_in_team
 from opsim.engine.fast_engine.tools import at_hand, for_task, tasks_done
 

@@ -23,8 +23,9 @@ from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.grips import Want
 from opsim.engine.fast_engine.parts.luck import HOLD, HOLD_RUN, stream_of
 from opsim.engine.fast_engine.parts.performing import begin
+from opsim.engine.fast_engine.parts.records import Stream
 from opsim.engine.fast_engine.parts.rows import progress
-from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Stream, Worker
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
 from opsim.engine.fast_engine.station import stand_still
 from opsim.engine.fast_engine.worker import set_free, wait_by
 from opsim.log import CLOSED, NO_TOOL, WAIT, WORK

@@ -7,7 +7,8 @@ from typing import Any
 from opsim.engine.fast_engine.machine import NOTHING, cast, drop_at, line_of, step, tell_1
 from opsim.engine.fast_engine.parts.events import alarm, cancel
 from opsim.engine.fast_engine.parts.humans import Effects, Human
-from opsim.engine.fast_engine.parts.state import DUTY, Event, Floor, Worker
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import DUTY, Floor, Worker
 from opsim.engine.fast_engine.parts.tiring import level, note_that_he_works
 from opsim.engine.fast_engine.worker import set_free, take_off
 from opsim.engine.rules import CALENDAR

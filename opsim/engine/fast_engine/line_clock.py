@@ -6,7 +6,8 @@ from opsim.engine.fast_engine.machine import NOTHING, cast, drop, fresh, give_ba
 from opsim.engine.fast_engine.parts.events import alarm, cancel
 from opsim.engine.fast_engine.parts.line_clocks import clock_s
 from opsim.engine.fast_engine.parts.lines import Due, Line
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Floor, Job
 from opsim.engine.rules import CALENDAR
 
 _new_due, _forget_due = fresh(Due), give_back(Due)

@@ -11,8 +11,9 @@ from opsim.engine.fast_engine.parts.effects import stop
 from opsim.engine.fast_engine.parts.events import alarm, stretch
 from opsim.engine.fast_engine.parts.line_clocks import job_m
 from opsim.engine.fast_engine.parts.lines import Along, Line
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_worker
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job, Worker
+from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
 from opsim.engine.fast_engine.worker import set_free
 from opsim.engine.rules import COMPLETION, lines
 from opsim.engine.simpy_engine.line_walks import ORDER

@@ -8,8 +8,9 @@ from opsim.engine.fast_engine.interruption import interrupt, shut_station, start
 from opsim.engine.fast_engine.machine import Handle, cast, clear, line_of, push, step, tell_2
 from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.hours import Hours
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import job_now, new_row
-from opsim.engine.fast_engine.parts.state import Event, Floor, Station
+from opsim.engine.fast_engine.parts.state import Floor, Station
 from opsim.engine.rules import CALENDAR
 from opsim.engine.simpy_engine.opening import _edges as edges_of
 from opsim.engine.simpy_engine.opening import closed_times

@@ -10,8 +10,9 @@ from opsim.engine.fast_engine.parts.events import stir
 from opsim.engine.fast_engine.parts.gates import has_room
 from opsim.engine.fast_engine.parts.line_clocks import clock_s
 from opsim.engine.fast_engine.parts.lines import Due, Line, LineGate
+from opsim.engine.fast_engine.parts.records import Source
 from opsim.engine.fast_engine.parts.rows import new_row
-from opsim.engine.fast_engine.parts.state import Floor, Gate, Job, Source
+from opsim.engine.fast_engine.parts.state import Floor, Gate, Job
 from opsim.engine.simpy_engine.paced_line import TICK
 from opsim.log import ABSENT, AWAY, BREAK, FULL, NO_CAUSE, OFF, STANDS, UNFINISHED
 from opsim.plan import LinePlan

@@ -8,8 +8,9 @@ from opsim.engine.fast_engine.machine import NOTHING, drop, fresh, has, inlined,
 from opsim.engine.fast_engine.material import leave_server, want_place
 from opsim.engine.fast_engine.parts.events import stir
 from opsim.engine.fast_engine.parts.gates import keeps_place, leads_to
+from opsim.engine.fast_engine.parts.records import Ahead
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import Ahead, Floor, Gate, Job, Station
+from opsim.engine.fast_engine.parts.state import Floor, Gate, Job, Station
 from opsim.engine.fast_engine.parts.ways import step_after
 from opsim.engine.fast_engine.worker import set_free
 from opsim.log import AFTER, BLOCKED, HELD, NO_PLACE, PICKUP, QUEUE

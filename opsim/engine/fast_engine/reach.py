@@ -7,7 +7,8 @@ from opsim.engine.fast_engine.machine.memory import take_bytes
 from opsim.engine.fast_engine.machine.structs import array_at
 from opsim.engine.fast_engine.parts.bits import has_bit, set_bit
 from opsim.engine.fast_engine.parts.people import Known, Needs
-from opsim.engine.fast_engine.parts.state import Floor, Gate, Job, Product
+from opsim.engine.fast_engine.parts.records import Product
+from opsim.engine.fast_engine.parts.state import Floor, Gate, Job
 from opsim.log import QUEUE, SETUP, TRANSPORT, WORK
 
 EMPTY, ALL_LAST, OTHERS = range(3)

@@ -8,7 +8,8 @@ from opsim.engine.fast_engine.parts.clock import INF, on_grid
 from opsim.engine.fast_engine.parts.gates import want_in
 from opsim.engine.fast_engine.parts.heap import new_event, push_event
 from opsim.engine.fast_engine.parts.luck import GAP, next_number, stream_of
-from opsim.engine.fast_engine.parts.state import Event, Floor, Source
+from opsim.engine.fast_engine.parts.records import Event, Source
+from opsim.engine.fast_engine.parts.state import Floor
 from opsim.engine.fast_engine.parts.ways import product_of
 from opsim.engine.rules import ARRIVAL
 

@@ -9,8 +9,9 @@ from opsim.engine.fast_engine.machine.memory import words_at
 from opsim.engine.fast_engine.parts.bits import leave_all, leave_those
 from opsim.engine.fast_engine.parts.doses import dose_so_far, heaviest_first
 from opsim.engine.fast_engine.parts.events import alarm
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rotating import Counted, Rotation
-from opsim.engine.fast_engine.parts.state import FIRST_ROTATION, Event, Floor, Job, Worker
+from opsim.engine.fast_engine.parts.state import FIRST_ROTATION, Floor, Job, Worker
 from opsim.engine.fast_engine.posts import one_each
 from opsim.engine.rules import CALENDAR, allocation, rotation
 from opsim.engine.rules.rotation import ROTATION_RULES

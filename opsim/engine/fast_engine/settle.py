@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from opsim.engine.fast_engine.admission import admit, release_saturated, turn_away
 from opsim.engine.fast_engine.allocation import send_workers
 from opsim.engine.fast_engine.columns import flush_all
 from opsim.engine.fast_engine.machine import ask_1, clear, here, inlined, push, step, tell_1
-from opsim.engine.fast_engine.material import admit, release_saturated, turn_away
 from opsim.engine.fast_engine.parts.events import NOBODYS, wake
 from opsim.engine.fast_engine.parts.heap import forget_event, pop_event
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_job, log_worker
-from opsim.engine.fast_engine.parts.state import Event, Floor
+from opsim.engine.fast_engine.parts.state import Floor
 from opsim.engine.fast_engine.release import open_source, source_happens
 from opsim.engine.rules import ARRIVAL
 

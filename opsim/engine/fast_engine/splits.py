@@ -6,8 +6,9 @@ from typing import Any
 
 from opsim.engine.fast_engine.machine import NOTHING, drop, fresh, inlined, step, tell_3
 from opsim.engine.fast_engine.material import go_to, leave_floor, new_job
+from opsim.engine.fast_engine.parts.records import Seat
 from opsim.engine.fast_engine.parts.splitting import Split, Splits
-from opsim.engine.fast_engine.parts.state import Floor, Job, Seat, Station
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station
 from opsim.engine.fast_engine.station import see_seated
 from opsim.engine.fast_engine.worker import set_free
 from opsim.log import BLOCKED, SPLIT

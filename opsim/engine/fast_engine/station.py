@@ -22,8 +22,9 @@ from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.heap import new_event, push_event
 from opsim.engine.fast_engine.parts.keys import is_better, keep_best
 from opsim.engine.fast_engine.parts.performing import begin, drawn_run_s, is_ready, own_next_s, task_of
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import GOES_ON, Event, Floor, Job, Station, Worker
+from opsim.engine.fast_engine.parts.state import GOES_ON, Floor, Job, Station, Worker
 from opsim.engine.fast_engine.worker import set_free
 from opsim.engine.rules import COMPLETION
 from opsim.log import HELD, NO_WORKER

@@ -23,8 +23,9 @@ from opsim.engine.fast_engine.parts.effects import works
 from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.grips import Want, grip_at, is_free
 from opsim.engine.fast_engine.parts.performing import begin, drawn_run_s, ended, task_done
+from opsim.engine.fast_engine.parts.records import Claim
 from opsim.engine.fast_engine.parts.rows import job_now, log_worker
-from opsim.engine.fast_engine.parts.state import Claim, Floor, Job, Station, Worker
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
 from opsim.engine.fast_engine.parts.stints import Stint
 from opsim.engine.fast_engine.station import drawn_s, perform, stand_still
 from opsim.engine.fast_engine.worker import be_busy, set_free, wait_by, walk

@@ -21,8 +21,9 @@ from opsim.engine.fast_engine.machine import (
 )
 from opsim.engine.fast_engine.material import leave_station
 from opsim.engine.fast_engine.parts.events import alarm
+from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import job_now
-from opsim.engine.fast_engine.parts.state import Event, Floor, Job, Station
+from opsim.engine.fast_engine.parts.state import Floor, Job, Station
 from opsim.engine.fast_engine.parts.vehicles import Leg, Pickup, Pool, Vehicle
 from opsim.engine.fast_engine.station import arrive
 from opsim.engine.fast_engine.vehicles import (

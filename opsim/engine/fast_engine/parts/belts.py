@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import List, inlined, struct
 from opsim.engine.fast_engine.parts.clock import INF
-from opsim.engine.fast_engine.parts.state import Event, Job, Station
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Job, Station
 
 
 @struct

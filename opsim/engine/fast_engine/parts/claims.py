@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import NOTHING, List, drop_at, fresh, give_back, inlined, insert
-from opsim.engine.fast_engine.parts.state import Claim, Floor, Job
+from opsim.engine.fast_engine.parts.records import Claim
+from opsim.engine.fast_engine.parts.state import Floor, Job
 
 new_claim = fresh(Claim)
 _forget = give_back(Claim)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from opsim.engine.fast_engine.machine import Array, struct
-from opsim.engine.fast_engine.parts.state import Stream, Worker
+from opsim.engine.fast_engine.parts.records import Stream
+from opsim.engine.fast_engine.parts.state import Worker
 
 if TYPE_CHECKING:
     from opsim.engine.fast_engine.parts.grips import Want

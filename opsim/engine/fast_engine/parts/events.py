@@ -7,7 +7,8 @@ from typing import Any
 from opsim.engine.fast_engine.machine import inlined, push
 from opsim.engine.fast_engine.parts.clock import on_grid
 from opsim.engine.fast_engine.parts.heap import new_event, push_event
-from opsim.engine.fast_engine.parts.state import Event, Floor, Gate, Station, Worker
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Floor, Gate, Station, Worker
 from opsim.engine.rules import COMPLETION
 
 NOBODYS = -1

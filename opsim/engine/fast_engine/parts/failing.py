@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from opsim.engine.fast_engine.machine import Array, List, struct
-from opsim.engine.fast_engine.parts.state import Job, Station, Stream
+from opsim.engine.fast_engine.parts.records import Stream
+from opsim.engine.fast_engine.parts.state import Job, Station
 
 if TYPE_CHECKING:
     from opsim.engine.fast_engine.parts.wear import Wear

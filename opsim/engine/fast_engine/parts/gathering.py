@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import Array, List, struct
-from opsim.engine.fast_engine.parts.state import Claim, Worker
+from opsim.engine.fast_engine.parts.records import Claim
+from opsim.engine.fast_engine.parts.state import Worker
 
 
 @struct

@@ -5,7 +5,8 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import Array, address_of, fresh, give_back, inlined, words_at
 from opsim.engine.fast_engine.machine.memory import give_bytes_back, take_bytes
 from opsim.engine.fast_engine.machine.structs import array_at
-from opsim.engine.fast_engine.parts.state import Event, Floor
+from opsim.engine.fast_engine.parts.records import Event
+from opsim.engine.fast_engine.parts.state import Floor
 
 new_event = fresh(Event)
 forget_event = give_back(Event)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import Array, struct
-from opsim.engine.fast_engine.parts.state import Source, Station
+from opsim.engine.fast_engine.parts.records import Source
+from opsim.engine.fast_engine.parts.state import Station
 
 
 @struct

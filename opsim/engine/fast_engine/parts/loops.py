@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import Array, List, cast, inlined, struct
 from opsim.engine.fast_engine.parts.claims import is_before
-from opsim.engine.fast_engine.parts.state import Claim, Gate, Job
+from opsim.engine.fast_engine.parts.records import Claim
+from opsim.engine.fast_engine.parts.state import Gate, Job
 
 
 @struct

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined
-from opsim.engine.fast_engine.parts.state import Floor, Stream
+from opsim.engine.fast_engine.parts.records import Stream
+from opsim.engine.fast_engine.parts.state import Floor
 
 DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE, HOLD, HOLD_RUN = range(1, 14)
 """Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``luck_of`` of the engine."""

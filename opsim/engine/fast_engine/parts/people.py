@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import Array, List, struct
 from opsim.engine.fast_engine.parts.presence import Presence
-from opsim.engine.fast_engine.parts.state import Claim, Job, Worker
+from opsim.engine.fast_engine.parts.records import Claim
+from opsim.engine.fast_engine.parts.state import Job, Worker
 
 
 @struct

@@ -5,7 +5,8 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import cast, inlined, tell_0
 from opsim.engine.fast_engine.machine.structs import size_of
 from opsim.engine.fast_engine.parts.clock import NAN
-from opsim.engine.fast_engine.parts.state import Floor, Job, Row, Worker
+from opsim.engine.fast_engine.parts.records import Row
+from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
 from opsim.log import SETUP, WALK, WORK
 
 ROW_BYTES = size_of(Row)

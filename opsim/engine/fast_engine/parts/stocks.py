@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from opsim.engine.fast_engine.machine import Array, List, struct
 
 if TYPE_CHECKING:
-    from opsim.engine.fast_engine.parts.state import Claim, Job, Source, Station
+    from opsim.engine.fast_engine.parts.records import Claim, Source
+from opsim.engine.fast_engine.parts.state import Job, Station
 
 
 @struct

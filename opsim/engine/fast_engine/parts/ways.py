@@ -6,7 +6,8 @@ from opsim.engine.fast_engine.machine import inlined, push
 from opsim.engine.fast_engine.machine.memory import take_bytes
 from opsim.engine.fast_engine.machine.structs import array_at
 from opsim.engine.fast_engine.parts.luck import MIX, ROUTING, START, number_at, stream_of
-from opsim.engine.fast_engine.parts.state import Floor, Job, Product, Source, Way
+from opsim.engine.fast_engine.parts.records import Product, Source, Way
+from opsim.engine.fast_engine.parts.state import Floor, Job
 
 _as_ints = array_at("int")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from opsim.engine.fast_engine.machine import List, struct
-from opsim.engine.fast_engine.parts.state import Event, Stream
+from opsim.engine.fast_engine.parts.records import Event, Stream
 
 if TYPE_CHECKING:
     from opsim.engine.fast_engine.parts.failing import Stop
