@@ -40,6 +40,6 @@ def _exception(name: str, raised: Any) -> BaseException:
     """The exception itself, as far as it can be told."""
     try:
         kind, given = pickle.loads(ctypes.string_at(raised.contents.data, raised.contents.size))[:2]
-        return kind(*(given or ()))  # type: ignore[no-any-return]
+        return kind(*(given or ()))
     except Exception:
         return SystemError(f"{name}: compiled code has failed")

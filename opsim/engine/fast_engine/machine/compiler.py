@@ -115,7 +115,7 @@ class StepCompiler(CompilerBase):
         return _passes("step", self.state, StepLowering)
 
 
-class Helper(_Dispatcher):  # type: ignore[misc, valid-type]
+class Helper(_Dispatcher):
     """A function that is compiled into others, without numba's timers, which would be told of each by all around it."""
 
     @global_compiler_lock

@@ -13,18 +13,25 @@ from pathlib import Path
 
 ENGINE = Path(__file__).parents[1]
 OPSIM = ENGINE.parents[1]
-COMPILED_TOO = (ENGINE.parent / "rules", OPSIM / "human", OPSIM / "ergonomics" / "kernels")
-"""Whose functions are compiled into steps as they are written."""
+COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
+SINGLE = (OPSIM / "clock.py", OPSIM / "log.py", OPSIM / "posts.py", OPSIM / "streams.py")
+"""Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
 SEEN_FROM_PYTHON = ("arena.py", "calling.py", "linking.py", "stamp.py", "store.py", "table.py", "__init__.py")
 """Nothing of these is compiled."""
 
 
-def _stamp() -> str:
-    """Of names, sizes and times of all sources; of fewer, where ``OPSIM_STAMP=parts`` says so, to work on one file."""
+def sources() -> list[Path]:
+    """The files that count; fewer, where ``OPSIM_STAMP=parts`` says so, to work on one file."""
     fewer = environ.get("OPSIM_STAMP") == "parts"
-    folders = (ENGINE / "machine", ENGINE / "parts") if fewer else (ENGINE, *COMPILED_TOO)
-    found = sorted(path for folder in folders for path in folder.rglob("*.py") if path.name not in SEEN_FROM_PYTHON)
-    told = [f"{relpath(path, ENGINE.parent)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in found]
+    folders = (ENGINE / "machine", ENGINE / "parts") if fewer else COMPILED_TOO
+    found = [path for folder in folders for path in folder.rglob("*.py")]
+    here = {ENGINE / "machine" / name for name in SEEN_FROM_PYTHON}
+    return sorted(path for path in (*found, *(() if fewer else SINGLE)) if path not in here)
+
+
+def _stamp() -> str:
+    """Of names, sizes and times of the sources."""
+    told = [f"{relpath(path, OPSIM)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in sources()]
     return blake2b("\n".join(told).encode(), digest_size=8).hexdigest()
 
 

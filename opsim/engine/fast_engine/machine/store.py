@@ -58,7 +58,7 @@ def place() -> Path | None:
     from numba.core.caching import FunctionCache
 
     try:
-        return Path(FunctionCache(place).cache_path)  # type: ignore[no-untyped-call]
+        return Path(FunctionCache(place).cache_path)
     except RuntimeError:
         return None
 
