@@ -21,7 +21,9 @@ def engine(tmp_path, monkeypatch):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("one = 1\n")
     monkeypatch.setattr(stamp, "ENGINE", tmp_path / "engine" / "fast")
-    monkeypatch.setattr(stamp, "COMPILED_TOO", (tmp_path / "engine" / "rules",))
+    monkeypatch.setattr(stamp, "OPSIM", tmp_path)
+    monkeypatch.setattr(stamp, "COMPILED_TOO", (tmp_path / "engine",))
+    monkeypatch.setattr(stamp, "SINGLE", ())
     monkeypatch.delenv("OPSIM_STAMP", raising=False)
     return tmp_path / "engine"
 
