@@ -177,29 +177,6 @@ for _operator, _sign in ((operator.is_, "=="), (operator.is_not, "!="), (operato
 
 
 @intrinsic
-def _load(_typingctx: Any, pointer: Any, index: Any) -> Any:
-    """Item ``index`` of the words that a pointer leads to."""
-    item = SCALARS.get(pointer.of) or Ref(pointer.of)
-
-    def codegen(context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        words = builder.bitcast(args[0], context.get_value_type(item).as_pointer())
-        return builder.load(builder.gep(words, [args[1]], inbounds=True))
-
-    return item(pointer, types.int64), codegen
-
-
-@intrinsic
-def _store(_typingctx: Any, pointer: Any, index: Any, value: Any) -> Any:
-    item = SCALARS.get(pointer.of) or Ref(pointer.of)
-
-    def codegen(context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        words = builder.bitcast(args[0], context.get_value_type(item).as_pointer())
-        builder.store(args[2], builder.gep(words, [args[1]], inbounds=True))
-
-    return types.void(pointer, types.int64, item), codegen
-
-
-@intrinsic
 def word(_typingctx: Any, pointer: Any, index: Any) -> Any:
     """Word ``index`` of a struct or a list, as a whole number."""
 
@@ -217,21 +194,6 @@ def set_word(_typingctx: Any, pointer: Any, index: Any, value: Any) -> Any:
         builder.store(args[2], builder.gep(words, [args[1]], inbounds=True))
 
     return types.void(pointer, types.int64, types.int64), codegen
-
-
-@intrinsic
-def items(_typingctx: Any, pointer: Any) -> Any:
-    """The words of a list, as an array from its first item on."""
-    array = Pointer(pointer.of, "array")
-
-    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        words = builder.bitcast(args[0], I64.as_pointer())
-        first = builder.load(builder.gep(words, [ir.Constant(I64, 1)], inbounds=True))
-        data = builder.load(builder.bitcast(args[0], POINTER.as_pointer()))
-        start = builder.gep(builder.bitcast(data, I64.as_pointer()), [first])
-        return builder.bitcast(start, POINTER)
-
-    return array(pointer), codegen
 
 
 @intrinsic
