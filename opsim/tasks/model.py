@@ -86,14 +86,39 @@ class TimeModel:
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
     ) -> TimePerformances:
         """n performances; the same generator gives the same n."""
-        import numpy as np
-
         if condition is not None:
             raise ValueError(f"{type(self).__name__}: a time without a body knows no condition, found {condition!r}")
-        return TimePerformances(np.maximum(self._draw_s(n, rng, worker), SMALLEST_S))
+        return TimePerformances(_at_least_smallest_s(self._draw_s(n, rng, worker)))
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
         raise NotImplementedError
+
+
+class ByNumbers:
+    """A family of times that differ by a few numbers alone, so that those of many models can be drawn at once."""
+
+    def numbers(self, worker: Any) -> tuple[float, ...]:
+        """By which the times of this worker differ from others of the family."""
+        raise NotImplementedError
+
+    @staticmethod
+    def _made_s(n: int, rng: np.random.Generator, *numbers: Any) -> np.ndarray:
+        """Each time from luck of its own and from numbers, or arrays (n,) of them."""
+        raise NotImplementedError
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return self._made_s(n, rng, *self.numbers(worker))
+
+    @classmethod
+    def sample_side_by_side_s(cls, n: int, rng: np.random.Generator, *numbers: Any) -> np.ndarray:
+        """(n,) times of several models, or workers: as ``sample`` gives them."""
+        return _at_least_smallest_s(cls._made_s(n, rng, *numbers))
+
+
+def _at_least_smallest_s(duration_s: np.ndarray) -> np.ndarray:
+    import numpy as np
+
+    return np.maximum(duration_s, SMALLEST_S)
 
 
 @dataclass(frozen=True)

@@ -5,27 +5,33 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from opsim.tasks.model import SharedTime
+from opsim.tasks.model import ByNumbers, SharedTime
 
 if TYPE_CHECKING:
     import numpy as np
 
 
 @dataclass(frozen=True)
-class Lognormal(SharedTime):
+class Lognormal(ByNumbers, SharedTime):
     """Lognormal time; the share is that of the variance of log time.
 
     With v = ln(1 + cv^2) a worker's effect is b ~ N(0, share v), his log times ~ N(ln mean - v / 2 + b, (1 - share) v).
     """
 
-    def _draw_s(self, n: int, rng: np.random.Generator, worker: float | None) -> np.ndarray:
-        import numpy as np
-
+    def numbers(self, worker: float | None) -> tuple[float, ...]:
+        """Mean and standard deviation of the log of his times."""
         within = 1.0 if worker is None else 1.0 - self.between_share
         centre = math.log(self.mean_s) - self.log_variance / 2 + (0.0 if worker is None else worker)
-        return np.exp(centre + math.sqrt(within * self.log_variance) * rng.standard_normal(n))
+        return centre, math.sqrt(within * self.log_variance)
+
+    @staticmethod
+    def _made_s(n: int, rng: np.random.Generator, *numbers: Any) -> np.ndarray:
+        import numpy as np
+
+        centre, spread = numbers
+        return np.exp(centre + spread * rng.standard_normal(n))
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from opsim.tasks.model import TimeModel
+from opsim.tasks.model import ByNumbers, TimeModel
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +27,7 @@ class Fixed(TimeModel):
 
 
 @dataclass(frozen=True)
-class Exponential(TimeModel):
+class Exponential(ByNumbers, TimeModel):
     """Memoryless: cv 1."""
 
     mean_s: float
@@ -35,8 +35,13 @@ class Exponential(TimeModel):
     def mean_duration_s(self, worker: Any = None) -> float:
         return self.mean_s
 
-    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
-        return rng.exponential(self.mean_s, n)
+    def numbers(self, worker: Any) -> tuple[float, ...]:
+        return (self.mean_s,)
+
+    @staticmethod
+    def _made_s(n: int, rng: np.random.Generator, *numbers: Any) -> np.ndarray:
+        (mean_s,) = numbers
+        return rng.exponential(mean_s, n)
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,7 @@ class Erlang(TimeModel):
 
 
 @dataclass(frozen=True)
-class Uniform(TimeModel):
+class Uniform(ByNumbers, TimeModel):
     """Anything from low to high, equally likely."""
 
     low_s: float
@@ -82,8 +87,13 @@ class Uniform(TimeModel):
     def mean_duration_s(self, worker: Any = None) -> float:
         return (self.low_s + self.high_s) / 2
 
-    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
-        return rng.uniform(self.low_s, self.high_s, n)
+    def numbers(self, worker: Any) -> tuple[float, ...]:
+        return self.low_s, self.high_s
+
+    @staticmethod
+    def _made_s(n: int, rng: np.random.Generator, *numbers: Any) -> np.ndarray:
+        low_s, high_s = numbers
+        return rng.uniform(low_s, high_s, n)
 
 
 @dataclass(frozen=True)

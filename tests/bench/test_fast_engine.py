@@ -83,7 +83,7 @@ def test_against_drawing_alone(name):
     made = _shipped(name)
     _equal(made)
     run_fast(made, 1)
-    asked = dict(machine_of(made).numbers._asked)
+    asked = dict(machine_of(made).numbers.drawn)
 
     def draw():
         draws = BlockDraws(made, 1)

@@ -7,8 +7,6 @@ from typing import Any
 from opsim.engine.fast_engine.crib import IN_HAND, put_back, take
 from opsim.engine.fast_engine.machine import (
     NOTHING,
-    address_of,
-    call_out,
     fresh,
     give_back,
     inlined,
@@ -21,7 +19,7 @@ from opsim.engine.fast_engine.parts.doings import Doing
 from opsim.engine.fast_engine.parts.effects import human_drawn, stops
 from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.grips import Want
-from opsim.engine.fast_engine.parts.luck import HOLD, HOLD_RUN, stream_of
+from opsim.engine.fast_engine.parts.luck import HOLD, HOLD_RUN, more_numbers, stream_of
 from opsim.engine.fast_engine.parts.performing import begin
 from opsim.engine.fast_engine.parts.records import Stream
 from opsim.engine.fast_engine.parts.rows import progress
@@ -247,7 +245,7 @@ def _draw(floor: Floor, job: Job, worker: Worker) -> None:
 def _next_held(floor: Floor, stream: Stream) -> float:
     """The next duration of a stream; the shares between which the tool is held are in ``floor.holds``."""
     if stream.next == stream.end:
-        call_out(floor.more_luck, address_of(stream), stream.next)
+        more_numbers(floor, stream, stream.next)
     at = stream.next - stream.first
     stream.next += 1
     floor.holds.start, floor.holds.end = stream.data_2[at], stream.data_3[at]

@@ -1,9 +1,13 @@
-"""The numbers that a run asks for: blocks of named streams, ahead of their time, kept until the run is over."""
+"""The numbers that a run asks for: blocks of named streams, ahead of their time, kept until the run is over.
+
+What replications before have asked for is drawn as a run begins, by a recipe; for what lacks, the engine calls.
+"""
 
 from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
+from math import isqrt
 from typing import Any
 
 import numpy as np
@@ -11,13 +15,17 @@ import numpy as np
 from opsim.engine.fast_engine.luck.draws import BlockDraws
 from opsim.engine.fast_engine.machine import Arena, Handle
 from opsim.engine.fast_engine.machine.arena import MORE
+from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD
 from opsim.engine.fast_engine.parts import luck
+from opsim.engine.fast_engine.recipe import Recipe, Wanted, wanted
 from opsim.engine.fast_engine.settle import NO_LUCK
 from opsim.plan import Plan
 from opsim.streams import BLOCK
 
 MOST_AHEAD = 32
 """Blocks at once, of a stream that has not said how many it needs."""
+ONE_IN = 8
+"""As soon as one in so many streams had to be called for, a new recipe costs less than the calls."""
 Named = Callable[[BlockDraws, Plan, int, int, int], Any]
 
 
@@ -49,57 +57,112 @@ NAMED: dict[int, Named] = {
     luck.ABSENCE: lambda draws, plan, worker, *_: draws.chances(("absence", plan.workers[worker].name)),
 }
 """By purpose, the stream of up to three ranks."""
+_OF_PEOPLE = luck.DURATION, luck.HOLD
+_AT = {name: field.at // WORD for name, field in LAYOUTS["Stream"].fields.items()}
+_STREAM = ctypes.c_int64 * len(_AT)
+
+
+def _with_spare(n_blocks: int) -> int:
+    """Some more than was wanted at most so far: a block costs 1 us, one that lacks 20. Counts spread by their root."""
+    return n_blocks + isqrt(max(n_blocks - 1, 0))
 
 
 class Numbers:
     """Of one replication. ``failed`` : what a model raised when it was asked; the engine is told by ``floor.error``.
 
-    needed : by stream, how many blocks the replication before has asked for: as many are drawn at once in the next
+    needed : by stream, how many blocks any replication so far has asked for at most
     """
 
     def __init__(self, plan: Plan, arena: Arena, floor: Handle):
-        self.plan, self.arena, self.floor = plan, arena, floor
+        self.plan, self.floor = plan, floor
         self.failed: BaseException | None = None
         self.needed: dict[int, int] = {}
+        self._together: dict[int, Wanted] = {}
         self._streams: dict[int, Any] = {}
         self._asked: dict[int, int] = {}
+        self._words: dict[int, Any] = {}
         self._kept: list[Any] = []
         self._whole: dict[int, np.ndarray] = {}
+        self._lacking = 0
         self.callback = MORE(self._more)
         floor.more_luck = ctypes.cast(self.callback, ctypes.c_void_p).value
+        self._table = np.zeros(2, np.int64)
+        floor.drawn = self._table.ctypes.data
+        self._follow(Recipe())
+
+    @property
+    def drawn(self) -> dict[int, int]:
+        """By stream, how many blocks this replication has drawn."""
+        return self.recipe.blocks | self._asked
 
     def begin(self, replication: int) -> None:
-        """A replication begins: nothing is drawn yet."""
-        self.failed, self.draws = None, BlockDraws(self.plan, replication)
-        self.needed |= self._asked
-        for of_before in (self._streams, self._asked, self._kept, self._whole):
+        """A replication begins: what is known to be wanted is drawn. NOTE: the floor is still the last one's here."""
+        self._learn()
+        for of_before in (self._streams, self._asked, self._words, self._kept, self._whole):
             of_before.clear()
+        if self._lacking * ONE_IN > len(self.recipe.blocks):
+            self._follow(self._new_recipe())
+        self.failed, self.draws = None, BlockDraws(self.plan, replication)
+        self.recipe.draw(np.frombuffer(self.draws.begun, np.uint32))
+
+    def _learn(self) -> None:
+        """What the last replication has called for. What it wanted of that, its streams still say, if in order."""
+        for stream, blocks in self._asked.items():
+            following = self._words[stream][_AT["next"]]
+            used = blocks if following < 0 else -(-following // BLOCK)
+            self.needed[stream] = max(used, self.needed.get(stream, 0))
+            self._lacking += stream in self._together or self._joins(stream)
+
+    def _joins(self, stream: int) -> bool:
+        """A stream that was called for is drawn with others from now on, where it can be. People who are redrawn are
+        others in each replication."""
+        if stream >> 48 in _OF_PEOPLE and self.plan.workforce is None and self.plan.staffing == "redrawn":
+            return False
+        found = self._streams[stream]
+        one = wanted(stream, found.words[len(self.draws.begun) // 4 :], found.drawn)
+        if one is not None:
+            self._together[stream] = one
+        return one is not None
+
+    def _new_recipe(self) -> Recipe:
+        for stream, used in self.recipe.used().items():
+            self.needed[stream] = max(used, self.needed[stream])
+        return Recipe([(one, _with_spare(self.needed[stream])) for stream, one in self._together.items()])
+
+    def _follow(self, recipe: Recipe) -> None:
+        """The engine looks into the table of a recipe from now on."""
+        self.recipe, self._lacking = recipe, 0
+        self._table[luck.TABLE], self._table[luck.MASK] = recipe.table.ctypes.data, len(recipe.table) - 1
 
     def _more(self, address: int, item: int) -> int:
         """Called by the engine: item ``item`` of a stream, and what follows, is wanted."""
-        stream = Handle("Stream", address, self.arena)
+        words = _STREAM.from_address(address)
         try:
-            self._fill(stream, item // BLOCK)
+            self._fill(words, item // BLOCK)
         except BaseException as error:  # NOTE: nothing may be raised through compiled code
             self.failed, self.floor.error = error, NO_LUCK
-            self._give(stream, (np.ones(BLOCK),) * 3, item)
+            first = item if words[_AT["next"]] >= 0 else 0
+            self._give(words, (np.ones(item + BLOCK - first),) * 3, first)
         return 0
 
-    def _fill(self, stream: Handle, block: int) -> None:
+    def _fill(self, words: Any, block: int) -> None:
         """Blocks from one on; of a stream that is asked in no order, all up to that one."""
-        number = stream.id
-        if stream.next >= 0:
-            self._give(stream, self._stream(number).fill(block, self._ahead(number, block)), block * BLOCK)
+        number = words[_AT["id"]]
+        self._words[number] = words
+        if words[_AT["next"]] >= 0:
+            self._give(words, self._stream(number).fill(block, self._ahead(number, block)), block * BLOCK)
             return
         known = self._whole.get(number)
         first = 0 if known is None else known.size // BLOCK
         more = self._stream(number).fill(first, max(block + 1 - first, self._ahead(number, first)))
         whole = self._whole[number] = more if known is None else np.concatenate([known, more])
-        self._give(stream, whole, 0)
+        self._give(words, whole, 0)
 
     def _ahead(self, stream: int, block: int) -> int:
-        """How many blocks from one on: what was needed the last time, else one more than there were so far."""
-        ahead = max(self.needed.get(stream, 0) - block, min(block + 1, MOST_AHEAD))
+        """How many blocks from one on: what was needed so far, else one more than there were in this replication."""
+        needed = self.needed.get(stream, 0)
+        more = block // ONE_IN + 1 if needed else min(block + 1, MOST_AHEAD)
+        ahead = max(needed - block, more)
         self._asked[stream] = block + ahead
         return ahead
 
@@ -110,12 +173,12 @@ class Numbers:
             found = self._streams[stream] = NAMED[stream >> 48](self.draws, self.plan, *ranks)
         return found
 
-    def _give(self, stream: Handle, numbers: Any, first: int) -> None:
+    def _give(self, words: Any, numbers: Any, first: int) -> None:
         """The engine finds them from item ``first`` on; of a hold three arrays."""
         columns = [
             np.ascontiguousarray(one, np.float64) for one in (numbers if isinstance(numbers, tuple) else [numbers])
         ]
         self._kept.append(columns)
         for name, column in zip(("data", "data_2", "data_3"), columns):
-            setattr(stream, name, column.ctypes.data)
-        stream.first, stream.end = first, first + columns[0].size
+            words[_AT[name]] = column.__array_interface__["data"][0]
+        words[_AT["first"]], words[_AT["end"]] = first, first + columns[0].size

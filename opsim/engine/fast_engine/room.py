@@ -10,20 +10,23 @@ from opsim.engine.fast_engine.columns import AT_ONCE, in_order
 from opsim.engine.fast_engine.leases import lent
 from opsim.engine.fast_engine.machine import Arena, Handle
 from opsim.engine.fast_engine.machine.arena import MORE
+from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD
 from opsim.engine.fast_engine.parts.rows import ROW_BYTES
 from opsim.log import COLUMNS
 
 FEWEST = 1 << 14
+_AT = {name: field.at // WORD for name, field in LAYOUTS["Columns"].fields.items()}
 
 
 class Columns:
     """Of one floor, run after run."""
 
     def __init__(self, arena: Arena, floor: Handle):
-        self.floor, self._handle = floor, arena.new("Columns")
+        self.floor, handle = floor, arena.new("Columns")
+        self._words = (ctypes.c_int64 * len(_AT)).from_address(handle.address)
         self._more = MORE(self._give_more)
         floor.more_rows = ctypes.cast(self._more, ctypes.c_void_p).value
-        floor.columns = self._handle
+        floor.columns = handle
         floor.row_first = floor.row_at = arena.take(AT_ONCE * ROW_BYTES)
         floor.row_end = floor.row_first + AT_ONCE * ROW_BYTES
         floor.row_order = arena.take(AT_ONCE * 8)
@@ -54,7 +57,7 @@ class Columns:
 
     def _say(self, room: int) -> None:
         for name, column in self._arrays.items():
-            setattr(self._handle, name, column.ctypes.data)
+            self._words[_AT[name]] = column.__array_interface__["data"][0]
         self.floor.room = room
 
 

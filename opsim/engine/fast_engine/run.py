@@ -35,8 +35,8 @@ class Machine:
     def run(self, replication: int) -> EventLog:
         """One replication. Raises EndlessInstant, and whatever a model raises when it is asked for times."""
         at = self.floor.address
-        self.build.arena.restore()
         self.numbers.begin(replication)
+        self.build.arena.restore()
         for one in self.build.answers:
             one.begin(self.numbers)
         self.columns.begin()

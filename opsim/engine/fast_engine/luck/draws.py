@@ -12,11 +12,11 @@ from opsim.task import TaskModel
 class BlockDraws:
     """The named streams of one replication. To make one costs a few us, as does each stream."""
 
-    __slots__ = ("_key", "_luck", "_plan", "workforce")
+    __slots__ = ("_luck", "_plan", "begun", "workforce")
 
     def __init__(self, plan: Plan, replication: int):
         self._plan, self._luck = plan, luck_of(plan)
-        self._key = self._luck.keys_of(replication)
+        self.begun = self._luck.begun(replication)
         self.workforce = plan.workforce_of(replication)
 
     def durations(self, task: int, worker: int) -> Stream:
@@ -63,6 +63,9 @@ class BlockDraws:
     def times(self, name: tuple[str | int, ...], model: TaskModel) -> Stream:
         """Durations of one of the Plan's models under the name of a stream."""
         return Stream(self._key(name), self._luck.of_model(model))
+
+    def _key(self, name: tuple[str | int, ...]) -> bytes:
+        return self.begun + self._luck.name(name)
 
     def _of_worker(self, task: int, worker: int) -> tuple[str, ...]:
         return "duration", self._plan.tasks[task].name, self._plan.workers[worker].name

@@ -16,6 +16,7 @@ from opsim.engine.fast_engine.luck.block_hashes import BLOCK_HASHES
 from opsim.engine.fast_engine.luck.seeds import first_states
 from opsim.streams import BLOCK
 
+_NO_WORDS = np.empty(0, np.uint32)
 exponential_table = cache(tables.exponential)
 normal_table = cache(tables.normal)
 
@@ -35,6 +36,13 @@ class ManyBlocks:
         self._words, self._first, self._n_blocks = words, first, n_blocks
         self._states: np.ndarray | None = None
         self._generators = generators
+
+    @classmethod
+    def in_states(cls, states: np.ndarray) -> ManyBlocks:
+        """Blocks of any streams, by the states (n_blocks, 4) of their generators, which are moved on."""
+        made = cls(_NO_WORDS, 0, len(states))
+        made._states = states
+        return made
 
     @property
     def states(self) -> np.ndarray:

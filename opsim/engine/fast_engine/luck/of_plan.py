@@ -11,7 +11,8 @@ import numpy as np
 
 from opsim.effects import worker_effect
 from opsim.engine.fast_engine.luck.blocks import drawn_ranks, exponentials, ranks_by_number
-from opsim.engine.fast_engine.luck.sampled import Drawn, DrawnHeld, durations, held, is_ours
+from opsim.engine.fast_engine.luck.kinds import Drawn
+from opsim.engine.fast_engine.luck.sampled import DrawnHeld, durations, held, is_ours
 from opsim.plan import Plan
 from opsim.plan.orders import ANY
 from opsim.plan.tools import HoldPlan
@@ -46,10 +47,9 @@ class LuckOfPlan:
         self._named: dict[tuple[str | int, ...], bytes] = {}
         self._drawn: dict[Any, Any] = {}
 
-    def keys_of(self, replication: int) -> Callable[[tuple[str | int, ...]], bytes]:
-        """The key of a stream of a replication, by its name: as ``opsim.streams._key``."""
-        begun = self._seed + _words(replication, 1)
-        return lambda name: begun + self._name(name)
+    def begun(self, replication: int) -> bytes:
+        """What the keys of all streams of a replication begin with: as ``opsim.streams._key``."""
+        return self._seed + _words(replication, 1)
 
     def of_worker(self, task: int, worker: int, workforce: int) -> Drawn:
         """Durations of a task by a worker."""
@@ -84,7 +84,8 @@ class LuckOfPlan:
         """Ranks of the products that the jobs of a source are."""
         return self._kept(("products", source), lambda: _products(self.plan.sources[source]))
 
-    def _name(self, name: tuple[str | int, ...]) -> bytes:
+    def name(self, name: tuple[str | int, ...]) -> bytes:
+        """What follows in the key of a stream."""
         words = self._named.get(name)
         if words is None:
             words = self._named[name] = b"".join(map(_hashed, name))

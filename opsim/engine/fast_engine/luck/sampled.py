@@ -9,13 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from opsim.engine.fast_engine.luck.many_blocks import ManyBlocks
+from opsim.engine.fast_engine.luck.kinds import Drawn, HeldAtShares, NoLuck, of_model
 from opsim.engine.fast_engine.luck.trust import blocks_of, is_trusted, numpys_generators
 from opsim.plan.tools import HoldPlan, Moment
 from opsim.streams import BLOCK
 
-Drawn = Callable[[np.ndarray, int, int], np.ndarray]
-"""(key words, first block, number of blocks) -> (n_blocks * 64,) seconds."""
 Held = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Seconds of each performance, and the shares of it from which to which a tool is held."""
 DrawnHeld = Callable[[np.ndarray, int, int], Held]
@@ -27,7 +25,7 @@ def durations(model: Any, effect: Any) -> Drawn:
     if at is not None:
         return _trace(_seconds(model.times_s)) if type(model) in _singly() else _by_index(at)
     if in_one_call(model):
-        return lambda words, first, n: _many(model, effect, words, first, n)
+        return of_model(model, effect)
     return lambda words, first, n: np.concatenate(
         [_seconds(drawn.duration_s) for drawn in _each(model, effect, words, first, n)]
     )
@@ -66,7 +64,7 @@ def _within(model: Any) -> Any:
 
 def _trace(times_s: np.ndarray) -> Drawn:
     """As ``opsim.tasks.Recorded.at``, of an array that is made once."""
-    return lambda _words, first, n: times_s[np.arange(first * BLOCK, (first + n) * BLOCK) % len(times_s)]
+    return NoLuck(lambda _words, first, n: times_s[np.arange(first * BLOCK, (first + n) * BLOCK) % len(times_s)])
 
 
 def _by_index(at: Callable[[np.ndarray], Any]) -> Drawn:
@@ -77,13 +75,7 @@ def _by_index(at: Callable[[np.ndarray], Any]) -> Drawn:
 def _held_at_shares(hold: HoldPlan, drawn: Drawn, *, by_index: bool) -> DrawnHeld:
     """A time without a body has no marks: both moments are shares."""
     start, end = hold.start.share, hold.end.share
-    end = end if by_index else max(start, end)
-
-    def draw(words: np.ndarray, first: int, n: int) -> Held:
-        duration_s = drawn(words, first, n)
-        return duration_s, np.full(n * BLOCK, start), np.full(n * BLOCK, end)
-
-    return draw
+    return HeldAtShares(drawn, start, end if by_index else max(start, end))
 
 
 def _of_block(drawn: Any, hold: HoldPlan) -> Held:
@@ -96,11 +88,6 @@ def _shares(drawn: Any, moment: Moment) -> np.ndarray:
     if moment.mark < 0:
         return np.full(BLOCK, moment.share)
     return np.clip(np.asarray(drawn.mark_s)[:, moment.mark] / drawn.duration_s, 0.0, 1.0)
-
-
-def _many(model: Any, effect: Any, words: np.ndarray, first: int, n: int) -> np.ndarray:
-    drawn: np.ndarray = model.sample(n * BLOCK, ManyBlocks(words, first, n), worker=effect).duration_s
-    return drawn
 
 
 def _each(model: Any, effect: Any, words: np.ndarray, first: int, n: int) -> list[Any]:

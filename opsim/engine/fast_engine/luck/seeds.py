@@ -103,21 +103,47 @@ def _begun(words, state):
 
 
 @compiled(nogil=True)
+def _states(begun, names, ends, n_blocks, hashes, states):
+    """``states`` of the first blocks of many streams, one stream after the other; see ``states_of``."""
+    whole, shared = np.empty(POOL, np.uint64), np.empty(POOL, np.uint64)
+    pool, drawn = np.empty(POOL, np.uint64), np.empty(STATE_WORDS, np.uint64)
+    of_whole, at, row = _pool_of(begun, whole), 0, 0
+    for stream in range(len(ends)):
+        multiplier = of_whole
+        for i in range(POOL):  # NOTE: pool[:] = shared would cost 1.7 s of compiling, for the words of its errors
+            shared[i] = whole[i]
+        while at < ends[stream]:
+            multiplier = _stir_in(shared, np.uint64(names[at]), multiplier)
+            at += 1
+        for b in range(n_blocks[stream]):
+            for i in range(POOL):
+                pool[i] = shared[i]
+            after = _stir_in(pool, np.uint64(hashes[b, 0]), multiplier)
+            _stir_in(pool, np.uint64(hashes[b, 1]), after)
+            _drawn_from(pool, drawn)
+            _begun(drawn, states[row])
+            row += 1
+
+
+def states_of(begun, names, ends, n_blocks, hashes):
+    """(N, 4) the states of the generators of the first blocks of many streams, one stream after the other.
+
+    begun    : (at least 4,) uint32, read-only: what all keys begin with
+    names    : uint32, what follows in each; ends : where it ends
+    n_blocks : of each stream, N in all; hashes : (most of them, 2) uint32, the hashes of the block numbers
+    """
+    states = np.empty((int(n_blocks.sum()), STATE_WORDS), np.uint64)
+    _states(begun, names, ends, n_blocks, hashes, states)
+    return states
+
+
+_NO_NAME, _NO_END = np.empty(0, np.uint32), np.zeros(1, np.int64)
+
+
 def first_states(words, hashes):
     """(n, 4) the states of the generators of n blocks.
 
-    words  : (at least 4,) uint32, the key of a stream as ``opsim.streams._key`` makes it
+    words  : (at least 4,) uint32, read-only: the key of a stream as ``opsim.streams._key`` makes it
     hashes : (n, 2) uint32, the hashes of the block numbers
     """
-    n = len(hashes)
-    states = np.empty((n, STATE_WORDS), np.uint64)
-    shared, pool, drawn = np.empty(POOL, np.uint64), np.empty(POOL, np.uint64), np.empty(STATE_WORDS, np.uint64)
-    multiplier = _pool_of(words, shared)
-    for b in range(n):
-        for i in range(POOL):  # NOTE: pool[:] = shared would cost 1.7 s of compiling, for the words of its errors
-            pool[i] = shared[i]
-        after = _stir_in(pool, np.uint64(hashes[b, 0]), multiplier)
-        _stir_in(pool, np.uint64(hashes[b, 1]), after)
-        _drawn_from(pool, drawn)
-        _begun(drawn, states[b])
-    return states
+    return states_of(words, _NO_NAME, _NO_END, np.array([len(hashes)]), hashes)

@@ -2,13 +2,33 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined
+from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined, step
+from opsim.engine.fast_engine.machine.memory import words_at
+from opsim.engine.fast_engine.machine.structs import array_at
 from opsim.engine.fast_engine.parts.records import Stream
 from opsim.engine.fast_engine.parts.state import Floor
+from opsim.streams import BLOCK
 
 DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE, HOLD, HOLD_RUN = range(1, 14)
 """Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``luck_of`` of the engine."""
 new_stream = fresh(Stream)
+_floats_at = array_at("float")
+TABLE, MASK = range(2)
+"""Words of ``floor.drawn``: where the table of what was drawn before the run is, and its number of places less 1."""
+ID, DATA, END, USED, DATA_2, DATA_3 = range(6)
+WIDTH = 8
+"""Words of a place: of which stream, where its numbers from 0 on are, how many, up to which they were asked for."""
+
+
+def place_of(stream: int, mask: int) -> int:
+    """Where a stream is looked for first in a table; the next places are tried one by one. NOTE: no product here is
+    beyond 2^63, so Python and compiled code find the same."""
+    folded = stream ^ (stream >> 32)
+    folded = (folded ^ (folded >> 15)) & 0xFFFFFF
+    return ((folded * 0x9E3779B1) >> 20) & mask
+
+
+_place_of = inlined(place_of)
 
 
 @inlined
@@ -24,11 +44,34 @@ def stream_of(floor: Floor, purpose: int, one: int, two: int, three: int) -> Str
     return stream
 
 
+@step
+def more_numbers(floor: Floor, stream: Stream, item: int) -> None:
+    """A block of what was drawn before the run, with the item in it; else Python is asked for more.
+
+    NOTE: one block after the other although all are there, so that it is known how many were wanted.
+    """
+    table, mask, wanted = words_at(floor.drawn[TABLE]), floor.drawn[MASK], stream.id
+    at = _place_of(wanted, mask)
+    while table[at * WIDTH] != wanted and table[at * WIDTH] != 0:
+        at = (at + 1) & mask
+    at = at * WIDTH
+    if item >= table[at + END]:
+        call_out(floor.more_luck, address_of(stream), item)
+        if item >= stream.end:
+            raise RuntimeError("no numbers were drawn")
+        return
+    stream.first, stream.end = 0, (item | (BLOCK - 1)) + 1
+    if table[at + USED] < stream.end:
+        table[at + USED] = stream.end
+    stream.data = _floats_at(table[at + DATA])
+    stream.data_2, stream.data_3 = _floats_at(table[at + DATA_2]), _floats_at(table[at + DATA_3])
+
+
 @inlined
 def next_number(floor: Floor, stream: Stream) -> float:
     """The next one of a stream whose numbers come one after the other; ``stream.next`` is its successor's number."""
     if stream.next == stream.end:
-        call_out(floor.more_luck, address_of(stream), stream.next)
+        more_numbers(floor, stream, stream.next)
     number = stream.next
     stream.next = number + 1
     return stream.data[number - stream.first]
@@ -39,5 +82,5 @@ def number_at(floor: Floor, stream: Stream, item: int) -> float:
     """A certain one of a stream that is asked in no order: all before it are kept. ``stream.next`` is -1 in these."""
     if item >= stream.end:
         stream.next = -1
-        call_out(floor.more_luck, address_of(stream), item)
+        more_numbers(floor, stream, item)
     return stream.data[item]

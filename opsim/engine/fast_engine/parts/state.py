@@ -259,6 +259,7 @@ class Floor:
     unordered: int
     last_end_s: float
     more_luck: int
+    drawn: Array[int]
     arena: int
     n_rows: int
     n_stations: int

@@ -16,13 +16,19 @@ FILES = sorted(shipped_folder().glob("*.yaml"))
 EACH = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 
 
+def difference(plan):
+    """The first row that differs: on a new floor, or on one that has drawn most of its numbers ahead."""
+    wanted, new = run_simpy(plan), run_fast(plan)
+    return first_difference(wanted, new) or first_difference(wanted, run_fast(plan))
+
+
 def plans(path):
     return {name: compile_plan(loaded) for name, loaded in scenarios_in(path.read_bytes(), path).items()}
 
 
 @EACH
 def test_every_variant_of_a_shipped_scenario_has_one_log(path):
-    found = {name: first_difference(run_simpy(plan), run_fast(plan)) for name, plan in plans(path).items()}
+    found = {name: difference(plan) for name, plan in plans(path).items()}
     assert found == dict.fromkeys(found, "")
 
 

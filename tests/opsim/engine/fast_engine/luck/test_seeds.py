@@ -4,7 +4,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from opsim.engine.fast_engine.luck.block_hashes import BLOCK_HASHES
-from opsim.engine.fast_engine.luck.seeds import first_states, stepped, word_of
+from opsim.engine.fast_engine.luck.seeds import first_states, states_of, stepped, word_of
 from opsim.streams import _generator, _hashed, _key
 
 NAME = st.lists(st.text(max_size=5) | st.integers(0, 99), max_size=5)
@@ -38,3 +38,20 @@ def test_a_step_gives_numpys_next_word_and_state(seed):
         high, low = map(np.uint64, stepped(high, low, *increment))
         assert word_of(high, low) == bits.random_raw()
         assert halves(bits.state["state"]["state"]) == [high, low]
+
+
+@given(
+    st.integers(0, 2**300),
+    st.integers(0, 2**70),
+    st.lists(st.tuples(NAME, st.integers(0, 4)), min_size=1, max_size=6),
+)
+def test_the_blocks_of_many_streams_begin_where_those_of_each_do(seed, replication, streams):
+    keys = [np.frombuffer(_key(seed, replication, name), np.uint32) for name, _ in streams]
+    n_begun = len(_key(seed, replication, ())) // 4
+    names = [key[n_begun:] for key in keys]
+    ends, n_blocks = np.cumsum([name.size for name in names]), np.array([n for _, n in streams])
+    hashes = BLOCK_HASHES.of(0, 4)
+    found = states_of(keys[0][:n_begun], np.concatenate(names), ends, n_blocks, hashes)
+    assert found.tolist() == [
+        state for key, n in zip(keys, n_blocks) for state in first_states(key, hashes[:n]).tolist()
+    ]
