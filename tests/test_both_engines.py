@@ -46,6 +46,15 @@ def test_what_both_refuse_alike_is_refused_as_before():
     assert counted == {EQUAL: 1} and isinstance(answer, ZeroDivisionError)
 
 
-def test_what_is_not_run_is_named():
-    counted, log = run_by(run_plan, refuse, ["a plug-in"])
-    assert counted == {REFUSED + "a plug-in": 1} and len(log) > 100
+@pytest.mark.parametrize(
+    "words", ["the rule 'mine' of opsim.dispatch is a plug-in in Python", "the human effect mine.Sleepy"]
+)
+def test_python_of_others_that_is_not_run_is_named(words):
+    counted, log = run_by(run_plan, refuse, [words])
+    assert counted == {REFUSED + words: 1} and len(log) > 100
+
+
+def test_what_is_ours_and_is_not_run_is_a_failure():
+    counted, answer = run_by(run_plan, run_plan, ["the rule 'mine' of opsim.dispatch is a plug-in in Python", "belts"])
+    assert isinstance(answer, AssertionError) and "does not run what is ours: belts" in str(answer)
+    assert counted[REFUSED + "belts"] == 1

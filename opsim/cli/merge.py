@@ -49,6 +49,7 @@ def _merged(folders: tuple[Path, ...], out: Path, file: str | None, overwrite: b
     from opsim.cli.study_kind import kind_of
     from opsim.cli.study_verb import said_damaged, write_study
     from opsim.study.jobs import Answers
+    from opsim.study.jobs.engines_file import write_together
     from opsim.study.jobs.folder import OtherStudy, open_study
     from opsim.study.jobs.header import made_differ
     from opsim.study.jobs.joined import copy_answers, journals_of, missing_words, one_header, one_journal
@@ -69,6 +70,7 @@ def _merged(folders: tuple[Path, ...], out: Path, file: str | None, overwrite: b
         except Missing as missing:
             raise ValueError(missing_words(missing, held, folders, files)) from None
         with open_study(out, header, asked.loaded.resolved, overwrite=overwrite) as study:
+            write_together(journals_of([*folders, out]), out)
             copy_answers(answers, journal, study.journal)
             write_study(kind, asked, told, answers, out)
     return kind, told

@@ -45,8 +45,8 @@ def run_variants(
         variants, plans = _variants(file, names, horizon)
         if check is not None:
             check(variants)
-        engines = _engines(variants, plans, how)
         out = out if out is not None else Path("results") / next(iter(variants.values())).file.stem
+        engines = _engines(variants, plans, out, how)
         _refuse_study(out, variants)
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
@@ -81,15 +81,18 @@ def _variants(file: str, names: tuple[str, ...], horizon: str | None) -> tuple[d
     return loaded, {name: compile_plan(variant) for name, variant in loaded.items()}
 
 
-def _engines(variants: dict[str, Any], plans: dict[str, Any], how: dict[str, Any]) -> dict[str, Any]:
+def _engines(variants: dict[str, Any], plans: dict[str, Any], out: Path, how: dict[str, Any]) -> dict[str, Any]:
     """The engine of each variant. Raises ScenarioError with all that the fast engine does not run, if it is asked."""
     from opsim.study.engine_choice import engines_of
     from opsim.study.precision import FEWEST
+    from opsim.study.replicate import missing
 
-    runs = FEWEST if how.get("precision") else how.get("replications")
-    most = max(loaded.scenario.run.replications for loaded in variants.values())
+    least = FEWEST if how.get("precision") else how.get("replications")
+    runs = {name: least or loaded.scenario.run.replications for name, loaded in variants.items()}
+    if not how.get("overwrite"):
+        runs = {name: missing(out / name, n) for name, n in runs.items()}
     both = {name: (loaded, plans[name]) for name, loaded in variants.items()}
-    return engines_of(how.get("engine") or SIMPY, both, runs or most)
+    return engines_of(how.get("engine") or SIMPY, both, runs, processes=how.get("processes"))
 
 
 def _way_out(out: Path, how: dict[str, Any]) -> str:

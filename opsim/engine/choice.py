@@ -64,18 +64,11 @@ class NotFast(ValueError):
         return "\n".join(f"the fast engine does not run this: {one.words}" for one in self.refusals)
 
 
-def choose(asked: str, plan: Plan, runs: int = 1) -> Choice:
-    """The engine for ``runs`` replications of a Plan, or of Plans like it.
-
-    ``auto`` is the fast engine where it runs the Plan and SimPy's work, as estimated, is more than what compiling (the
-    first time) or reading compiled code takes. Raises ValueError for an unknown word, NotFast.
-    """
-    able = able_to(asked, plan)
-    return _worth(plan, runs) if asked == AUTO and able.engine == FAST else able
-
-
 def able_to(asked: str, plan: Plan) -> Choice:
-    """As ``choose``, where the fast engine is worth it, or its compiling is over: ``auto`` is what can run the Plan."""
+    """The engine for a Plan; ``auto`` is the fast one where it runs the Plan.
+
+    Raises ValueError for an unknown word, NotFast.
+    """
     known(asked)
     if asked == SIMPY:
         return REFERENCE
@@ -125,16 +118,26 @@ def known(asked: str) -> str:
     return asked
 
 
-def _worth(plan: Plan, runs: int) -> Choice:
-    from opsim.engine.fast_engine import compiled
-    from opsim.engine.simpy_work import simpy_s
+def worth(able: Choice, plan: Plan, simpy_s: float, *, of: str = "", here: bool = True) -> Choice:
+    """What ``able_to`` found; of ``auto`` SimPy where compiling, or reading compiled code, takes longer than its work.
 
-    work_s, there = runs * simpy_s(plan), compiled(plan)
-    work = "less than a second of work" if work_s < 1 else f"about {work_s:.2g} s of work"
-    if there:
-        costs = "is compiled already"
-    else:
-        costs = f"would first be compiled (about {COMPILING_S:.0f} s, once on this machine)"
-    if work_s > (LOADING_S if there else COMPILING_S):
-        return Choice(FAST, f"as this is {work} for SimPy, and the fast one {costs}", AUTO)
-    return Choice(SIMPY, f"as this is {work} for it, and the fast one {costs}", AUTO, may_pay=True)
+    simpy_s : by the clock, of all that is to be run, and ``of`` what in words, where that is more than this Plan
+    here : whether this machine runs it: of others it is not known what is compiled there
+    """
+    if able.asked != AUTO or able.engine != FAST:
+        return able
+    from opsim.engine.fast_engine import compiled
+
+    there = here and compiled(plan)
+    takes = f"{'less than a second' if simpy_s < 1 else f'about {_rounded(simpy_s)} s'}{of}"
+    once = f"about {COMPILING_S:.0f} s, once on {'this' if here else 'each'} machine"
+    if simpy_s > (LOADING_S if there else COMPILING_S):
+        costs = "the fast one is compiled already" if there else f"compiling takes {once}"
+        return Choice(FAST, f"as SimPy would take {takes}, and {costs}", AUTO)
+    costs = f"loaded (about {LOADING_S:.0f} s)" if there else f"compiled ({once})"
+    return Choice(SIMPY, f"as it takes {takes}, and the fast one would first be {costs}", AUTO, may_pay=True)
+
+
+def _rounded(seconds: float) -> str:
+    """Two digits, as an estimate has not more."""
+    return f"{float(f'{seconds:.2g}'):,.0f}" if seconds >= 10 else f"{seconds:.2g}"

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from opsim.engine.choice import FAST, REFERENCE, Choice, Run, make_ready, runner_of
+from opsim.engine.choice import FAST, REFERENCE, Choice, make_ready
 from opsim.engine.difference import Difference, difference
-from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.study.engine_choice import Chosen, engines_of
+from opsim.study.timed import Timed, timed
 
 Progress = Callable[[int, int], None]
-QUICK_S = 2.0
+HINT = "only the SimPy engine runs it, so there is nothing to compare"
 
 
 @dataclass(frozen=True)
@@ -22,6 +21,7 @@ class Both:
     """What came of a variant: ``rows`` of all replications that were run, seconds of each engine without compiling.
 
     replication : the last one that was run: the one with the difference, where there is one
+    ended : in words, which engine alone came to no end of it; nothing where both did
     """
 
     variant: str
@@ -30,17 +30,18 @@ class Both:
     simpy_s: float
     fast_s: float
     difference: Difference | None = None
+    ended: str = ""
 
     @property
     def same(self) -> bool:
         """In every bit of every row."""
-        return self.difference is None
+        return self.difference is None and not self.ended
 
     @property
     def words(self) -> str:
         """What was found."""
-        if self.difference is not None:
-            return f"replication {self.replication}: {self.difference.said}"
+        if not self.same:
+            return f"replication {self.replication}: {self.ended if self.difference is None else self.difference.said}"
         n = self.replication + 1
         return f"the same {self.rows:,} rows" + (f" in {n} replications" if n > 1 else "")
 
@@ -53,7 +54,8 @@ class Both:
         """For machines."""
         seconds = {"simpy_s": self.simpy_s, "fast_s": self.fast_s}
         said = {"variant": self.variant, "same": self.same, "replications": self.replication + 1, "rows": self.rows}
-        return said | seconds | ({} if self.difference is None else {"difference": self._difference(self.difference)})
+        said |= seconds | ({"ended": self.ended} if self.ended else {})
+        return said | ({} if self.difference is None else {"difference": self._difference(self.difference)})
 
     def _difference(self, differ: Difference) -> dict[str, Any]:
         cells = {cell.column: [cell.one, cell.other] for cell in differ.cells()}
@@ -79,8 +81,10 @@ def both_engines(
     progress: Progress | None = None,
     chosen: Chosen | None = None,
 ) -> list[Both]:
-    """Each variant as far as its first difference. Raises ScenarioError where the fast engine does not run one."""
-    choices = engines_of(FAST, variants, replications)
+    """Each variant as far as its first difference. Raises ScenarioError where the fast engine does not run one, and
+    what both engines raise.
+    """
+    choices = engines_of(FAST, variants, dict.fromkeys(variants, replications), hint=HINT)
     for name, (_, plan) in variants.items():
         make_ready(choices[name], plan, None if chosen is None else chosen(choices[name]))
     total, found = len(variants) * replications, list[Both]()
@@ -95,24 +99,20 @@ def _compared(
 ) -> Both:
     rows, simpy_s, fast_s = 0, 0.0, 0.0
     for replication in range(replications):
-        one, one_s = _timed(REFERENCE, plan, replication)
-        other, other_s = _timed(fast, plan, replication)
-        rows, simpy_s, fast_s = rows + len(one), simpy_s + one_s, fast_s + other_s
-        differ = difference(one, other)
-        told(replication + 1 if differ is None else replications)
-        if differ is not None:
+        one, other = timed(REFERENCE, plan, replication), timed(fast, plan, replication)
+        rows, simpy_s, fast_s = rows + one.rows, simpy_s + one.seconds, fast_s + other.seconds
+        ended = _ended(one, other)
+        differ = next(filter(None, (difference(one.logs[0], log) for log in other.logs)), None) if not ended else None
+        told(replications if ended or differ else replication + 1)
+        if ended or differ:
             break
-    return Both(name, replication, rows, simpy_s, fast_s, differ)
+    return Both(name, replication, rows, simpy_s, fast_s, differ, ended)
 
 
-def _timed(choice: Choice, plan: Plan, replication: int) -> tuple[EventLog, float]:
-    """The log, and seconds; of a quick first run those of a second one, as the first also loads what it needs."""
-    run = runner_of(choice)
-    first = _once(run, plan, replication)
-    return _once(run, plan, replication) if replication == 0 and first[1] < QUICK_S else first
-
-
-def _once(run: Run, plan: Plan, replication: int) -> tuple[EventLog, float]:
-    started = time.perf_counter()
-    log = run(plan, replication)
-    return log, time.perf_counter() - started
+def _ended(simpy: Timed, fast: Timed) -> str:
+    """Which engine alone ended with an error, or with another one; nothing where none did. Raises that of both."""
+    if simpy.error is None and fast.error is None:
+        return ""
+    if simpy.error is not None and simpy.said == fast.said:
+        raise simpy.error
+    return f"simpy {simpy.words}, fast {fast.words}"

@@ -16,7 +16,6 @@ from opsim.plan import Plan
 from opsim.results import events_name
 from opsim.study.pool import cores, pays, pooled
 from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned
-from opsim.study.threads import threaded
 
 Progress = Callable[[int, int], None]
 
@@ -24,15 +23,14 @@ LOADING_S = 3.0
 """The first replication may also load compiled code for so long: if it took less, a second one is timed too."""
 
 
-IN_THREADS: frozenset[str] = frozenset()
-"""Engines whose replications are run several at once in threads of this process, as they leave Python to others while
-they run; those of the others are run in processes. Rows and figures are the same either way.
-"""
-
-
 def events_file(folder: Path, replication: int) -> Path:
     """Where the rows of a replication are."""
     return folder / "events" / events_name(replication)
+
+
+def missing(folder: Path, replications: int) -> int:
+    """How many of so many replications have no rows yet."""
+    return sum(not events_file(folder, number).exists() for number in range(replications))
 
 
 MakePlan = Callable[[], Plan]
@@ -64,8 +62,7 @@ def replicate(
     """
     done = Together()
     runner = Once(partial(_runner, make_plan, folder, made_from, tuple(outputs), engine))
-    in_threads = engine.engine in IN_THREADS
-    with closing(_results(runner, range(first, replications), processes, meanwhile, in_threads)) as results:
+    with closing(_results(runner, range(first, replications), processes, meanwhile)) as results:
         for result in results:
             done.add(result)
             if progress is not None:
@@ -113,7 +110,6 @@ def _results(
     replications: Sequence[int],
     processes: int | None,
     meanwhile: Callable[[], None] | None = None,
-    in_threads: bool = False,
 ) -> Generator[Replicated, None, None]:
     left = list(replications)
     if processes is None:
@@ -125,8 +121,7 @@ def _results(
             processes = _that_pay(took_s, len(left))
     processes = min(processes or 1, len(left))
     if processes > 1:
-        several = threaded if in_threads else pooled
-        yield from several(runner, left, processes, meanwhile)
+        yield from pooled(runner, left, processes, meanwhile)
     elif left:
         with one_database():
             yield from map(runner(), left)

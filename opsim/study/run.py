@@ -9,9 +9,10 @@ from opsim.kpi.better import read_asked
 from opsim.plan import Plan, compile_plan
 from opsim.results import Result
 from opsim.study.assumed.assumptions import Asked
-from opsim.study.engine_choice import Chosen, compiled_for, engine_of
+from opsim.study.engine_choice import Chosen, engine_of
+from opsim.study.engine_of_run import EngineOfRun
 from opsim.study.precision import FEWEST, MOST, Precision, replicate_until
-from opsim.study.replicate import Once, Progress, events_file, replicate
+from opsim.study.replicate import Once, Progress, missing, replicate
 from opsim.study.replicated import Replicated, together
 
 
@@ -44,7 +45,7 @@ def run_scenario(
     contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
     """
     from opsim.study.finished import finished, say_finished
-    from opsim.study.folder import LOCK, clear_results, open_folder, say_engine, say_replications
+    from opsim.study.folder import LOCK, clear_results, open_folder, say_replications
     from opsim.study.lock import locked
     from opsim.study.manifest import digest
     from opsim.study.summary import summary_of, write_kpis
@@ -53,26 +54,25 @@ def run_scenario(
     make_plan = Once(partial(compile_plan, loaded, seed=seed))
     plan: Plan = make_plan()
     n = replications if replications is not None else MOST if precision else loaded.scenario.run.replications
-    choice = engine_of(engine, loaded, plan, FEWEST if precision else n)
+    least = FEWEST if precision else n
+    runs = least if overwrite else missing(folder, least)
+    choice = engine_of(engine, loaded, plan, runs, processes=processes)
     with locked(folder / LOCK, f"{folder}: another 'opsim run' writes there now; take another folder with -o, or wait"):
         manifest = open_folder(folder, loaded, plan.seed, n, overwrite=overwrite)
         asks = {"replications": replications, "seed": seed, "precision": [one.name for one in precision]}
         if finished(folder, loaded, manifest, asks):
             return Result.load(folder)
         clear_results(folder)
-        if not all(events_file(folder, number).exists() for number in range(n)):
-            say_engine(folder, choice)
-            compiled_for(choice, plan, chosen)
         run = partial(
             _replicated,
             make_plan,
             folder,
+            EngineOfRun(choice, loaded, plan, folder, processes, chosen),
             made_from=digest(manifest),
             processes=processes,
             progress=progress,
             outputs=_outputs(loaded, precision),
             meanwhile=partial(_meanwhile, meanwhile),
-            engine=choice,
         )
         done, reached = replicate_until(precision, n, run) if precision else (run(0, n), [])
         done = together(done)
@@ -90,8 +90,8 @@ def _outputs(loaded, precision: Sequence[Precision]) -> tuple[str, ...]:
     return (*loaded.scenario.outputs, *(one.kpi for one in precision), *frontier)
 
 
-def _replicated(make_plan: Once, folder: Path, first: int, upto: int, **how) -> list[Replicated]:
-    return replicate(make_plan, upto, folder, first=first, **how)
+def _replicated(make_plan: Once, folder: Path, engine: EngineOfRun, first: int, upto: int, **how) -> list[Replicated]:
+    return replicate(make_plan, upto, folder, first=first, engine=engine.upto(upto), **how)
 
 
 def _meanwhile(more: Callable[[], None] | None) -> None:

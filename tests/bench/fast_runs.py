@@ -2,7 +2,7 @@
 
 first_row SCENARIO : clock seconds of reading the scenario, importing the engine, making ready, the first run; CPU too
 memory             : MB of a floor of 100 stations and 100 workers
-replications HOW N : N replications of a line on 2 cores; clock seconds, CPU seconds, jobs finished in each
+replications ENGINE N : N replications of a line on 2 cores; clock seconds, CPU seconds, jobs finished in each
 """
 
 import json
@@ -103,18 +103,15 @@ def _resident_mb() -> float:
     return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20
 
 
-def replications(how: str, n: str, first: str = "1") -> dict:
-    """how: simpy or fast in processes, fast in threads. Nothing is kept of a log but the number of jobs."""
+def replications(engine: str, n: str, first: str = "1") -> dict:
+    """By an engine, in processes. Nothing is kept of a log but the number of jobs."""
     from opsim.forking import can_fork
     from opsim.study.pool import pooled
-    from opsim.study.threads import threaded
 
-    engine, _, way = how.partition("_in_")
     prepare = partial(_prepared, engine, line_text())
     prepare()(0)  # compiled, loaded, and its luck known, as a study's first replication does
     started, cpu_s, can = perf_counter(), _cpu_s(), can_fork()
-    several = {"threads": threaded, "processes": pooled}[way]
-    finished = dict(several(prepare, range(int(first), int(first) + int(n)), 2))
+    finished = dict(pooled(prepare, range(int(first), int(first) + int(n)), 2))
     clock_s = perf_counter() - started
     assert len(finished) == int(n)
     jobs = [finished[number] for number in sorted(finished)]

@@ -28,5 +28,5 @@ def dispatch(floor: Floor) -> None:
             send_workers(floor)
         if not floor.stirred and not changed:
             return
-    names = ", ".join(station.plan.name for gate in floor.stirred for station in gate.stations)
+    names = ", ".join(sorted({station.plan.name for gate in floor.stirred for station in gate.stations}))
     raise EndlessInstant(f"t = {floor.now} s: over {MOST_ROUNDS} rounds in one instant; still moving at: {names}")

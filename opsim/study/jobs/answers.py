@@ -24,6 +24,7 @@ from opsim.study.jobs.journal import Address, Journal
 from opsim.study.jobs.near import Done, OnThisMachine
 from opsim.study.jobs.shard import Missing, Shard, ShardDone
 from opsim.study.jobs.source import Source
+from opsim.study.pool import cores
 
 Progress = Callable[[int, int], None]
 SAID_EVERY_S = 0.2
@@ -62,7 +63,8 @@ class Answers:
         self._computing = source if keep is None else replace(source, kpis=tuple(keep))
         self._here = OnThisMachine(self._computing, processes)
         self._executor, self._shard, self._compute = executor, shard, compute
-        self.engines = Engines(self._computing, engine, chosen)
+        at_once = getattr(executor, "_max_workers", None) if executor is not None else processes
+        self.engines = Engines(self._computing, engine, chosen, at_once or cores())
         self._decided: dict[Point, str] = {}
         self._asked: dict[Job, None] = {}
         self._done, self._said_s = 0, 0.0
@@ -145,7 +147,7 @@ class Answers:
         left = [job for job in jobs if self._address(job) not in self._kept]
         if not left:
             return
-        self.engines.prepare(left, compile_here=self._executor is None)
+        self.engines.prepare(left, here=self._executor is None)
         missing = [Work(job, self._decided_by(job.point), self.engines.of(job.point)) for job in left]
         total = self._done + len(missing)
         with closing(self._results(missing)) as results:

@@ -10,7 +10,7 @@ from typing import Any
 
 from opsim.problems import ScenarioError
 from opsim.study.jobs.answers import Answers
-from opsim.study.jobs.engines_file import ENGINE, EnginesFile
+from opsim.study.jobs.engines_file import EnginesFile, files_in
 from opsim.study.jobs.header import HEADER, Header, NotAStudy, differing, read_header, write_header
 from opsim.study.jobs.journal import Journal
 from opsim.study.jobs.shard import Shard
@@ -44,7 +44,8 @@ class StudyFolder:
 
     def answers(self, **how: Any) -> Answers:
         """The study's answers, kept in the folder; ``how`` : processes, executor, progress, compute, engine, chosen."""
-        how["chosen"] = EnginesFile(self.path, len(self.journal) > 0, how.get("chosen"))
+        own = self.path / ANSWERS / (ALL if self.shard is None else self.shard.file)
+        how["chosen"] = EnginesFile(own, _journals(self.path) if self.shard is None else [own], how.get("chosen"))
         return Answers(self.header.source, self.journal, shard=self.shard, keep=self.keep, **how)
 
 
@@ -154,15 +155,15 @@ def _empty(folder: Path) -> None:
         _remove_results(folder)
         for journal in _journals(folder):
             journal.unlink(missing_ok=True)
-        (folder / ENGINE).unlink(missing_ok=True)
-        (folder / HEADER).unlink(missing_ok=True)
+        for path in (*files_in(folder), folder / HEADER):
+            path.unlink(missing_ok=True)
 
 
 def _forget(folder: Path, journal: Path) -> None:
     """Remove a study that was stopped at its beginning, unless another shard of it has begun too."""
     if _journals(folder) != [journal]:
         return
-    for path in (journal, folder / RESOLVED, folder / ENGINE, folder / HEADER):
+    for path in (journal, folder / RESOLVED, *files_in(folder), folder / HEADER):
         path.unlink(missing_ok=True)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from stand_in_engine import spoilt, stand_in
 
+from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import WORK
 from tests.opsim.cli.calls import LINE, line, opsim
 
@@ -62,10 +63,48 @@ def test_what_differs_in_one_variant_does_not_keep_the_others_from_being_told(tm
     assert [one["variant"] for one in json.loads(shown)["variants"]] == ["base", "roomy"]
 
 
+def fails(error):
+    """A log that is never written."""
+
+    def fail(log):
+        raise error
+
+    return fail
+
+
+def test_an_engine_that_alone_comes_to_no_end_is_told_as_a_difference(tmp_path, monkeypatch):
+    stand_in(monkeypatch, spoil=lambda log: log if log.replication == 0 else fails(ZeroDivisionError("of mine"))(log))
+    code, shown, complaint = opsim("doctor", "engines", line(tmp_path, TWO), "--replications", 3)
+    assert code == 1 and "compiling" in complaint and shown.count("replication 1: simpy wrote ") == 2
+    assert shown.count("rows, fast ended with ZeroDivisionError: of mine") == 2
+    _, shown, _ = opsim("doctor", "engines", line(tmp_path), "--replications", 3, "--json")
+    told = json.loads(shown)
+    assert not told["same"] and told["variants"][0]["ended"].endswith("fast ended with ZeroDivisionError: of mine")
+
+
+def test_what_neither_engine_comes_to_an_end_of_is_told_as_of_any_run(tmp_path, monkeypatch):
+    def endless(*_):
+        raise EndlessInstant("t = 60.0 s: over 10000 rounds")
+
+    stand_in(monkeypatch).run_plan = endless
+    monkeypatch.setattr("opsim.engine.simpy_engine.run_plan", endless)
+    code, _, complaint = opsim("doctor", "engines", line(tmp_path))
+    assert code == 1 and "does not move on in time" in complaint and "t = 60.0 s" in complaint
+
+
+def test_the_first_run_on_a_new_floor_is_compared_too(tmp_path, monkeypatch):
+    """As every first replication is one; the second is quicker, and timed."""
+    runs = []
+    stand_in(monkeypatch, spoil=lambda log: (runs.append(1), spoilt(log, 3, "job", 99) if len(runs) == 1 else log)[1])
+    code, shown, _ = opsim("doctor", "engines", line(tmp_path))
+    assert code == 1 and "row 3 differs in job" in shown and len(runs) == 2
+
+
 def test_what_the_fast_engine_does_not_run_is_a_mistake(tmp_path, monkeypatch):
     stand_in(monkeypatch, refuses=["belts", "kits"])
     code, _, complaint = opsim("doctor", "engines", line(tmp_path))
     assert code == 2 and "belts" in complaint and "kits" in complaint
+    assert "nothing to compare" in complaint and "--engine" not in complaint
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ MINE = """
 workers: {ana: {skills: {saw: 1.0}}}
 allocation: {rule: mine}
 """
-GRID = "\nstudies: {sweep: {vary: {stations.press.buffer: [1, 3]}, figures: [throughput_per_h], replications: 2}}\n"
+GRID = "\nstudies: {sweep: {vary: {stations.press.buffer: [2, 3]}, figures: [throughput_per_h], replications: 2}}\n"
 
 
 @pytest.fixture

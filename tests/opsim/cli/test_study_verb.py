@@ -1,10 +1,12 @@
 """A study as its user runs it: gone on with, split, merged, refused; with a made study instead of a real one."""
 
 import hashlib
+import json
 import os
 from types import SimpleNamespace
 
 import pytest
+from stand_in_engine import stand_in
 
 from opsim.kpi.figure import Figure
 from opsim.study.jobs.answer import Answer
@@ -73,6 +75,55 @@ def test_shards_of_one_folder_are_merged_where_they_are(tmp_path, whole):
     assert "and so are all others" in swept("-o", "s", "--shard", "2/2")
     assert opsim("merge", "s")[0] == 0
     assert hashes(tmp_path / "s") == whole
+
+
+def said(folder):
+    """What a folder says of engines; None: SimPy alone."""
+    path = folder / "engine.json"
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+BY_FAST = {"asked": "fast", "used": {"fast": "as asked"}}
+BOTH = {"fast": "as asked", "simpy": "which is the reference"}
+
+
+@pytest.mark.parametrize(
+    ("of_a", "of_b", "found"),
+    [
+        ("fast", "fast", BY_FAST),
+        ("simpy", "fast", {"asked": "fast, simpy", "used": BOTH}),
+        ("simpy", "simpy", None),
+    ],
+)
+def test_a_merged_study_says_which_engines_answered_its_shards(tmp_path, monkeypatch, whole, of_a, of_b, found):
+    stand_in(monkeypatch)
+    swept("-o", "a", "--shard", "1/2", "--engine", of_a)
+    swept("-o", "b", "--shard", "2/2", "--engine", of_b)
+    assert opsim("merge", "a", "b", "-o", "merged")[0] == 0 and opsim("merge", "a", "b", "-o", "a")[0] == 0
+    assert said(tmp_path / "merged") == said(tmp_path / "a") == found
+    assert opsim("merge", "b", "merged", "-o", "merged")[0] == 0
+    assert said(tmp_path / "merged") == found and hashes(tmp_path / "merged") == whole
+
+
+def test_shards_in_one_folder_say_their_engine_each_and_together(tmp_path, monkeypatch):
+    stand_in(monkeypatch)
+    for shard, engine in (("1/3", "fast"), ("2/3", "simpy"), ("3/3", "fast")):
+        swept("-o", "s", "--shard", shard, "--engine", engine)
+    assert [path.name for path in sorted((tmp_path / "s").glob("engine*"))] == [
+        f"engine_shard_{n}_of_3.json" for n in (1, 3)
+    ]
+    assert opsim("merge", "s")[0] == 0
+    assert said(tmp_path / "s") == {"asked": "fast, simpy", "used": BOTH}
+    swept("-o", "s", "--overwrite", "--processes", 1)
+    assert not [*(tmp_path / "s").glob("engine*")]
+
+
+def test_a_study_that_goes_on_with_shards_says_their_engines(tmp_path, monkeypatch):
+    stand_in(monkeypatch)
+    swept("-o", "s", "--shard", "1/2", "--engine", "fast")
+    swept("-o", "s", "--processes", 1)
+    assert said(tmp_path / "s")["used"] == {"simpy": "which is the reference"}
+    assert said(tmp_path / "s")["earlier"] == ["fast"]
 
 
 def test_a_missing_shard_is_named_with_the_command_that_makes_it(tmp_path):

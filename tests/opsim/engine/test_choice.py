@@ -7,11 +7,15 @@ from plans import line, plan, queue
 from stand_in_engine import install_rule, stand_in
 
 from opsim.engine import choice
-from opsim.engine.choice import NotFast, Refusal, able_to, choose, known, make_ready, runner_of
+from opsim.engine.choice import NotFast, Refusal, able_to, known, make_ready, runner_of, worth
 from opsim.engine.simpy_engine import run_plan
 
 SHORT = line(2, 1, horizon="1 h")
 LONG = queue(horizon="2000 h")
+
+
+def choose(asked, made, simpy_s=0.0, **how):
+    return worth(able_to(asked, made), made, simpy_s, **how)
 
 
 def test_simpy_is_taken_without_a_look_at_the_fast_engine(monkeypatch):
@@ -64,37 +68,36 @@ def test_our_own_rules_are_no_plug_ins(monkeypatch):
 
 def test_auto_takes_simpy_for_what_the_fast_engine_does_not_run_and_says_what(monkeypatch):
     stand_in(monkeypatch, refuses=["belts", "kits"])
-    chosen = choose("auto", plan(LONG), 1000)
+    chosen = choose("auto", plan(LONG), 1000.0)
     assert chosen.engine == "simpy" and not chosen.may_pay
     assert chosen.words == "the SimPy engine, as the fast one does not run this: belts, and 1 more"
 
 
-def test_auto_takes_simpy_for_the_work_of_a_moment_and_says_what_compiling_costs(monkeypatch):
-    stand_in(monkeypatch)
-    chosen = choose("auto", plan(SHORT))
-    assert chosen.engine == "simpy" and chosen.may_pay
-    assert "less than a second of work" in chosen.why and "would first be compiled (about 20 s, once" in chosen.why
+ONCE = "(about 20 s, once on this machine)"
+SIMPY, MOMENT = "the SimPy engine, as it takes", "less than a second"
 
 
-def test_auto_takes_the_fast_engine_for_much_work(monkeypatch):
-    stand_in(monkeypatch)
-    chosen = choose("auto", plan(LONG), 10)
-    assert chosen.engine == "fast" and "s of work for SimPy" in chosen.why
+@pytest.mark.parametrize(
+    ("simpy_s", "is_compiled", "words"),
+    [
+        (0.3, False, f"{SIMPY} {MOMENT}, and the fast one would first be compiled {ONCE}"),
+        (0.3, True, f"{SIMPY} {MOMENT}, and the fast one would first be loaded (about 1 s)"),
+        (2.34, False, f"{SIMPY} about 2.3 s, and the fast one would first be compiled {ONCE}"),
+        (2.34, True, "the fast engine, as SimPy would take about 2.3 s, and the fast one is compiled already"),
+        (151.0, False, f"the fast engine, as SimPy would take about 150 s, and compiling takes {ONCE[1:-1]}"),
+        (15_390.0, True, "the fast engine, as SimPy would take about 15,000 s, and the fast one is compiled already"),
+    ],
+)
+def test_auto_takes_what_is_sooner_done_and_says_why(monkeypatch, simpy_s, is_compiled, words):
+    stand_in(monkeypatch).is_compiled = is_compiled
+    chosen = choose("auto", plan(SHORT), simpy_s)
+    assert chosen.words == words and chosen.may_pay == (chosen.engine == "simpy")
 
 
-def test_more_replications_are_more_work(monkeypatch):
-    stand_in(monkeypatch)
-    one_hour = plan(SHORT)
-    assert [choose("auto", one_hour, runs).engine for runs in (1, 100_000)] == ["simpy", "fast"]
-
-
-def test_what_is_compiled_already_is_sooner_worth_it(monkeypatch):
-    made, some = stand_in(monkeypatch), plan(queue(horizon="20 h"))
-    assert choose("auto", some, 2).engine == "simpy"
-    made.is_compiled = True
-    chosen = choose("auto", some, 2)
-    assert chosen.engine == "fast" and "is compiled already" in chosen.why
-    assert choose("auto", plan(SHORT)).engine == "simpy"
+def test_what_is_compiled_on_other_machines_is_not_known_here(monkeypatch):
+    stand_in(monkeypatch).is_compiled = True
+    chosen = choose("auto", plan(SHORT), 10.0, here=False)
+    assert chosen.engine == "simpy" and "compiled (about 20 s, once on each machine)" in chosen.why
 
 
 def test_where_the_work_is_over_auto_is_what_can_run_the_plan(monkeypatch):

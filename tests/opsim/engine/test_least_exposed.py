@@ -4,6 +4,7 @@ import numpy as np
 import plans
 import pytest
 from checked_floors import differ
+from made_pool import POOL
 
 from opsim.engine.simpy_engine import run_plan
 from opsim.engine.simpy_engine.doses import Dose
@@ -11,23 +12,6 @@ from opsim.ergonomics.shift.dose_rates import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios
 
-POOL = """
-opsim: 1
-name: pool
-run: {horizon: 2 h, seed: 8}
-layout: {places: {here: [0 m, 0 m]}}
-tasks: {heavy: {dist: lognormal, mean: 30 s, cv: 0.4}, light: {dist: lognormal, mean: 20 s, cv: 0.4}}
-stations:
-  a: {at: here, tasks: [heavy], buffer: 5}
-  b: {at: here, tasks: [light], buffer: 5}
-products: {p: {route: [a, b]}}
-release: {kind: poisson, every: 40 s}
-workers:
-  ana: {skills: {a: 1, b: 1}}
-  ben: {skills: {a: 1, b: 1}}
-  cem: {skills: {a: 1, b: 1}}
-allocation: {rule: least_exposed}
-"""
 TURN = (
     "allocation: {rule: least_exposed}",
     "rotations: {turn: {workers: [ana, ben, cem], posts: [a, b, []], every: 5 min}}",

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from made_moving_line import moving_line
 from naive_line import Line, grid
 from plans import plan, ran
 
@@ -11,39 +12,14 @@ from opsim.kpi.table import figures
 from opsim.laws import audit
 from opsim.log import FINISH, QUEUE, SENT_ON, STANDS, WALK, WORK
 
-LINE = """
-opsim: 1
-name: moving
-run: {horizon: HORIZON s, seed: SEED}
-layout: {places: {a: [0 m, 0 m], b: [6 m, 0 m], c: [15 m, 0 m], d: [21 m, 0 m]}}
-tasks:
-  t1: {dist: lognormal, mean: 42 s, cv: 0.3}
-  t2: {dist: lognormal, mean: 66 s, cv: 0.35}
-  t3: {dist: lognormal, mean: 50 s, cv: 0.25}
-stations: {s1: {at: a, tasks: [t1]}, s2: {at: b, tasks: [t2]}, gap: {at: c, tasks: []}, s3: {at: d, tasks: [t3]}}
-lines:
-  trim: {kind: moving, stations: [s1, s2, gap, s3], takt: 60 s, length: 6 m, lengths: {s2: 9 m, gap: 2.5 m},
-         speed: 0.1 m/s, upstream: UP m, drift: DRIFT m, unfinished: UNFINISHED}
-products: {car: {route: [s1, s2, gap, s3]}}
-release: {kind: saturated}
-workers:
-  w1: {walk: 1.1 m/s, skills: {s1: 1.0}}
-  w2: {walk: 1.1 m/s, skills: {s2: 1.1}}
-  w3: {walk: 1.1 m/s, skills: {s3: 1.0}}
-"""
 N = 40
-
-
-def written(seed, upstream, drift, unfinished, horizon=2400):
-    text = LINE.replace("SEED", str(seed)).replace("UP m", f"{upstream} m").replace("DRIFT", str(drift))
-    return text.replace("UNFINISHED", unfinished).replace("HORIZON", str(horizon))
 
 
 @pytest.mark.parametrize("unfinished", ["send_on", "stop"])
 @pytest.mark.parametrize(("upstream", "drift"), [(0, 0), (1.5, 0), (0, 2), (2, 1.5), (7, 8)])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_begin_and_end_is_that_of_the_recursion(seed, upstream, drift, unfinished):
-    p = plan(written(seed, upstream, drift, unfinished))
+    p = plan(moving_line(upstream, drift, unfinished, seed))
     log = run_plan(p)
     audit(log, p)
     ranks = [1, 2, 3]  # natural order: gap, s1, s2, s3

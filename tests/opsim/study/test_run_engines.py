@@ -1,16 +1,17 @@
-"""A run by either engine; the fast one is a stand-in here (its own rows: tests/opsim/engine)."""
+"""A run by either engine; the fast one is mostly a stand-in here (its own rows: tests/opsim/engine)."""
 
 import json
 
 import pytest
-from plans import CELL, loaded
+from plans import CELL, line, loaded
 from stand_in_engine import stand_in
 
 from opsim.problems import ScenarioError
+from opsim.study import engine_choice, run_scenario
 from opsim.study import replicate as replicating
-from opsim.study import run_scenario
 from opsim.study.folder import engine_said
 from opsim.study.manifest import digest
+from opsim.study.precision import read_precision
 
 KEPT = ("summary.json", "kpis.parquet", "scenario.resolved.yaml", "finished.json")
 
@@ -39,6 +40,12 @@ def test_both_engines_write_the_same_bytes_and_the_manifest_says_which_it_was(by
     assert engine_said(by_simpy) == {"asked": "simpy", "used": "simpy", "why": "which is the reference"}
     ours, theirs = (json.loads((folder / "manifest.json").read_text()) for folder in (tmp_path, by_simpy))
     assert digest(ours) == digest(theirs) and {key for key in ours if ours[key] != theirs[key]} == {"engine"}
+
+
+def test_the_fast_engine_itself_writes_the_same_bytes(by_simpy, tmp_path):
+    run_scenario(loaded(CELL), folder=tmp_path, processes=2, engine="fast")
+    assert bytes_of(tmp_path) == bytes_of(by_simpy)
+    assert len(list((tmp_path / "events").iterdir())) == 3 and engine_said(tmp_path)["used"] == "fast"
 
 
 def test_a_run_goes_on_with_the_other_engine_and_the_manifest_says_so(by_simpy, tmp_path, monkeypatch):
@@ -90,13 +97,6 @@ def test_it_is_compiled_before_any_process_is_started(tmp_path, monkeypatch):
     assert started == [(True, 1)] and chosen == ["fast"] and steps[-1] == (3, 3)
 
 
-def test_an_engine_may_run_in_threads_with_the_same_bytes(by_simpy, tmp_path, monkeypatch):
-    monkeypatch.setattr(replicating, "IN_THREADS", frozenset({"fast"}))
-    made = stand_in(monkeypatch)
-    run_scenario(loaded(CELL), folder=tmp_path, processes=2, engine="fast")
-    assert len({process for process, _ in made.ran}) == 1 and bytes_of(tmp_path) == bytes_of(by_simpy)
-
-
 def test_what_the_fast_engine_does_not_run_leaves_no_folder(tmp_path, monkeypatch):
     stand_in(monkeypatch, refuses=["belts"])
     with pytest.raises(ScenarioError, match="belts"):
@@ -109,4 +109,27 @@ def test_auto_of_little_work_is_simpy_and_the_manifest_says_why(by_simpy, tmp_pa
     run_scenario(loaded(CELL), folder=tmp_path, processes=1, engine="auto")
     assert made.asked_for == [] and bytes_of(tmp_path) == bytes_of(by_simpy)
     said = engine_said(tmp_path)
-    assert (said["asked"], said["used"]) == ("auto", "simpy") and "less than a second of work" in said["why"]
+    assert (said["asked"], said["used"]) == ("auto", "simpy") and "less than a second" in said["why"]
+
+
+@pytest.mark.parametrize(("there", "engine"), [(0, "fast"), (2, "simpy")])
+def test_auto_counts_the_replications_that_are_not_there_yet(tmp_path, monkeypatch, there, engine):
+    """Of 15 s each: three are worth compiling for 20 s, the last one is not."""
+    stand_in(monkeypatch)
+    monkeypatch.setattr(engine_choice, "simpy_s", lambda plan: 15.0)
+    if there:
+        run_scenario(loaded(CELL), folder=tmp_path, processes=1, replications=there)
+    run_scenario(loaded(CELL), folder=tmp_path, processes=1, engine="auto")
+    assert engine_said(tmp_path)["used"] == engine
+
+
+def test_auto_is_asked_again_as_a_precision_needs_more_replications(tmp_path, monkeypatch):
+    """Of 1 s each: ten are not worth compiling for 20 s, the first 40 are; and so are the last twenty then."""
+    made, told = stand_in(monkeypatch), []
+    monkeypatch.setattr(engine_choice, "simpy_s", lambda plan: 1.0)
+    short, never = loaded(line(1, 1, horizon="1 min", warm_up="0 s")), read_precision("throughput_per_h=0.01%")
+    how = {"precision": [never], "replications": 50, "processes": 1, "engine": "auto"}
+    run_scenario(short, folder=tmp_path, chosen=told.append, **how)
+    assert [replication for _, replication in made.ran] == [*range(20, 50)]
+    assert [one.engine for one in told] == ["simpy", "fast"] and "about 40 s" in told[1].why
+    assert (engine_said(tmp_path)["used"], engine_said(tmp_path)["earlier"]) == ("fast", ["simpy"])

@@ -4,13 +4,14 @@ import json
 import os
 import signal
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from checked_floors import plan_of
 from engine_evidence.compared import Seen, seen
 from engine_evidence.coverage import PLAN_WORDS, VOCABULARY, blocks_of, shown_by
-from engine_evidence.equality import ENOUGH_FLOORS, compared, shortfalls
+from engine_evidence.equality import ENOUGH_FLOORS, compared, main, shortfalls
 from engine_evidence.floors import floor_text, replication_of
 from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
@@ -123,6 +124,16 @@ def test_what_the_floors_fall_short_of_is_told():
     assert one.words & set(PLAN_WORDS) == blocks_of(plan_of(json.dumps(SHOP)))
 
 
+def exit_code(monkeypatch, *words):
+    monkeypatch.setattr("sys.argv", ["equality", *words])
+    return main()
+
+
+def test_where_nothing_is_compared_nothing_is_shown(monkeypatch):
+    assert exit_code(monkeypatch, "--from", "5", "--to", "3") == 1
+    assert exit_code(monkeypatch, "--simpy-only", "--from", "5", "--to", "6") == 0
+
+
 @pytest.mark.parametrize("column", ["end_s", "k", "worker", "pace_shift"])
 def test_one_bit_in_one_row_is_a_difference(column):
     log = run_plan(plan_of(json.dumps(SHOP | HAND)))
@@ -132,6 +143,31 @@ def test_one_bit_in_one_row_is_a_difference(column):
     other = EventLog(log.replication, log.horizon_s, log.columns | {column: changed}, log.names)
     assert first_difference(log, log) == ""
     assert first_difference(log, other).startswith(f"row {at} of {len(log)} and {len(log)}: {column}\n")
+
+
+def other_log(log, column, change):
+    """A log with another column, to the last bit."""
+    return EventLog(log.replication, log.horizon_s, log.columns | {column: change(log[column].copy())}, log.names)
+
+
+def minus_zero(times_s):
+    times_s[np.flatnonzero(times_s == 0.0)[0]] = -0.0
+    return times_s
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda log: other_log(log, "start_s", minus_zero), "start_s"),
+        (lambda log: other_log(log, "job", lambda jobs: jobs.astype(np.int32)), "column job holds int64 and int32"),
+        (lambda log: replace(log, horizon_s=601.0), "horizon 600.0 s and 601.0 s"),
+        (lambda log: replace(log, replication=1), "replication 0 and 1"),
+        (lambda log: replace(log, names=log.names | {"worker": ("zoe",)}), "the names of column worker"),
+    ],
+)
+def test_what_equals_in_numbers_alone_is_a_difference(make, said):
+    log = run_plan(plan_of(json.dumps(SHOP | HAND)))
+    assert said in first_difference(log, make(log))
 
 
 def test_a_row_that_is_missing_is_a_difference():

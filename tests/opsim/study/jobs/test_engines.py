@@ -1,4 +1,4 @@
-"""The engine of every point of a study; the fast one is a stand-in."""
+"""The engine of every point of a study; the fast one is mostly a stand-in."""
 
 import json
 
@@ -8,16 +8,18 @@ from stand_in_engine import install_rule, stand_in
 
 from opsim.engine.choice import NotFast
 from opsim.problems import ScenarioError
-from opsim.study.jobs import Answers, Job, Point, Source
+from opsim.study.jobs import Answers, Job, Point, Source, engines
 from opsim.study.jobs.engines import Engines, shape_of
 from opsim.study.jobs.folder import open_study
 from opsim.study.jobs.header import header_of
 from opsim.study.jobs.journal import Journal
 from tests.opsim.cli.calls import LINE, line
 
-POINTS = [Point(f"buffer {n}", {"stations.saw.buffer": n}, "base") for n in (1, 2, 3)]
+POINTS = [Point(f"buffer {n}", {"stations.saw.buffer": n}, "base") for n in (2, 4, 3)]
 JOBS = [Job(point, n) for point in POINTS for n in range(2)]
 FIGURES = ("throughput_per_h", "station_states")
+TEAM = {"fixed": "25 s"}
+TWO = {f"workers.{name}": {"skills": {"press": 1.0}} for name in ("ana", "ben", "cem")}
 
 
 @pytest.fixture
@@ -41,6 +43,17 @@ def test_both_engines_give_the_same_answers_and_a_journal_of_the_same_bytes(sour
         journal.close()
     assert np.array_equal(found["simpy"], found["fast"]) and len(made.ran) == len(JOBS)
     assert (tmp_path / "simpy.jsonl").read_bytes() == (tmp_path / "fast.jsonl").read_bytes()
+
+
+def test_the_fast_engine_itself_gives_a_journal_of_the_same_bytes(source, tmp_path):
+    for engine, processes in (("simpy", 1), ("fast", 2)):
+        journal = Journal(own=tmp_path / f"{engine}.jsonl")
+        Answers(source, journal, processes=processes, engine=engine).ensure(JOBS)
+        journal.close()
+    by_simpy, by_fast = (
+        sorted((tmp_path / f"{engine}.jsonl").read_bytes().splitlines()) for engine in ("simpy", "fast")
+    )
+    assert by_simpy == by_fast and len(by_fast) >= len(JOBS)
 
 
 def test_a_study_goes_on_with_the_other_engine(source, tmp_path, monkeypatch):
@@ -114,11 +127,58 @@ def test_what_was_not_worth_it_may_be_so_with_more_replications(source, monkeypa
     assert len(made.ran) == 19
 
 
+@pytest.mark.parametrize(("horizons", "engine"), [("1 90", "auto"), ("90 2 1", "auto"), ("1 2", "simpy")])
+def test_of_points_that_are_alike_the_first_and_the_last_tell_how_much_work_there_is(
+    source, monkeypatch, horizons, engine
+):
+    """SimPy would take half a second an hour: (0.5 s + 45 s) / 2 x 2 points, or x 3; or 1.5 s."""
+    stand_in(monkeypatch)
+    monkeypatch.setattr(engines, "simpy_s", lambda plan: plan.horizon_s / 7200)
+    found = Engines(source, "auto")
+    points = [Point(h, {"run.horizon": f"{h} h"}, "base") for h in horizons.split()]
+    found.prepare([Job(point, 0) for point in points])
+    assert {found.of(point) for point in points} == {engine}
+
+
+def test_work_is_done_on_all_cores_that_may_be_used(source, monkeypatch):
+    monkeypatch.setattr(engines, "simpy_s", lambda plan: 15.0)
+    taken = {}
+    for at_once in (1, 2, 8):
+        stand_in(monkeypatch)
+        found = Engines(source, "auto", at_once=at_once)
+        found.prepare(JOBS[:2])
+        taken[at_once] = found.of(POINTS[0])
+    assert taken == {1: "auto", 2: "simpy", 8: "simpy"}
+
+
+def test_what_is_compiled_here_is_not_counted_on_where_others_compute(source, monkeypatch):
+    stand_in(monkeypatch).is_compiled = True
+    monkeypatch.setattr(engines, "simpy_s", lambda plan: 3.0)
+    for here, engine in ((True, "auto"), (False, "simpy")):
+        found = Engines(source, "auto")
+        found.prepare(JOBS[:2], here=here)
+        assert found.of(POINTS[0]) == engine
+
+
+def test_a_team_of_one_and_of_two_are_both_made_ready(source, monkeypatch):
+    made = stand_in(monkeypatch)
+    points = [Point(f"team of {n}", {"tasks.drill": TEAM | {"team": n}} | TWO, "base") for n in (1, 2, 3)]
+    Answers(source, processes=1, engine="fast").ensure([Job(point, 0) for point in points])
+    assert [one.tasks[1].team for one in made.asked_for] == [1, 2]
+
+
 @pytest.mark.parametrize(
     ("one", "other", "alike"),
     [
-        ({"a": 1}, {"a": 7}, True),
+        ({"a": 2}, {"a": 7}, True),
         ({"a": 0}, {"a": 7}, False),
+        ({"a": 1}, {"a": 2}, False),
+        ({"a": 1.0}, {"a": 0.9}, False),
+        ({"a": 1}, {"a": 1.0}, True),
+        ({"a": "100 %"}, {"a": "95 %"}, False),
+        ({"a": "95 %"}, {"a": "90%"}, True),
+        ({"a": "1 s"}, {"a": "2 s"}, True),
+        ({"a": "1"}, {"a": "2"}, False),
         ({"a": "40 s"}, {"a": "55.5 s"}, True),
         ({"a": "0 s"}, {"a": "55.5 s"}, False),
         ({"a": "40 s"}, {"a": "40 min"}, False),
@@ -126,7 +186,7 @@ def test_what_was_not_worth_it_may_be_so_with_more_replications(source, monkeypa
         ({"a": True}, {"a": 1}, False),
         ({"a": None}, {"a": "none"}, False),
         ({"a": ["1 m", 2]}, {"a": ["3 m", 4]}, True),
-        ({"a": {"b": 1}}, {"a": {"b": 2}}, True),
+        ({"a": {"b": 3}}, {"a": {"b": 2}}, True),
         ({"a": {"b": 1}}, {"a": {"c": 1}}, False),
         ({"a": 1}, {"b": 1}, False),
     ],
