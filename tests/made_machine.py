@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import TABLE, Arena, Handle, List, cast, step, struct
 from opsim.engine.fast_engine.parts.state import Floor
+from opsim.ergonomics.kernels.compiled import compiled
 
 
 @struct
@@ -18,6 +19,8 @@ class Box:
     weight: float
 
 
+entered = compiled(nogil=True)
+"""A function that Python calls."""
 as_box, as_floor = cast(Box), cast(Floor)
 
 

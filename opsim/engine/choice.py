@@ -42,6 +42,7 @@ class Choice:
         return f"the {'fast' if self.engine == FAST else 'SimPy'} engine, {self.why}"
 
 
+NO_COMPILER = "numba's compiler is switched off here (NUMBA_DISABLE_JIT); unset that to have it"
 REFERENCE = Choice(SIMPY, "which is the reference")
 
 
@@ -82,7 +83,14 @@ def able_to(asked: str, plan: Plan) -> Choice:
 
 
 def refused(plan: Plan) -> list[Refusal]:
-    """All that the fast engine does not run of a Plan: rules that are plug-ins, then what it says itself."""
+    """All that the fast engine does not run of a Plan: rules that are plug-ins, then what it says itself.
+
+    Without numba's compiler it runs nothing.
+    """
+    from numba import config
+
+    if getattr(config, "DISABLE_JIT", 0):
+        return [Refusal(NO_COMPILER)]
     from opsim.engine.fast_engine import unsupported
     from opsim.engine.plugin_rules import plugin_rules
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,13 +19,16 @@ _LEFT = {
     "ankle": (-0.03, 0, -1), "toe": (0.92, 0.16, -0.35), "foot": (0.92, 0.16, -0.35), "heel": (-0.5, 0, -1),
 }  # fmt: skip
 """Ahead, to the left, up; those of the right side are mirrored. Of the made library's people before they reach."""
+NOBODYS = SimpleNamespace(names=("pelvis", "chest"), parents=(-1, 0))
+"""The skeleton where nobody works."""
 
 
 def standing(plan: Plan, replication: int) -> Standing:
     """The posture and each worker's bones: those with which he walks."""
     found = [bones_m(plan, replication, rank) for rank in range(len(plan.workers))]
-    skeleton = found[0][0]
-    return Standing(skeleton, standing_directions(tree_of(skeleton)), np.stack([bones for _, bones in found]))
+    skeleton = found[0][0] if found else NOBODYS
+    directions = standing_directions(tree_of(skeleton))
+    return Standing(skeleton, directions, np.array([bones for _, bones in found]).reshape(len(found), len(directions)))
 
 
 def standing_directions(tree: Tree) -> np.ndarray:

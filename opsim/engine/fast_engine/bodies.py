@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from opsim.engine.fast_engine.interrupts import handled
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.settle import NO_LUCK
 
@@ -19,7 +20,7 @@ UNKNOWN = -1
 
 
 class Bodies:
-    """Of a floor that is set up. What was asked stays known until a replication has other people.
+    """Of a floor that is set up. What was asked stays known until a replication has other people, or an answer fails.
 
     heaviness, rates, courses : (workers, tasks), NaN or UNKNOWN where nobody has asked; the engine reads them in place
     """
@@ -34,12 +35,13 @@ class Bodies:
         self._workforce: int | None = None
         self._numbers: Any = None
         self._callbacks: list[Any] = []
+        self._spoilt = False
 
     def begin(self, numbers: Any) -> None:
         """A replication begins; ``numbers`` : those of it, which are told where something fails."""
         self._numbers = numbers
-        if numbers.draws.workforce != self._workforce:
-            self._workforce = numbers.draws.workforce
+        if self._spoilt or numbers.draws.workforce != self._workforce:
+            self._spoilt, self._workforce = False, numbers.draws.workforce
             self._forget()
 
     def _forget(self) -> None:
@@ -56,8 +58,9 @@ class Bodies:
 
         def asked(one: int, other: int) -> int:
             try:
-                answer(one, other)
+                handled(answer, one, other)
             except BaseException as error:  # NOTE: nothing may be raised through compiled code
+                self._spoilt = True  # what the engine goes on with until it ends is no answer
                 self._numbers.failed, self.floor.error = error, NO_LUCK
             return 0
 

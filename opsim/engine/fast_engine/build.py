@@ -6,6 +6,7 @@ from math import nan
 from typing import Any
 
 from opsim.engine.fast_engine import blocks, columns, completion, material, release, settle
+from opsim.engine.fast_engine.limits import refuse_too_many
 from opsim.engine.fast_engine.machine import Arena, Handle, line_of, step_of
 from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.parts import structs_of_blocks
@@ -33,6 +34,7 @@ class Build:
     """
 
     def __init__(self, plan: Plan):
+        refuse_too_many(plan)
         self.plan, self.arena = plan, Arena()
         self.steps: dict[int, Step] = {}
         self.floor = self.arena.new("Floor")

@@ -1,7 +1,8 @@
 """Rows as steps write them -> columns of an EventLog, in their one order, a few hundred at a time.
 
 Rows are written when they end, so they come in the order of ``end_s`` by themselves: only those of one instant have to
-be put in order. Where a block writes rows of the past at the end (closed hours), ``in_order`` sorts all of them after.
+be put in order. Where a block writes rows of the past at the end (closed hours), or very many end at once,
+``in_order`` sorts all of them after.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from opsim.log import ORDER
 
 AT_ONCE = 256
 """Rows before they are put into columns: as many as stay in the fastest memory."""
+MOST_SORTED = 4096
+"""Rows of one instant: of more, insertion would take minutes, and all rows are sorted at the end instead."""
 WORDS = ROW_BYTES // 8
 _as_row = cast(Row)
 
@@ -101,14 +104,29 @@ def _sort(first: int, n: int, order: Array[int]) -> None:
         order[here] = number
 
 
+@inlined
+def _as_written(n: int, order: Array[int]) -> None:
+    for number in range(n):
+        order[number] = number
+
+
 @step
 def put_rows(floor: Floor, n: int) -> None:
-    """The first n rows behind those in the columns; ``floor.unordered`` says where they do not belong there."""
+    """The first n rows behind those in the columns; ``floor.unordered`` says where they may not belong there.
+
+    Raises MemoryError.
+    """
     if floor.n_rows + n > floor.room:
-        call_out(floor.more_rows, floor.arena, floor.n_rows + n)
+        call_out(floor.more_rows, 0, floor.n_rows + n)
+        if floor.n_rows + n > floor.room:
+            raise MemoryError
     columns, at, first, order = floor.columns, floor.n_rows, floor.row_first, floor.row_order
-    _sort(first, n, order)
-    if n and _row(first, order[0]).end_s < floor.last_end_s:
+    if n > MOST_SORTED:
+        _as_written(n, order)
+        floor.unordered = 1
+    else:
+        _sort(first, n, order)
+    if n and at and _row(first, order[0]).end_s <= floor.last_end_s:  # of one instant, some are in the columns already
         floor.unordered = 1
     for i in range(n):
         row, to = _row(first, order[i]), at + i

@@ -81,6 +81,8 @@ def pass_on(floor: Floor, human: Human) -> None:
         human.task = -1
     if human.courses[task] == UNKNOWN:
         call_out(human.effects.ask_burden, human.worker.rank, task)
+        if human.courses[task] == UNKNOWN:
+            raise RuntimeError("nobody said how heavy a task is")
     course = human.courses[task]
     if not course:
         human.tired = rest(muscles, work_s + rest_s)

@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from opsim.engine.fast_engine.interrupts import handled
 from opsim.engine.fast_engine.luck.draws import BlockDraws
+from opsim.engine.fast_engine.luck.whole import Whole
 from opsim.engine.fast_engine.machine import Arena, Handle
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD
@@ -82,7 +84,7 @@ class Numbers:
         self._asked: dict[int, int] = {}
         self._words: dict[int, Any] = {}
         self._kept: list[Any] = []
-        self._whole: dict[int, np.ndarray] = {}
+        self._whole: dict[int, Whole] = {}
         self._lacking = 0
         self.callback = MORE(self._more)
         floor.more_luck = ctypes.cast(self.callback, ctypes.c_void_p).value
@@ -138,11 +140,9 @@ class Numbers:
         """Called by the engine: item ``item`` of a stream, and what follows, is wanted."""
         words = _STREAM.from_address(address)
         try:
-            self._fill(words, item // BLOCK)
+            handled(self._fill, words, item // BLOCK)
         except BaseException as error:  # NOTE: nothing may be raised through compiled code
-            self.failed, self.floor.error = error, NO_LUCK
-            first = item if words[_AT["next"]] >= 0 else 0
-            self._give(words, (np.ones(item + BLOCK - first),) * 3, first)
+            self.failed, self.floor.error = error, NO_LUCK  # nothing is given: compiled code raises
         return 0
 
     def _fill(self, words: Any, block: int) -> None:
@@ -152,11 +152,11 @@ class Numbers:
         if words[_AT["next"]] >= 0:
             self._give(words, self._stream(number).fill(block, self._ahead(number, block)), block * BLOCK)
             return
-        known = self._whole.get(number)
-        first = 0 if known is None else known.size // BLOCK
-        more = self._stream(number).fill(first, max(block + 1 - first, self._ahead(number, first)))
-        whole = self._whole[number] = more if known is None else np.concatenate([known, more])
-        self._give(words, whole, 0)
+        whole = self._whole.setdefault(number, Whole())
+        first = whole.n // BLOCK
+        if block >= first:  # else another one of this stream has asked for it
+            whole.add(self._stream(number).fill(first, max(block + 1 - first, self._ahead(number, first))))
+        self._give(words, whole.numbers, 0)
 
     def _ahead(self, stream: int, block: int) -> int:
         """How many blocks from one on: what was needed so far, else one more than there were in this replication."""

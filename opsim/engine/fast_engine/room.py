@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from contextlib import suppress
 
 import numpy as np
 
@@ -46,13 +47,14 @@ class Columns:
         self._arrays = {}
         return in_order(found) if self.floor.unordered else found
 
-    def _give_more(self, _arena: int, n_rows: int) -> int:
-        """Called by the engine: room for so many rows at least."""
-        room, n, before = max(2 * self.floor.room, n_rows), self.floor.n_rows, self._arrays
-        self._arrays = _arrays(room)
-        for name, column in before.items():
-            self._arrays[name][:n] = column[:n]
-        self._say(room)
+    def _give_more(self, _: int, n_rows: int) -> int:
+        """Called by the engine: room for so many rows at least. It raises MemoryError where there is none."""
+        with suppress(MemoryError):
+            room, n, before = max(2 * self.floor.room, n_rows), self.floor.n_rows, self._arrays
+            self._arrays = _arrays(room)
+            for name, column in before.items():
+                self._arrays[name][:n] = column[:n]
+            self._say(room)
         return 0
 
     def _say(self, room: int) -> None:

@@ -7,6 +7,7 @@ from threading import local
 
 from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
+from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.room import Columns
@@ -16,8 +17,8 @@ from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
 
-MOST_EVENTS = 1_000_000
-"""Before Python is asked whether somebody wants to stop."""
+MOST_EVENTS = 1 << 17
+"""Before signals are handled: 10 ms of a small floor, a second of one of thousands of stations."""
 
 
 class Machine:
@@ -33,8 +34,20 @@ class Machine:
         self.build.arena.freeze()
 
     def run(self, replication: int) -> EventLog:
-        """One replication. Raises EndlessInstant, and whatever a model raises when it is asked for times."""
-        at = self.floor.address
+        """One replication. Raises EndlessInstant, MemoryError, and whatever a model raises when it is asked for times.
+
+        Ctrl-C and other signals are handled between events, or while numbers are drawn: what their handlers raise too.
+        """
+        with signals_wait() as waiting:
+            try:
+                return self._run(replication, waiting)
+            except Exception:
+                if self.numbers.failed is not None:
+                    raise self.numbers.failed from None
+                raise
+
+    def _run(self, replication: int, waiting: Waiting) -> EventLog:
+        at, self.numbers.failed = self.floor.address, None
         self.numbers.begin(replication)
         self.build.arena.restore()
         for one in self.build.answers:
@@ -42,17 +55,21 @@ class Machine:
         self.columns.begin()
         start_floor(at)
         while (state := run_floor(at, MOST_EVENTS)) not in (DONE, FAILED) and self.numbers.failed is None:
-            pass
-        if self.numbers.failed is not None:
-            raise self.numbers.failed
+            waiting.handle()
+        self._raise_what_failed()
         if state == FAILED:
             self._refuse()
         close_floor(at)
+        self._raise_what_failed()
         return EventLog(replication, self.plan.horizon_s, self.columns.end(), names_of(self.plan))
 
+    def _raise_what_failed(self) -> None:
+        if self.numbers.failed is not None:
+            raise self.numbers.failed
+
     def _refuse(self) -> None:
-        stations = [station for gate in self.floor.stirred for station in self._stations_of(gate)]
-        names = ", ".join(self.plan.stations[station].name for station in stations)
+        stations = {station for gate in self.floor.stirred for station in self._stations_of(gate)}
+        names = ", ".join(sorted(self.plan.stations[station].name for station in stations))
         where = f"t = {self.floor.now} s: over {MOST_ROUNDS} rounds in one instant"
         raise EndlessInstant(f"{where}; still moving at: {names}")
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import cache
+from hashlib import blake2b
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -13,8 +16,40 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
 
     def decorate(function: Callable) -> Callable:
         try:
-            return numba.njit(cache=True, **options)(function)
-        except RuntimeError:  # numba: "cannot cache function ...: no locator available"
+            return _seeing_helpers(numba.njit(cache=True, **options)(function), function)
+        except RuntimeError as error:  # numba: "cannot cache function ...: no locator available"
+            if "locator" not in str(error):
+                raise
             return numba.njit(**options)(function)
 
     return decorate
+
+
+def _seeing_helpers(made: Any, function: Callable) -> Any:
+    """numba compiles anew when the file of a function changes: now too when that of one does that it calls.
+
+    NOTE: this is an inner part of numba; where that is another one, only the file itself is seen.
+    """
+    file: Any = getattr(getattr(made, "_cache", None), "_cache_file", None)
+    others = sorted({one.__code__.co_filename for one in _called(function, set())} - {function.__code__.co_filename})
+    if others and hasattr(file, "_source_stamp"):
+        file._source_stamp = (file._source_stamp, *map(_content_of, others))
+    return made
+
+
+def _called(function: Callable, seen: set[int]) -> Iterator[Any]:
+    """The compiled functions that one names, and those that they name."""
+    for name in function.__code__.co_names:
+        other = getattr(function.__globals__.get(name), "py_func", None)
+        if other is not None and id(other) not in seen:
+            seen.add(id(other))
+            yield other
+            yield from _called(other, seen)
+
+
+@cache
+def _content_of(file: str) -> str:
+    try:
+        return blake2b(Path(file).read_bytes(), digest_size=16).hexdigest()
+    except OSError:
+        return ""

@@ -25,6 +25,14 @@ def mine(tmp_path, monkeypatch):
     return line(tmp_path, LINE + MINE)
 
 
+@pytest.mark.parametrize(("engine", "code"), [("fast", 2), ("auto", 0)])
+def test_without_numbas_compiler_it_is_said_what_to_do(engine, code, tmp_path, monkeypatch):
+    monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
+    found, _, said = opsim("run", line(tmp_path), "-o", tmp_path / "out", "--engine", engine, "--processes", 1)
+    assert found == code and "NUMBA_DISABLE_JIT" in said
+    assert ("--engine simpy runs it" in said) == (engine == "fast")
+
+
 @pytest.mark.parametrize("verb", RUNNING)
 def test_every_verb_that_runs_something_has_the_option_and_knows_the_nearest_word(verb, tmp_path):
     code, _, complaint = opsim(verb, line(tmp_path), "--engine", "fsat")

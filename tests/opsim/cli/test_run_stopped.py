@@ -82,6 +82,19 @@ def test_sigterm_is_as_control_c_with_143(running):
     assert all(gone(child) for child in at_work)
 
 
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_the_fast_engine_in_one_process_stops_too(tmp_path, number, code):
+    file = line(tmp_path, LINE.replace("horizon: 20 min, replications: 2", "horizon: 2000 h, replications: 2000"))
+    call = ["run", str(file), "-o", str(tmp_path / "out"), "--processes", "1", "--engine", "fast"]
+    command = [sys.executable, "-c", f"from opsim.cli import main; main({call})"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    until(lambda: finished(tmp_path))
+    process.send_signal(number)
+    _, complaint = process.communicate(timeout=SOON_S)
+    assert process.returncode == code and "finished replications are kept" in complaint
+    assert "Traceback" not in complaint and "Exception ignored" not in complaint
+
+
 def test_a_killed_parent_leaves_no_process_behind(running):
     at_work = children(running.pid)
     running.kill()

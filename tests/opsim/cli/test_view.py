@@ -5,7 +5,7 @@ import pytest
 
 from opsim.cli.replay_drawn import Drawn, too_large
 from opsim.shipped import shipped_folder
-from tests.opsim.cli.calls import opsim
+from tests.opsim.cli.calls import line, opsim
 
 CELL = """
 opsim: 1
@@ -76,6 +76,12 @@ def test_two_variants_stand_on_one_page_beside_both_folders(results):
     assert [one["variant"] for one in told["variants"]] == ["together", "alone"]
     page = (results / "replay.html").read_text()
     assert 'id="columns-0"' in page and 'id="columns-1"' in page and told["bytes"] == len(page.encode())
+
+
+def test_a_floor_that_nobody_works_on_is_shown(tmp_path):
+    opsim("run", line(tmp_path), "-o", tmp_path / "out", "--processes", 1, "--replications", 1)
+    code, said, _ = opsim("view", tmp_path / "out")
+    assert code == 0 and (tmp_path / "out" / "base" / "replay.html").is_file() and "replay: " in said
 
 
 def test_a_stretch_of_the_run_is_named_by_the_clock(results):

@@ -46,6 +46,15 @@ def test_fast_is_refused_with_everything_that_it_does_not_run(monkeypatch, tmp_p
     assert {*refused.value.refusals[1].places} == {*own, ("flow", "dispatch")}
 
 
+def test_without_numbas_compiler_there_is_no_fast_engine(monkeypatch):
+    monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
+    some = plan(LONG)
+    with pytest.raises(NotFast, match="NUMBA_DISABLE_JIT"):
+        choose("fast", some)
+    chosen = choose("auto", some, 1000)
+    assert chosen.engine == "simpy" and "numba's compiler is switched off here (NUMBA_DISABLE_JIT)" in chosen.words
+
+
 def test_a_refusal_says_the_same_in_another_process():
     said = NotFast([Refusal("belts"), Refusal("kits", (("stations", "a"),))])
     there = pickle.loads(pickle.dumps(said))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ class Arena:
         self._next = 0
         self._at = self._end = 0
         self._frozen: tuple[list[tuple[int, np.ndarray]], int, int, int] | None = None
-        self._more = MORE(lambda _arena, n_bytes: self._give_more(n_bytes))
+        self._more = MORE(lambda _, n_bytes: self._give_more(n_bytes))
         self.memory = self.new("Memory")
         self.memory.more = ctypes.cast(self._more, ctypes.c_void_p).value
         self.memory.free = self.array("int", [0] * CLASSES)
@@ -85,9 +86,10 @@ class Arena:
         self._end = chunk.ctypes.data + chunk.nbytes
 
     def _give_more(self, n_bytes: int) -> int:
-        """Called by the engine, which takes from the new chunk then."""
-        self._open_chunk(n_bytes)
-        self.memory.at, self.memory.end = self._at, self._end
+        """Called by the engine, which takes from the new chunk then, or raises MemoryError where there is none."""
+        with suppress(MemoryError):
+            self._open_chunk(n_bytes)
+            self.memory.at, self.memory.end = self._at, self._end
         return 0
 
 

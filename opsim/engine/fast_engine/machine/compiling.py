@@ -88,16 +88,3 @@ def kept(signature: Any, function: Callable) -> Any:
         if "locator" not in str(error):
             raise
         return numba.njit(signature, **NO_WRAPPERS)(function)
-
-
-def entered(function: F) -> F:
-    """A function that Python calls, kept on disk where that can be."""
-    made: Any
-    try:
-        made = numba.njit(cache=True, nogil=True)(function)
-    except RuntimeError as error:
-        if "locator" not in str(error):
-            raise
-        made = numba.njit(nogil=True)(function)
-    entry: F = made
-    return entry

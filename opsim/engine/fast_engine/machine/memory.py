@@ -11,7 +11,8 @@ from opsim.engine.fast_engine.machine.compiling import inlined, intrinsic
 from opsim.engine.fast_engine.machine.structs import I64, POINTER, Array, Pointer, cast, size_of, struct
 
 SMALL, CLASSES = 128, 192
-"""Sizes below SMALL x 16 bytes have a list of their own of what was given back; larger ones one for each power of 2."""
+"""Sizes below SMALL x 16 bytes have a list of their own of what was given back; larger ones one for each power of 2,
+to which they are rounded up."""
 
 
 @struct
@@ -24,13 +25,16 @@ class Memory:
     at: int
     end: int
     more: int
-    arena: int
     free: Array[int]
 
 
 @intrinsic
 def call_out(_typingctx: Any, address: Any, one: Any, other: Any) -> Any:
-    """The answer of a C function at an address, ``int64 f(int64, int64)``."""
+    """The answer of a C function at an address, ``int64 f(int64, int64)``.
+
+    NOTE: where Python fails in it before its first ``try``, that is printed and lost, and the answer is anything: who
+    calls looks at what should have been done.
+    """
 
     def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
         kind = ir.FunctionType(I64, [I64, I64])
@@ -51,25 +55,34 @@ def class_of(n_bytes: int) -> int:
     """The class of a size, which is a multiple of 16."""
     if n_bytes < 16 * SMALL:
         return n_bytes // 16
-    found = SMALL
-    while n_bytes > 16 * SMALL:
-        n_bytes >>= 1
+    found, room = SMALL, 16 * SMALL
+    while room < n_bytes:
+        room <<= 1
         found += 1
     return found
 
 
 @inlined
+def room_of(which: int) -> int:
+    """Bytes of a class."""
+    return 16 * which if which < SMALL else (16 * SMALL) << (which - SMALL)
+
+
+@inlined
 def take_bytes(memory: Memory, n_bytes: int) -> int:
-    """Address of so many bytes, a multiple of 16, all 0."""
+    """Address of so many bytes, a multiple of 16, all 0. Raises MemoryError."""
     which = class_of(n_bytes)
     at = memory.free[which]
     if at:
         memory.free[which] = words_at(at)[0]
     else:
-        if memory.at + n_bytes > memory.end:
-            call_out(memory.more, memory.arena, n_bytes)
+        room = room_of(which)
+        if memory.at + room > memory.end:
+            call_out(memory.more, 0, room)
+            if memory.at + room > memory.end:
+                raise MemoryError
         at = memory.at
-        memory.at = at + n_bytes
+        memory.at = at + room
     words = words_at(at)
     for i in range(n_bytes >> 3):
         words[i] = 0

@@ -6,6 +6,7 @@ of a struct, or calls another step, must be compiled anew when that one changes.
 
 from __future__ import annotations
 
+from functools import cache
 from hashlib import blake2b
 from os import environ
 from os.path import relpath
@@ -29,9 +30,22 @@ def sources() -> list[Path]:
     return sorted(path for path in (*found, *(() if fewer else SINGLE)) if path not in here)
 
 
+@cache
+def stamp_of(path: str) -> str:
+    """Of what stands in a file when it is first asked for; nothing where it cannot be read.
+
+    NOTE: times would be quicker, but an image or an archive may give two versions of a file the same time, and one
+    version two times.
+    """
+    try:
+        return blake2b(Path(path).read_bytes(), digest_size=16).hexdigest()
+    except OSError:
+        return ""
+
+
 def _stamp() -> str:
-    """Of names, sizes and times of the sources."""
-    told = [f"{relpath(path, OPSIM)} {path.stat().st_size} {path.stat().st_mtime_ns}" for path in sources()]
+    """Of names and contents of the sources."""
+    told = [f"{relpath(path, OPSIM)} {stamp_of(str(path))}" for path in sources()]
     return blake2b("\n".join(told).encode(), digest_size=8).hexdigest()
 
 

@@ -17,6 +17,7 @@ from llvmlite import ir
 from numba.core import cgutils, types
 
 from opsim.engine.fast_engine.machine.compiling import forced, intrinsic
+from opsim.engine.fast_engine.machine.stamp import stamp_of
 from opsim.engine.fast_engine.machine.structs import POINTER, at_byte, type_of
 
 F = TypeVar("F", bound=Callable)
@@ -50,12 +51,17 @@ def step(function: F) -> F:
     signature = (types.none if answer == "None" else type_of(answer))(*arguments)
     told = f"{function.__module__}.{function.__qualname__}({','.join(said.values())})->{answer}"
     line = int.from_bytes(blake2b(told.encode(), digest_size=4).digest(), "little") % LINES
-    if line in STEPS and STEPS[line].function.__qualname__ != function.__qualname__:
+    if line in STEPS and _name_of(STEPS[line].function) != _name_of(function):
         raise ValueError(f"{told} and {STEPS[line].name} share a line of the table: rename one of them")
+    stamp_of(function.__code__.co_filename)  # now: the file may be another one when the step is compiled
     made = STEPS[line] = Step(function, line, signature)
     call = _by_table(function, line, signature)
     _OF_CALLABLE[id(call)] = made
     return call
+
+
+def _name_of(function: Callable) -> tuple[str, str]:
+    return function.__module__, function.__qualname__
 
 
 def step_of(call: Any) -> Step:
@@ -123,6 +129,11 @@ def _call(builder: Any, context: Any, line: Any, answer: Any, arguments: Any, va
     return context.get_dummy_value() if answer == types.none else result
 
 
+def _sign(call: Any, parameters: list[inspect.Parameter]) -> None:
+    """numba reads from its signature what a call may be given."""
+    call.__signature__ = inspect.Signature(parameters)
+
+
 def _by_table(function: Callable, line: int, signature: Any) -> Any:
     def call(_typingctx: Any, *_args: Any) -> Any:
         def codegen(context: Any, builder: Any, _sig: Any, values: Any) -> Any:
@@ -133,7 +144,7 @@ def _by_table(function: Callable, line: int, signature: Any) -> Any:
 
     given = list(inspect.signature(function).parameters.values())
     first = inspect.Parameter("_typingctx", inspect.Parameter.POSITIONAL_OR_KEYWORD)
-    call.__signature__ = inspect.Signature([first, *given])  # type: ignore[attr-defined]
+    _sign(call, [first, *given])
     call.__name__ = function.__name__
     return intrinsic(call)
 
@@ -149,7 +160,7 @@ def _hook(answer: Any, n_arguments: int) -> Any:
         return answer(types.int64, *args[1:]), codegen
 
     parameters = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in names]
-    call.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    _sign(call, parameters)
     return intrinsic(call)
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-from opsim.engine.fast_engine.machine.stamp import STAMP
+from opsim.engine.fast_engine.machine.stamp import STAMP, stamp_of
 
 FORMAT = b"opsim step 1\n"
 PREFIX = "steps-"
@@ -85,37 +85,53 @@ def _key() -> str:
 
 
 @cache
-def _stamp_of(file: str) -> str:
-    found = os.stat(file)
-    return f"{found.st_size} {found.st_mtime_ns}"
+def shipped() -> Path | None:
+    """Beside the sources, where an image was made that holds machine code: who runs it may read there, and not write.
+
+    None: there is none, or it is ``folder`` itself, or ``NUMBA_CACHE_DIR`` says where to look.
+    """
+    from numba.core import config
+
+    known: Any = config
+    found = Path(__file__).parent / "__pycache__" / (PREFIX + _key())
+    return found if not known.CACHE_DIR and found != folder() and found.is_dir() else None
 
 
 def path_of(function: Callable, line: int) -> Path | None:
     """The file of a step: another one when the file changes in which the step is written."""
-    where = folder()
+    where = folder() or shipped()
     if where is None:
         return None
-    try:
-        stamp = _stamp_of(function.__code__.co_filename)
-    except OSError:
-        stamp = ""
+    stamp = stamp_of(function.__code__.co_filename)
     told = f"{function.__module__}.{function.__qualname__} {function.__code__.co_firstlineno} {stamp}"
     return where / f"{line:05d}-{blake2b(told.encode(), digest_size=6).hexdigest()}.step"
 
 
-def read(path: Path | None) -> Code | None:
-    """What is kept there; None: nothing, or nothing of use."""
+def _places(path: Path | None) -> list[Path]:
+    """Where it may be: where it would be written, then where it was shipped."""
     if path is None:
-        return None
-    try:
-        return Code.unpacked(path.read_bytes())
-    except OSError:
-        return None
+        return []
+    other = shipped()
+    return [path] if other is None or other == path.parent else [path, other / path.name]
+
+
+def read(path: Path | None) -> Code | None:
+    """What is kept there, or was shipped; None: nothing, or nothing of use."""
+    for one in _places(path):
+        with suppress(OSError):
+            if (found := Code.unpacked(one.read_bytes())) is not None:
+                return found
+    return None
+
+
+def is_kept(path: Path | None) -> bool:
+    """Whether there is something to read."""
+    return any(one.is_file() for one in _places(path))
 
 
 def keep(path: Path | None, code: Code) -> bool:
     """Keep machine code for later; whether that was possible."""
-    if path is None:
+    if path is None or path.parent == shipped():
         return False
     beside = path.with_name(f"{path.name}.{uuid4().hex[:12]}")
     try:
@@ -151,4 +167,7 @@ def forget_old(current: Path) -> None:
         shutil.rmtree(one, ignore_errors=True)
 
 
-__all__ = ["MOST_FOLDERS", "PREFIX", "Code", "folder", "forget_old", "keep", "path_of", "place", "read", "used"]
+__all__ = [
+    *("MOST_FOLDERS", "PREFIX", "Code", "folder", "forget_old", "is_kept", "keep", "path_of", "place", "read"),
+    *("shipped", "used"),
+]

@@ -15,7 +15,7 @@ import numpy as np
 from opsim.engine.fast_engine.machine.compiling import Compiled, compiled
 from opsim.engine.fast_engine.machine.linking import can_link, link
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
-from opsim.engine.fast_engine.machine.store import folder, keep, path_of, read, used
+from opsim.engine.fast_engine.machine.store import folder, is_kept, keep, path_of, read, used
 
 TABLE = np.zeros(LINES, dtype=np.int64)
 WORTH_HELP = 16
@@ -78,8 +78,7 @@ def is_complete(steps: Iterable[Step]) -> bool:
 
 def is_on_disk(one: Step) -> bool:
     """Whether the machine code of a step is kept."""
-    path = _path(one)
-    return path is not None and path.is_file()
+    return is_kept(_path(one))
 
 
 def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:

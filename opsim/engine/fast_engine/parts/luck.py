@@ -10,7 +10,8 @@ from opsim.engine.fast_engine.parts.state import Floor
 from opsim.streams import BLOCK
 
 DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE, HOLD, HOLD_RUN = range(1, 14)
-"""Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``luck_of`` of the engine."""
+"""Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``numbers.NAMED``."""
+MOST_RANKS = 1 << 16
 new_stream = fresh(Stream)
 _floats_at = array_at("float")
 TABLE, MASK = range(2)
@@ -38,7 +39,9 @@ def stream_id(purpose: int, one: int, two: int, three: int) -> int:
 
 @inlined
 def stream_of(floor: Floor, purpose: int, one: int, two: int, three: int) -> Stream:
-    """A stream from its beginning."""
+    """A stream from its beginning. Raises OverflowError for a rank beyond; of Plans ``limits`` has looked before."""
+    if (one | two | three) >= MOST_RANKS:
+        raise OverflowError("over 65,536 visits of a step by one job; --engine simpy runs it")
     stream: Stream = new_stream(floor)
     stream.id = stream_id(purpose, one, two, three)
     return stream

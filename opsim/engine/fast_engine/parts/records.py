@@ -58,7 +58,7 @@ class Stream:
 
 @struct
 class Row:
-    """A row of the event log, as wide as it is written; ``log`` of the engine makes columns of it."""
+    """A row of the event log, as wide as it is written; ``columns.put_rows`` makes columns of it."""
 
     kind: int
     start_s: float
@@ -163,7 +163,7 @@ class Product:
 
 @struct
 class Source:
-    """kind : its number in ``release.KINDS``; sequence : ranks of products in turn; ranks, mix : where they are drawn
+    """kind : ``release.BY_TIME`` or another there; sequence : ranks of products in turn; ranks, mix : those drawn
 
     orders : of a schedule; next_order : the one that comes next; to_s, hours : where gaps count open time alone
     """

@@ -260,7 +260,6 @@ class Floor:
     last_end_s: float
     more_luck: int
     drawn: Array[int]
-    arena: int
     n_rows: int
     n_stations: int
     stations: Array[Station]

@@ -3,15 +3,28 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor
+from made_machine import as_floor, empty_floor, entered
+from twins import twins
 
-from opsim.engine.fast_engine.columns import AT_ONCE, flush_all, flush_rows
+from opsim.engine.fast_engine.columns import AT_ONCE, MOST_SORTED, flush_all, flush_rows
 from opsim.engine.fast_engine.machine import complete, line_of, needed, step_of
-from opsim.engine.fast_engine.machine.compiling import entered
 from opsim.engine.fast_engine.parts.rows import new_row
 from opsim.engine.fast_engine.room import Columns
-from opsim.log import COLUMNS, ORDER
+from opsim.log import COLUMNS, OFF, ORDER
 
+CLOSED = """
+opsim: 1
+name: closed before and after
+run: {start: Mon 00:00, horizon: 24 h, seed: 5}
+layout: {places: {hall: [0 m, 0 m]}}
+shifts: {day: {from: 06:00, to: 14:00}}
+tasks: {soak: {fixed: 3 h, automatic: true}}
+stations:
+  a: {at: hall, tasks: [soak], buffer: 1000, shift: day}
+  b: {at: hall, tasks: [soak], buffer: 1000, shift: day}
+products: {one: {share: 0.5, route: [a]}, two: {share: 0.5, route: [b]}}
+release: {kind: poisson, every: 7 min}
+"""
 rows = st.tuples(*([st.integers(0, 3)] * len(ORDER)))
 
 
@@ -67,6 +80,26 @@ def test_more_rows_than_there_is_room_for():
 def test_an_instant_of_more_rows_than_are_put_in_order_at_once():
     found = [(7, 0, i % 2, 0, 0, 0, i, 0) for i in range(5 * AT_ONCE)]
     assert columns_of(found)["performance_id"].tolist() == sorted_whole(found)
+
+
+def test_an_instant_of_more_rows_than_are_put_in_order_at_all_is_sorted_at_the_end():
+    n = MOST_SORTED + 10
+    found = [(3, 0, 0, 0, 0, 0, 0, 0), *((7, 0, 0, 0, 0, 0, -i // 2, 0) for i in range(n)), (7, 0, 0, 0, 0, 0, 1, 0)]
+    arena, floor = empty_floor()
+    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    floor.flush_line = line_of(flush_rows)
+    columns = Columns(arena, floor)
+    arena.freeze()
+    columns.begin()
+    written(floor.address, np.array(found, dtype=np.int64))
+    assert floor.unordered == 1, "moved one by one"
+    assert columns.end()["performance_id"].tolist() == sorted_whole(found)
+
+
+def test_rows_of_the_horizon_stay_in_order_where_closed_hours_are_written_between_them():
+    """Those of the first hours are of the past: rows of the horizon come into columns with them, too soon."""
+    log = twins(CLOSED)
+    assert len(log) > AT_ONCE and len(log.of(OFF)) == 4 and (log.of(OFF)["end_s"] == log.horizon_s).sum() == 2
 
 
 def test_the_columns_of_one_run_stay_when_another_one_has_begun():

@@ -5,9 +5,8 @@ import heapq
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor
+from made_machine import as_floor, empty_floor, entered
 
-from opsim.engine.fast_engine.machine.compiling import entered
 from opsim.engine.fast_engine.parts.heap import forget_event, new_event, pop_event, push_event
 
 

@@ -79,6 +79,21 @@ def test_what_python_raises_when_it_is_asked_is_raised_by_the_run(human, monkeyp
         run_plan(replace(plan, seed=plan.seed + 1))  # what the same people do is known already
 
 
+@pytest.mark.parametrize("human", [MUSCLES, POSTURE])
+def test_an_answer_that_failed_is_asked_for_again_in_the_next_run(human, monkeypatch):
+    plan = planned(FLOOR, human)
+    plan = replace(plan, seed=plan.seed + 2)
+
+    def fails(*_args):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as broken:
+        broken.setattr(burden, "_drawn", fails)
+        with pytest.raises(KeyboardInterrupt):
+            run_plan(plan)
+    of_both(plan)
+
+
 def test_a_model_of_fatigue_that_nobody_knows_is_refused_by_its_name():
     plan = planned(FLOOR, POSTURE)
     stranger = type("Stranger", (SimpleNamespace,), {})

@@ -40,6 +40,12 @@ def test_wrong_seeds_are_found_out(monkeypatch):
     assert not looked_again()
 
 
+def test_without_a_compiler_nothing_is_tried(monkeypatch):
+    monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
+    monkeypatch.setattr(trust, "_seeds_agree", lambda: pytest.fail("tried"))
+    assert not looked_again()
+
+
 def test_no_tables_are_no_trust(monkeypatch):
     def none():
         raise AttributeError("ke_double")

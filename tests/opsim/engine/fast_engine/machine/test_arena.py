@@ -3,10 +3,9 @@
 from math import inf
 
 import pytest
-from made_machine import Box, as_box, as_floor, empty_floor
+from made_machine import Box, as_box, as_floor, empty_floor, entered
 
 from opsim.engine.fast_engine.machine import fresh, give_back
-from opsim.engine.fast_engine.machine.compiling import entered
 
 _new_box, _forget_box = fresh(Box), give_back(Box)
 

@@ -3,10 +3,9 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_box, as_floor, empty_floor
+from made_machine import as_box, as_floor, empty_floor, entered
 
 from opsim.engine.fast_engine.machine import clear, drop, drop_at, index_of, insert, pop_first, pop_last, push
-from opsim.engine.fast_engine.machine.compiling import entered
 
 PUSH, INSERT, POP_FIRST, POP_LAST, DROP_AT, DROP, CLEAR, INDEX = range(8)
 

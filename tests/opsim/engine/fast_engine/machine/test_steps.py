@@ -1,13 +1,14 @@
 """Steps call each other by the table: in any way round, found by their names, kept on disk."""
 
+from types import FunctionType
+
 import numpy as np
 import pytest
-from made_machine import as_floor, empty_floor, is_even, is_odd
+from made_machine import as_floor, empty_floor, entered, is_even, is_odd
 
-from opsim.engine.fast_engine.machine import TABLE, complete, line_of, needed, step_of
+from opsim.engine.fast_engine.machine import TABLE, complete, line_of, needed, step_of, steps
 from opsim.engine.fast_engine.machine import step as as_step
-from opsim.engine.fast_engine.machine.compiling import entered
-from opsim.engine.fast_engine.machine.steps import STEPS
+from opsim.engine.fast_engine.machine.steps import STEPS, Step
 from opsim.engine.fast_engine.machine.table import is_complete
 from opsim.engine.fast_engine.parts.state import Floor
 
@@ -45,6 +46,30 @@ def test_two_steps_of_one_line_are_refused(monkeypatch):
     monkeypatch.setitem(STEPS, line, step_of(is_even))
     with pytest.raises(ValueError, match="share a line of the table"):
         as_step(another)
+
+
+def test_two_steps_of_one_line_and_name_in_two_files_are_refused(monkeypatch):
+    def another(floor: Floor, n: int) -> bool:
+        return n > 0
+
+    line = step_of(as_step(another)).line
+    elsewhere = FunctionType(another.__code__, {**another.__globals__, "__name__": "elsewhere"}, another.__name__)
+    elsewhere.__qualname__ = another.__qualname__
+    monkeypatch.setitem(STEPS, line, Step(elsewhere, line, None))
+    with pytest.raises(ValueError, match="share a line of the table"):
+        as_step(another)
+
+
+def test_a_step_is_of_its_file_as_that_was_when_it_was_made(tmp_path, monkeypatch):
+    """Where the file is another one when the step is compiled, its machine code is not kept under that one's name."""
+    looked_at = []
+    monkeypatch.setattr(steps, "stamp_of", looked_at.append)
+
+    def another(floor: Floor, n: int) -> bool:
+        return n > 0
+
+    as_step(another)
+    assert looked_at == [__file__]
 
 
 def test_every_step_of_the_engine_has_a_line_of_its_own():

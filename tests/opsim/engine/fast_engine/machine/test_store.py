@@ -13,6 +13,7 @@ CODE = Code("some_function", ("exp", "memset"), b"\x00\x01 machine code \n and m
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(store, "folder", lambda: tmp_path / f"{PREFIX}now")
+    monkeypatch.setattr(store, "shipped", lambda: None)
     return tmp_path / f"{PREFIX}now"
 
 
@@ -38,8 +39,49 @@ def test_a_file_that_is_not_whole_is_as_none(folder, harm):
     assert store.read(path) == CODE
 
 
+@pytest.fixture
+def image(tmp_path, monkeypatch, folder):
+    """A step that was shipped, and the folder where that is."""
+    store.keep(store.path_of(a_step, 7), CODE)
+    there = folder.rename(tmp_path / "shipped")
+    monkeypatch.setattr(store, "shipped", lambda: there)
+    return there
+
+
+@pytest.mark.parametrize("writable", [True, False])
+def test_what_an_image_holds_is_read_by_who_cannot_write_there_and_not_changed(image, folder, monkeypatch, writable):
+    if not writable:
+        monkeypatch.setattr(store, "folder", lambda: None)
+    path = store.path_of(a_step, 7)
+    assert store.is_kept(path) and store.read(path) == CODE and not folder.exists()
+    before = [(one.name, one.stat().st_mtime_ns) for one in image.iterdir()]
+    assert store.keep(path, Code("newer", (), b"")) == writable
+    assert store.read(path).name == ("newer" if writable else CODE.name)
+    assert [(one.name, one.stat().st_mtime_ns) for one in image.iterdir()] == before
+
+
+def test_a_shipped_file_that_is_not_whole_is_as_none_and_its_better_is_kept_apart(image):
+    path = store.path_of(a_step, 7)
+    (image / path.name).write_bytes(b"half")
+    assert store.read(path) is None
+    assert store.keep(path, CODE) and store.read(path) == CODE
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_machine_code_is_shipped_beside_the_sources_unless_it_is_said_where_to_look(tmp_path, monkeypatch, named):
+    monkeypatch.setattr(store, "__file__", str(tmp_path / "store.py"))
+    there = tmp_path / "__pycache__" / (PREFIX + store._key())
+    there.mkdir(parents=True)
+    monkeypatch.setattr("numba.config.CACHE_DIR", "elsewhere" if named else "")
+    monkeypatch.setattr(store, "folder", lambda: tmp_path / "home")
+    assert store.shipped.__wrapped__() == (None if named else there)
+    monkeypatch.setattr(store, "folder", lambda: there)
+    assert store.shipped.__wrapped__() is None
+
+
 def test_where_nothing_can_be_written_nothing_is_kept(monkeypatch):
     monkeypatch.setattr(store, "folder", lambda: None)
+    monkeypatch.setattr(store, "shipped", lambda: None)
     path = store.path_of(a_step, 7)
     assert path is None
     assert not store.keep(path, CODE)
@@ -54,7 +96,7 @@ def test_a_place_that_turns_out_to_be_none_is_no_mistake(tmp_path, monkeypatch):
 
 def test_a_changed_source_has_another_file(folder, monkeypatch):
     before = store.path_of(a_step, 7)
-    monkeypatch.setattr(store, "_stamp_of", lambda file: "changed")
+    monkeypatch.setattr(store, "stamp_of", lambda file: "changed")
     assert store.path_of(a_step, 7) != before
 
 

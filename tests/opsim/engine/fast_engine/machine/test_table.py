@@ -20,6 +20,7 @@ def place(tmp_path, monkeypatch):
     forgotten()
     monkeypatch.setattr(store, "folder", lambda: tmp_path / "steps-now")
     monkeypatch.setattr(table, "folder", store.folder)
+    monkeypatch.setattr(store, "shipped", lambda: None)
     yield tmp_path / "steps-now"
     for one, at in zip(STEPS, before, strict=True):
         TABLE[one.line] = at
