@@ -29,7 +29,7 @@ def findings() -> list[Finding]:
     """All findings, what opsim stands on first."""
     questions: tuple[Callable[[], Iterator[Finding]], ...] = (
         *(_python, _packages, _scenarios, _libraries),
-        *(_compiled_code, _processes, _folder, _words, _browser),
+        *(_compiled_code, _fast_engine, _processes, _folder, _words, _browser),
     )
     return [finding for question in questions for finding in question()]
 
@@ -98,6 +98,17 @@ def _compiled_code() -> Iterator[Finding]:
         yield Finding("compiled code", NOTE, "can be kept nowhere: each process compiles anew; set NUMBA_CACHE_DIR")
     else:
         yield Finding("compiled code", OK, f"is kept in {' and '.join(map(str, dict.fromkeys(places)))}")
+
+
+def _fast_engine() -> Iterator[Finding]:
+    """How much of the fast engine is compiled, of these sources and by this numba."""
+    from opsim.engine.fast_engine.machine.store import folder
+
+    where = folder()
+    if where is not None:
+        n_steps = len(list(where.glob("*.step")))
+        said = f"{n_steps} of its steps are compiled" if n_steps else "compiled when it is first used"
+        yield Finding("fast engine", OK, f"{said}, in {where}")
 
 
 def _place_of(beside: Path) -> Path | None:

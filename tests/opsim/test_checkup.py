@@ -44,6 +44,13 @@ def test_where_nothing_can_be_written_it_is_said_and_not_wrong(monkeypatch):
     assert found("compiled code").state == found("this folder").state == NOTE
 
 
+def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(monkeypatch, tmp_path):
+    monkeypatch.setattr("opsim.engine.fast_engine.machine.store.folder", lambda: tmp_path)
+    assert found("fast engine").said == f"compiled when it is first used, in {tmp_path}"
+    (tmp_path / "00001-a.step").touch()
+    assert found("fast engine").said == f"1 of its steps are compiled, in {tmp_path}"
+
+
 @pytest.mark.parametrize("name", ["made", "made/in/it"])
 def test_a_folder_that_can_be_made_can_be_written(tmp_path, name):
     assert checkup._writable(tmp_path / name)

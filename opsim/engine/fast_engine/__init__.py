@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from opsim.engine.fast_engine.machine import complete, needed
-from opsim.engine.fast_engine.machine.table import is_complete
+from opsim.engine.fast_engine.readiness import compiled, ready
 from opsim.engine.fast_engine.run import run_plan
 from opsim.plan import Plan
 
@@ -24,17 +21,3 @@ def unsupported(plan: Plan) -> list[str]:
     except NotImplementedError as error:
         return [str(error)]
     return []
-
-
-def compiled(plan: Plan) -> bool:
-    """Whether ``ready`` has nothing to compile for a Plan: its machine code is in this process, or on disk."""
-    from opsim.engine.fast_engine.build import Build
-
-    return is_complete(needed(Build(plan).steps.values()))
-
-
-def ready(plan: Plan, told: Callable[[int, int], None] | None = None) -> None:
-    """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
-    from opsim.engine.fast_engine.build import Build
-
-    complete(needed(Build(plan).steps.values()), told)

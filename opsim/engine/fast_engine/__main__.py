@@ -8,8 +8,8 @@ from __future__ import annotations
 import sys
 
 from opsim.engine.fast_engine import blocks
-from opsim.engine.fast_engine.machine import complete
 from opsim.engine.fast_engine.machine.steps import STEPS
+from opsim.engine.fast_engine.readiness import ready_for
 
 
 def main() -> int:
@@ -22,7 +22,7 @@ def main() -> int:
             print(f"compiling the fast engine: {done} of {total}", flush=True)
 
     blocks.know_all()
-    complete(STEPS.values(), told)
+    ready_for(STEPS.values(), told)
     print(f"{len(STEPS)} steps are ready, {n_compiled[0]} of them compiled now")
     return 0
 

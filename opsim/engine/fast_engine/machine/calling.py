@@ -12,6 +12,8 @@ from opsim.engine.fast_engine.machine.table import TABLE
 
 FINE, FINE_AND_NONE = 0, -2
 """What compiled functions answer in numba's convention; anything else: an exception."""
+UNREADABLE = (pickle.UnpicklingError, EOFError, AttributeError, ImportError, LookupError, TypeError, ValueError)
+"""What is raised where the bytes of an exception are none, or its class is not there or asks for something else."""
 _POINTERS = [ctypes.c_void_p, ctypes.c_void_p]
 
 
@@ -41,5 +43,5 @@ def _exception(name: str, raised: Any) -> BaseException:
     try:
         kind, given = pickle.loads(ctypes.string_at(raised.contents.data, raised.contents.size))[:2]
         return kind(*(given or ()))
-    except Exception:
-        return SystemError(f"{name}: compiled code has failed")
+    except UNREADABLE as error:
+        return SystemError(f"{name}: compiled code has failed, and how cannot be read: {error}")

@@ -1,26 +1,33 @@
 """numba's compiler with less around it: what steps and their helpers do not need is left out.
 
 A third of numba's time goes into passes for closures, arrays and literals, of which there are none here; another third
-into making machine code of helpers that is never run, as each is compiled into the steps that call it. NOTE: these are
-numba's inner parts, which may change from one version to the next: ``compiling`` goes on without them where they fail.
+into making machine code of helpers that is never run, as each is compiled into the steps that call it. Of the rest a
+third went into what is done again and again: passes over declarations, checks of LLVM code, helpers linked into helpers
+and all of them into steps, loops unrolled. NOTE: these are numba's inner parts, which may change from one version to
+the next: ``compiling`` goes on without them where they fail, and says so.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import cache
 from types import SimpleNamespace
 from typing import Any
 
 import llvmlite.binding as llvm
 from numba.core import typed_passes, untyped_passes
+from numba.core.cgutils import normalize_ir_text
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, CompilerBase
 from numba.core.compiler_lock import global_compiler_lock
-from numba.core.compiler_machinery import PassManager, register_pass
+from numba.core.compiler_machinery import PassManager, _pass_registry, register_pass
 from numba.core.environment import lookup_environment
+from numba.core.errors import NumbaError
 from numba.core.registry import CPUDispatcher
+from numba.core.runtime import rtsys
 from numba.core.sigutils import normalize_signature
 
+from opsim.engine.fast_engine.machine.slow import say
 from opsim.engine.fast_engine.machine.store import Code
 
 ENVIRONMENT = "_ZN08NumbaEnv"
@@ -36,8 +43,8 @@ PASSES: tuple[Any, ...] = (
 """Before the lowering. NOTE: GenericRewrites is what makes ``x ** 2`` a product, as in all that numba compiles."""
 
 
-class HelperLibrary(JITCodeLibrary):
-    """LLVM code that is only ever linked into that of steps: no machine code is made of it."""
+class _Library(JITCodeLibrary):
+    """LLVM code of one function, of which numba makes no machine code."""
 
     @property
     def codegen(self) -> Any:
@@ -46,32 +53,114 @@ class HelperLibrary(JITCodeLibrary):
 
     def get_pointer_to_function(self, name: str) -> int:
         """There is none."""
+        self._ensure_finalized()
         return 0
 
-    def _optimize_final_module(self) -> None:
-        """Left to the steps."""
+    def add_linking_library(self, library: Any) -> None:
+        """NOTE: but for numba's own runtime, which counts references to arrays, and of which nothing is used."""
+        if library is not rtsys.library:
+            super().add_linking_library(library)
 
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
+    def add_ir_module(self, ir_module: Any) -> None:
+        """NOTE: it is looked at once, when it is whole: numba does so for each part."""
+        module = llvm.parse_assembly(normalize_ir_text(str(ir_module)))
+        self._optimize_functions(module)
+        self._final_module.link_in(module)
+
+
+class HelperLibrary(_Library):
+    """Only ever linked into steps. NOTE: not into the helpers that call it, each step links all that it needs once."""
+
+    def _optimize_functions(self, module: Any) -> None:
+        """Once for all steps. NOTE: numba makes a row of passes for each function, and runs it on declarations too."""
+        module.data_layout = self._codegen._data_layout
+        builder = _pass_builder(self._codegen)
+        passes = builder.getFunctionPassManager()
+        for function in module.functions:
+            if not function.is_declaration:
+                passes.run(function, builder)
+
+    def finalize(self) -> None:
+        """Nothing is linked into it."""
+        self._raise_if_finalized()
         self._finalized = True
 
+    def _get_module_for_linking(self) -> Any:
+        """For what numba compiles by all of its passes: with all that it needs in turn."""
+        if self._shared_module is None:
+            whole = self._final_module.clone()
+            for code in _all_linked(self):
+                whole.link_in(code, preserve=True)
+            for one in whole.functions:
+                if not one.is_declaration:
+                    one.linkage = llvm.Linkage.linkonce_odr
+            self._shared_module = whole
+        return self._shared_module
 
-class StepLibrary(JITCodeLibrary):
+
+class StepLibrary(_Library):
     """Of a step and all helpers compiled into it."""
 
-    def _optimize_final_module(self) -> None:
-        """Once, by LLVM's second level: numba's three rounds and its third level took longer and ran no faster.
+    machine_code: bytes
+
+    def _optimize_functions(self, module: Any) -> None:
+        """Left to the passes over all of it."""
+        module.data_layout = self._codegen._data_layout
+
+    def finalize(self) -> None:
+        """Optimized once, by LLVM's second level: numba's three rounds and its third level took longer and ran no
+        faster.
 
         NOTE: helpers become the step's own. Names of numba's count functions as a process meets them, so that helpers
         of two processes could share one, and LLVM links all of a name to the first.
         """
-        for one in self._final_module.functions:
-            if not one.is_declaration and one.linkage == llvm.Linkage.linkonce_odr:
+        self._raise_if_finalized()
+        module = self._final_module
+        own = {one.name for one in module.functions if not one.is_declaration}
+        for code in _all_linked(self):
+            module.link_in(code, preserve=True)
+        for one in module.functions:
+            if not one.is_declaration and one.name not in own:
                 one.linkage = llvm.Linkage.internal
-        wanted = {"opt": 2, "loop_vectorize": False, "slp_vectorize": False}
-        manager, builder = self._codegen._module_pass_manager(**wanted)
-        manager.run(self._final_module, builder)
+        module.verify()
+        builder = _pass_builder(self._codegen)
+        builder.getModulePassManager().run(module, builder)
+        self._finalize_dynamic_globals()
+        self._verify_declare_only_symbols()
+        self.machine_code = _machine(self._codegen).emit_object(module)
+        self._finalized = True
+
+
+def _all_linked(library: Any) -> Iterator[Any]:
+    """The code of all that is to be linked into a step: helpers, each once, then what numba has made by itself.
+
+    NOTE: in this order, as the code of the others is dropped where nobody calls it yet.
+    """
+    todo, seen, others = list(library._linking_libraries), set[Any](), dict[Any, None]()
+    while todo:
+        one = todo.pop()
+        if isinstance(one, HelperLibrary) and one not in seen:
+            seen.add(one)
+            todo += one._linking_libraries
+            yield one._final_module
+        elif not isinstance(one, HelperLibrary):
+            others[one] = None
+    yield from (one._get_module_for_linking() for one in others)
+
+
+def _pass_builder(codegen: Any) -> Any:
+    """LLVM's second level. NOTE: unrolled loops over a handful of jobs or stations are only longer."""
+    options = llvm.create_pipeline_tuning_options(speed_level=2)
+    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
+    return llvm.create_pass_builder(codegen._tm, options)
+
+
+@cache
+def _machine(codegen: Any) -> Any:
+    """Makes machine code as numba does for this processor, by LLVM's second level too, which ran as fast."""
+    options = {"opt": 2}
+    codegen._customize_tm_options(options)
+    return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(**options)
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
@@ -82,7 +171,6 @@ class StepLowering(typed_passes.NativeLowering):
 
     def run_pass(self, state: Any) -> bool:
         state.library = StepLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
         return bool(super().run_pass(state))
 
 
@@ -97,22 +185,36 @@ class HelperLowering(typed_passes.NativeLowering):
         return bool(super().run_pass(state))
 
 
-def _passes(name: str, state: Any, lowering: Any) -> list[PassManager]:
-    manager = PassManager(name)
+class Passes(PassManager):
+    """Run one after the other. NOTE: numba's own way writes down what each is given, for those who listen: nobody."""
+
+    def run(self, state: Any) -> None:
+        for kind, _ in self.passes:
+            one = _pass_registry.get(kind).pass_inst
+            one.analysis = self._analysis
+            for part in (one.run_initialization, one.run_pass, one.run_finalizer):
+                part(state)
+
+
+def _passes(name: str, lowering: Any) -> list[PassManager]:
+    manager = Passes(name)
     for one in (*PASSES, lowering, typed_passes.NoPythonBackend):
         manager.add_pass(one)
     manager.finalize()
     return [manager]
 
 
+HELPER_PASSES, STEP_PASSES = _passes("helper", HelperLowering), _passes("step", StepLowering)
+
+
 class HelperCompiler(CompilerBase):
     def define_pipelines(self) -> list[PassManager]:
-        return _passes("helper", self.state, HelperLowering)
+        return HELPER_PASSES
 
 
 class StepCompiler(CompilerBase):
     def define_pipelines(self) -> list[PassManager]:
-        return _passes("step", self.state, StepLowering)
+        return STEP_PASSES
 
 
 class Helper(_Dispatcher):
@@ -134,9 +236,14 @@ class Helper(_Dispatcher):
         """With all passes, where the few are not enough."""
         try:
             return self._compiler._compile_core(args, answer)
-        except Exception:
-            self._compiler.pipeline_class = Compiler
-            return self._compiler.compile(args, answer)
+        except (NumbaError, NotImplementedError) as error:
+            few, self._compiler.pipeline_class = self._compiler.pipeline_class, Compiler
+            try:
+                made = self._compiler._compile_core(args, answer)
+            finally:
+                self._compiler.pipeline_class = few
+            say(self.py_func.__qualname__, "compiled by all of numba's passes, which takes longer", error)
+            return made
 
 
 def options(**more: bool) -> dict[str, Any]:
@@ -154,24 +261,23 @@ def helper(**more: bool) -> Callable[[Callable], Any]:
     return made
 
 
-def compiled_step(signature: Any, function: Callable) -> tuple[int, object, Code | None]:
-    """Address of a function compiled for one signature, what its machine code lives with, and that code."""
+def compiled_step(signature: Any, function: Callable) -> Code:
+    """The machine code of a function compiled for one signature.
+
+    Raises LookupError where it refers to something of this process: such code cannot be kept.
+    """
     made = Helper(py_func=function, locals={}, targetoptions=options(), pipeline_class=StepCompiler)
     made.compile(signature)
-    result = made.overloads[tuple(signature.args)]
-    at = int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
-    if not at:
-        raise LookupError(f"{function.__name__}: compiled, and not found")
-    return at, made, _code(result)
+    return _code(made.overloads[tuple(signature.args)])
 
 
-def _code(result: Any) -> Code | None:
-    """What can be kept: machine code that refers to nothing of this process but functions known by their names."""
-    module = result.library._final_module
+def _code(result: Any) -> Code:
+    """Machine code that refers to nothing of this process but functions known by their names."""
+    library, name = result.library, result.fndesc.llvm_func_name
+    module = library._final_module
     outside = [one.name for one in (*module.functions, *module.global_variables) if one.is_declaration]
     environments = [one.name for one in module.global_variables if one.name.startswith(ENVIRONMENT)]
     known = [found for name in environments if (found := lookup_environment(name)) is not None]
-    if result.library.has_dynamic_globals or any(one.consts for one in known):
-        return None
-    needs = tuple(name for name in outside if not name.startswith("llvm."))
-    return Code(result.fndesc.llvm_func_name, needs, bytes(result.library._get_compiled_object()))
+    if library.has_dynamic_globals or any(one.consts for one in known):
+        raise LookupError(f"{name} refers to objects of Python")
+    return Code(name, tuple(one for one in outside if not one.startswith("llvm.")), library.machine_code)

@@ -141,10 +141,24 @@ def keep(path: Path | None, code: Code) -> bool:
         beside.write_bytes(code.packed())
         os.replace(beside, path)
     except OSError:  # a full disk, say: the next process compiles anew
+        return False
+    finally:  # nothing is left of it, where somebody interrupts this either
         with suppress(OSError):
             beside.unlink()
-        return False
     return True
+
+
+def mark(name: str) -> None:
+    """Note that something else of these sources is compiled, and kept elsewhere."""
+    if (where := folder()) is not None:
+        with suppress(OSError):
+            where.mkdir(parents=True, exist_ok=True)
+            (where / f"{name}.done").touch()
+
+
+def is_marked(name: str) -> bool:
+    where = folder()
+    return where is not None and (where / f"{name}.done").is_file()
 
 
 def used(path: Path | None) -> None:
@@ -168,6 +182,6 @@ def forget_old(current: Path) -> None:
 
 
 __all__ = [
-    *("MOST_FOLDERS", "PREFIX", "Code", "folder", "forget_old", "is_kept", "keep", "path_of", "place", "read"),
-    *("shipped", "used"),
+    *("MOST_FOLDERS", "PREFIX", "Code", "folder", "forget_old", "is_kept", "is_marked", "keep", "mark", "path_of"),
+    *("place", "read", "shipped", "used"),
 ]

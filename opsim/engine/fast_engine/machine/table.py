@@ -2,41 +2,81 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
+import gc
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from threading import RLock
 
 import numpy as np
 
-from opsim.engine.fast_engine.machine.compiling import Compiled, compiled
+from opsim.engine.fast_engine.machine.compiling import by_numba, compiled
 from opsim.engine.fast_engine.machine.linking import can_link, link
+from opsim.engine.fast_engine.machine.sharing_out import WORTH_HELP, Job, Told, Work, helped
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
 from opsim.engine.fast_engine.machine.store import folder, is_kept, keep, path_of, read, used
 
 TABLE = np.zeros(LINES, dtype=np.int64)
-WORTH_HELP = 16
-"""So many steps to compile are worth other processes: each takes 0.1 to 0.2 s, and a process 0.7 s to begin."""
+FIRST = ("opsim.engine.fast_engine.settle",)
+"""Files whose steps take longest to compile: nobody is left waiting for them at the end."""
 _ALIVE: list[object] = []
 _LOCK = RLock()
-Told = Callable[[int, int], None]
 
 
-def complete(steps: Iterable[Step], told: Told | None = None) -> None:
-    """Have every one of some steps in the table; ``told(done, total)`` of those that have to be compiled."""
+def complete(
+    steps: Iterable[Step],
+    told: Told | None = None,
+    more: Iterable[Callable[[], object]] = (),
+    only_here: Iterable[Callable[[], object]] = (),
+) -> None:
+    """Have every one of some steps in the table; ``told(done, total)`` of those that have to be compiled.
+
+    more : functions of modules that compile something else, to disk, and are called here or in another process
+    only_here : what no other process knows of, and is called in this one, first
+    """
     with _LOCK:
-        lacking = sorted((one for one in steps if not TABLE[one.line]), key=lambda one: one.line)
-        new = _linked(lacking)
-        helpers = _helpers(new) if len(new) >= WORTH_HELP else []
-        try:
-            _compile(new, told)
-        finally:
-            for helper in helpers:
-                helper.kill()
-                helper.wait()
+        new = _linked(sorted((one for one in steps if not TABLE[one.line]), key=_place_in_order))
+        jobs = [*(Job("", one) for one in only_here), *(Job(_name(one), partial(_put, one)) for one in new)]
+        jobs += [Job(f"{one.__module__}:{one.__qualname__}", one) for one in more]
+        if jobs:
+            shared = len(jobs) >= WORTH_HELP and folder() is not None
+            work = Work(jobs)
+            with no_garbage_looked_for(), helped(work, ["-m", __name__]) if shared else nullcontext():
+                _work_off(work, len(jobs), told)
+            for one in _linked([one for one in new if not TABLE[one.line]]):
+                _put(one)  # was done elsewhere, and could not be kept
+
+
+def _place_in_order(one: Step) -> tuple[bool, str, int]:
+    """File by file."""
+    return one.function.__module__ not in FIRST, one.function.__module__, one.line
+
+
+def _name(one: Step) -> str:
+    return f"{one.function.__module__}:{one.line}"
+
+
+def _work_off(work: Work, total: int, told: Told | None) -> None:
+    told = told or (lambda _done, _total: None)
+    while (job := work.first()) is not None:
+        told(total - work.n_open - 1, total)
+        job.here()
+    told(total, total)
+
+
+@contextmanager
+def no_garbage_looked_for() -> Iterator[None]:
+    """While it is compiled all is kept by somebody: to look through it again and again took a tenth of the time."""
+    before = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if before:
+            gc.enable()
 
 
 def _linked(lacking: Sequence[Step]) -> list[Step]:
@@ -49,22 +89,22 @@ def _linked(lacking: Sequence[Step]) -> list[Step]:
     return [one for one in lacking if one not in found]
 
 
-def _compile(new: Sequence[Step], told: Told | None) -> None:
-    for done, one in enumerate(new):
-        if told is not None:
-            told(done, len(new))
-        if _linked([one]):  # another process has not compiled it meanwhile
-            made = compiled(one.signature, one.function)
-            _keep(one, made)
-            _ALIVE.append(made.alive)
-            TABLE[one.line] = made.at
-    if new and told is not None:
-        told(len(new), len(new))
+def _put(one: Step) -> None:
+    """Have a step in the table: from disk, where another process has compiled it meanwhile."""
+    if _linked([one]):
+        TABLE[one.line] = _made(one)
 
 
-def _keep(one: Step, made: Compiled) -> None:
-    if made.code is not None and can_link(made.code):
-        keep(_path(one), made.code)
+def _made(one: Step) -> int:
+    """Compile a step, and keep it. Its address."""
+    made = compiled(one.signature, one.function)
+    if made.code is not None and not can_link(made.code):
+        made = by_numba(one.signature, one.function)
+    if made.code is None:
+        _ALIVE.append(made.alive)
+        return made.at
+    keep(_path(one), made.code)
+    return link([made.code])[0]
 
 
 def _path(one: Step) -> Path | None:
@@ -81,33 +121,28 @@ def is_on_disk(one: Step) -> bool:
     return is_kept(_path(one))
 
 
-def _helpers(new: Sequence[Step]) -> list[subprocess.Popen]:
-    """Processes that compile the same steps in another order, to disk: each finds what the others have done.
-
-    None where there is one processor, or no place on disk.
-    """
-    n_helpers = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 4) - 1
-    if n_helpers < 1 or folder() is None:
-        return []
-    found = []
-    for number in range(1, n_helpers + 1):
-        first = len(new) * number // (n_helpers + 1)
-        order = [*reversed(new[first:]), *reversed(new[:first])] if n_helpers == 1 else [*new[first:], *new[:first]]
-        command = [sys.executable, "-m", __name__, *(f"{one.function.__module__}:{one.line}" for one in order)]
-        found.append(subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
-    return found
+def help_out(names: Iterable[str]) -> None:
+    """In another process: do each job that is named, to disk, and say so by a line."""
+    print(flush=True)
+    with no_garbage_looked_for():
+        for name in names:
+            do_elsewhere(name.strip())
+            print(flush=True)
 
 
-def compile_some(names: Iterable[str]) -> None:
-    """Compile the steps ``module:line`` that are not on disk yet."""
-    for module, _, line in (name.rpartition(":") for name in names):
-        import_module(module)
-        one = STEPS[int(line)]
-        if not is_on_disk(one):
-            _keep(one, compiled(one.signature, one.function))
+def do_elsewhere(name: str) -> None:
+    """A step ``module:line`` that is not on disk yet, or a function ``module:name``."""
+    module, _, what = name.rpartition(":")
+    found = import_module(module)
+    if not what.isdigit():
+        getattr(found, what)()
+    elif not is_on_disk(one := STEPS[int(what)]):
+        made = compiled(one.signature, one.function)
+        if made.code is not None and can_link(made.code):
+            keep(_path(one), made.code)
 
 
 if __name__ == "__main__":
-    from opsim.engine.fast_engine.machine.table import compile_some as compile_them
+    from opsim.engine.fast_engine.machine.table import help_out as help_with_all
 
-    compile_them(sys.argv[1:])
+    help_with_all(sys.stdin)

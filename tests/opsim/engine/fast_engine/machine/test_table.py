@@ -1,12 +1,14 @@
 """The table: machine code comes from disk, or is compiled once; where the short way fails, numba's own is taken."""
 
+import gc
 import subprocess
 import sys
+from contextlib import contextmanager
 
 import pytest
 from made_machine import empty_floor, is_even, is_odd
 
-from opsim.engine.fast_engine.machine import TABLE, compiling, complete, needed, step_of, store, table
+from opsim.engine.fast_engine.machine import TABLE, compiling, complete, needed, slow, step_of, store, table
 from opsim.engine.fast_engine.machine.calling import caller
 
 STEPS = list(needed([step_of(is_even)]))
@@ -100,27 +102,71 @@ def test_where_nothing_can_be_written_it_is_compiled_and_runs(place, compilation
     assert not place.exists()
 
 
-def test_nobody_helps_where_nothing_can_be_written(monkeypatch):
+def test_nobody_helps_where_nothing_can_be_written(place, monkeypatch):
+    monkeypatch.setattr(store, "folder", lambda: None)
     monkeypatch.setattr(table, "folder", lambda: None)
-    assert table._helpers(STEPS) == []
+    monkeypatch.setattr(table, "WORTH_HELP", 1)
+    monkeypatch.setattr(table, "helped", lambda *_: pytest.fail("asked for help"))
+    complete(STEPS)
+    assert answers() == [1, 0, 1, 0, 1]
 
 
-def test_a_process_that_helps_finds_every_step(monkeypatch):
+def test_a_process_that_helps_finds_every_step():
     """By its module, which a process that has read no plan may not have imported yet."""
     from opsim.engine.fast_engine import blocks
     from opsim.engine.fast_engine.machine import steps
 
     blocks.know_all()
-    started, really = [], subprocess.run
-    monkeypatch.setattr(table.subprocess, "Popen", lambda command, **_: started.append(command))
-    monkeypatch.setattr(table.os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
     engine = [one for one in steps.STEPS.values() if one.function.__module__.startswith("opsim.")]
-    table._helpers(engine)
-    monkeypatch.undo()
-    names = started[0][started[0].index(table.__name__) + 1 :]
-    assert len(names) == len(engine) > 200
+    names = "".join(f"{table._name(one)}\n" for one in engine)
     program = "from opsim.engine.fast_engine.machine import table; table.is_on_disk = lambda one: True"
-    really([sys.executable, "-c", f"import sys; {program}; table.compile_some(sys.argv[1:])", *names], check=True)
+    command = [sys.executable, "-c", f"import sys; {program}; table.help_out(sys.stdin)"]
+    said = subprocess.run(command, input=names, capture_output=True, text=True, check=True).stdout
+    assert said.count("\n") == len(engine) + 1 > 200
+
+
+def test_what_others_compile_is_read_from_disk(place, compilations, monkeypatch):
+    """Another process is a thread here."""
+
+    @contextmanager
+    def helped(work, _command):
+        while (job := work.last()) is not None:
+            table.do_elsewhere(job.name)
+            work.done(job, well=True)
+        yield
+
+    monkeypatch.setattr(table, "WORTH_HELP", 1)
+    monkeypatch.setattr(table, "helped", helped)
+    monkeypatch.setattr(table, "_made", lambda one: pytest.fail("compiled here too"))
+    complete(STEPS)
+    assert sorted(compilations) == ["is_even", "is_odd"]
+    assert answers() == [1, 0, 1, 0, 1]
+
+
+def test_somebody_who_interrupts_it_finds_what_was_compiled_before(place, compilations, monkeypatch):
+    really = table._made
+
+    def interrupted(one):
+        if compilations:
+            raise KeyboardInterrupt
+        return really(one)
+
+    monkeypatch.setattr(table, "_made", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        complete(STEPS)
+    assert gc.isenabled()
+    assert [one.suffix for one in place.iterdir()] == [".step"]
+    monkeypatch.setattr(table, "_made", really)
+    complete(STEPS)
+    assert sorted(compilations) == ["is_even", "is_odd"]
+    assert answers() == [1, 0, 1, 0, 1]
+
+
+def test_what_is_to_be_called_besides_is_called_and_counted(place):
+    called, told = [], []
+    complete(STEPS, lambda *so_far: told.append(so_far), [], [lambda: called.append("first")])
+    assert called == ["first"]
+    assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]
 
 
 class Fails:
@@ -128,6 +174,7 @@ class Fails:
         raise AttributeError("numba has no such thing any more")
 
 
+@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.slow.SlowCompiling")
 @pytest.mark.parametrize("less", [None, Fails()])
 def test_without_numbas_inner_parts_it_compiles_as_everybody_does(place, monkeypatch, less):
     monkeypatch.setattr(compiling, "LESS", less)
@@ -137,6 +184,27 @@ def test_without_numbas_inner_parts_it_compiles_as_everybody_does(place, monkeyp
     assert not place.exists()  # what numba makes by itself, it keeps by itself
 
 
+def test_of_a_slower_way_it_is_said_once_why(place, monkeypatch):
+    monkeypatch.setattr(slow, "_SAID", set())
+    monkeypatch.setattr(compiling, "LESS", Fails())
+    monkeypatch.setattr(compiling, "kept", lambda signature, function: compiling.numba.njit(signature)(function))
+    with pytest.warns(slow.SlowCompiling, match="numba has no such thing any more") as said:
+        complete(STEPS)
+    assert len(said) == 1
+
+
+class IsFull:
+    def compiled_step(self, signature, function):
+        raise MemoryError
+
+
+def test_a_full_memory_is_no_reason_to_compile_again(place, monkeypatch):
+    monkeypatch.setattr(compiling, "LESS", IsFull())
+    with pytest.raises(MemoryError):
+        complete(STEPS)
+
+
+@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.slow.SlowCompiling")
 def test_a_helper_that_needs_more_passes_gets_all_of_them():
     @compiling.inlined
     def largest(n):

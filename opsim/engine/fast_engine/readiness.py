@@ -1,0 +1,65 @@
+"""What a Plan needs before its first row: compiled steps, and what numba compiles and keeps itself to draw numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from functools import partial
+
+import numpy as np
+
+from opsim.engine.fast_engine.luck.of_plan import luck_of
+from opsim.engine.fast_engine.luck.trust import is_trusted
+from opsim.engine.fast_engine.machine import complete, needed
+from opsim.engine.fast_engine.machine.sharing_out import Told
+from opsim.engine.fast_engine.machine.steps import Step
+from opsim.engine.fast_engine.machine.store import is_marked, mark
+from opsim.engine.fast_engine.machine.table import is_complete
+from opsim.plan import Plan
+
+LUCK, EMULATED = "luck", "emulated"
+"""Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
+
+
+def compiled(plan: Plan) -> bool:
+    """Whether ``ready`` has nothing to compile for a Plan: its machine code is in this process, or on disk."""
+    from opsim.engine.fast_engine.build import Build
+
+    lacks_luck = _luck() or (_emulated(plan) and not is_marked(EMULATED))
+    return not lacks_luck and is_complete(needed(Build(plan).steps.values()))
+
+
+def ready(plan: Plan, told: Told | None = None) -> None:
+    """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
+    from opsim.engine.fast_engine.build import Build
+
+    emulated = [] if is_marked(EMULATED) else _emulated(plan)
+    ready_for(needed(Build(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
+
+
+def ready_for(steps: Iterable[Step], told: Told | None = None, only_here: Iterable[Callable[[], object]] = ()) -> None:
+    """The same for some steps, and for what draws numbers; ``only_here``: what no other process knows of."""
+    luck = _luck()
+    complete(steps, told, luck, only_here)
+    if luck:
+        mark(LUCK)
+
+
+def _luck() -> list[Callable[[], object]]:
+    """What compiles all that draws numbers, where that is not done: the look at it that a first run takes anyway."""
+    return [] if is_marked(LUCK) or is_trusted.cache_info().currsize else [is_trusted]
+
+
+def _emulated(plan: Plan) -> list[int]:
+    """A task of each kind of the emulator's models, by rank: of others nothing is compiled."""
+    kinds = {type(task.model): rank for rank, task in enumerate(plan.tasks) if plan.workers}
+    return [rank for kind, rank in kinds.items() if kind.__module__.startswith("emulator.")]
+
+
+def _draw(plan: Plan, tasks: Iterable[int]) -> None:
+    """Performances of some tasks. NOTE: what a model has to say against it is raised by the run, where it belongs."""
+    luck, workforce = luck_of(plan), plan.workforce_of(0)
+    with suppress(Exception):
+        for task in tasks:
+            luck.of_worker(task, 0, workforce)(np.zeros(6, np.uint32), 0, 1)
+        mark(EMULATED)
