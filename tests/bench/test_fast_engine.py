@@ -17,7 +17,7 @@ from plans import plan
 
 from opsim.engine.fast_engine import run_plan as run_fast
 from opsim.engine.fast_engine.luck.draws import BlockDraws
-from opsim.engine.fast_engine.numbers import NAMED
+from opsim.engine.fast_engine.named import NAMED
 from opsim.engine.fast_engine.run import machine_of
 from opsim.engine.simpy_engine import run_plan as run_simpy
 from opsim.plan import Plan, compile_plan

@@ -6,7 +6,6 @@ What replications before have asked for is drawn as a run begins, by a recipe; f
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
 from math import isqrt
 from typing import Any
 
@@ -18,6 +17,7 @@ from opsim.engine.fast_engine.luck.whole import Whole
 from opsim.engine.fast_engine.machine import Arena, Handle
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD
+from opsim.engine.fast_engine.named import NAMED
 from opsim.engine.fast_engine.parts import luck
 from opsim.engine.fast_engine.recipe import Recipe, Wanted, wanted
 from opsim.engine.fast_engine.settle import NO_LUCK
@@ -28,37 +28,7 @@ MOST_AHEAD = 32
 """Blocks at once, of a stream that has not said how many it needs."""
 ONE_IN = 8
 """As soon as one in so many streams had to be called for, a new recipe costs less than the calls."""
-Named = Callable[[BlockDraws, Plan, int, int, int], Any]
 
-
-def _chance(word: str) -> Named:
-    """Of (operation, source, visit)."""
-    return lambda draws, plan, operation, source, visit: draws.chances(
-        (word, plan.operations[operation], plan.sources[source].name, visit)
-    )
-
-
-def _hold(plan: Plan, task: int) -> Any:
-    """The hold of a task that has one."""
-    return plan.tasks[task].hold
-
-
-NAMED: dict[int, Named] = {
-    luck.DURATION: lambda draws, _plan, worker, task, _: draws.durations(task, worker),
-    luck.AUTOMATIC: lambda draws, _plan, station, task, _: draws.automatic_runs(task, station),
-    luck.HOLD: lambda draws, plan, worker, task, _: draws.durations_with(_hold(plan, task), task, worker),
-    luck.HOLD_RUN: lambda draws, plan, station, task, _: draws.runs_with(_hold(plan, task), task, station),
-    luck.GAP: lambda draws, _plan, source, *_: draws.gaps(source),
-    luck.MIX: lambda draws, _plan, source, *_: draws.products(source),
-    luck.REPAIR: lambda draws, plan, stop, *_: draws.repairs(plan.stops[stop]),
-    luck.UPTIME: lambda draws, plan, stop, *_: draws.uptimes(plan.breakdowns[stop]),
-    luck.ROUTING: _chance("routing"),
-    luck.YIELD: _chance("yield"),
-    luck.QUALITY: _chance("quality"),
-    luck.START: lambda draws, _plan, source, *_: draws.ways("start", 0, source),
-    luck.ABSENCE: lambda draws, plan, worker, *_: draws.chances(("absence", plan.workers[worker].name)),
-}
-"""By purpose, the stream of up to three ranks."""
 _OF_PEOPLE = luck.DURATION, luck.HOLD
 _AT = {name: field.at // WORD for name, field in LAYOUTS["Stream"].fields.items()}
 _STREAM = ctypes.c_int64 * len(_AT)
@@ -79,18 +49,17 @@ class Numbers:
         self.plan, self.floor = plan, floor
         self.failed: BaseException | None = None
         self.needed: dict[int, int] = {}
+        self.recipe, self._lacking = Recipe(), 0
         self._together: dict[int, Wanted] = {}
         self._streams: dict[int, Any] = {}
         self._asked: dict[int, int] = {}
         self._words: dict[int, Any] = {}
         self._kept: list[Any] = []
         self._whole: dict[int, Whole] = {}
-        self._lacking = 0
         self.callback = MORE(self._more)
         floor.more_luck = ctypes.cast(self.callback, ctypes.c_void_p).value
         self._table = np.zeros(2, np.int64)
         floor.drawn = self._table.ctypes.data
-        self._follow(Recipe())
 
     @property
     def drawn(self) -> dict[int, int]:
@@ -100,10 +69,12 @@ class Numbers:
     def begin(self, replication: int) -> None:
         """A replication begins: what is known to be wanted is drawn. NOTE: the floor is still the last one's here."""
         self._learn()
-        for of_before in (self._streams, self._asked, self._words, self._kept, self._whole):
+        for of_before in (self._asked, self._streams, self._words, self._kept, self._whole):
             of_before.clear()
         if self._lacking * ONE_IN > len(self.recipe.blocks):
-            self._follow(self._new_recipe())
+            self.recipe, self._lacking = self._new_recipe(), 0
+        table = self.recipe.table
+        self._table[luck.TABLE], self._table[luck.MASK] = table.ctypes.data, len(table) - 1
         self.failed, self.draws = None, BlockDraws(self.plan, replication)
         self.recipe.draw(np.frombuffer(self.draws.begun, np.uint32))
 
@@ -130,11 +101,6 @@ class Numbers:
         for stream, used in self.recipe.used().items():
             self.needed[stream] = max(used, self.needed[stream])
         return Recipe([(one, _with_spare(self.needed[stream])) for stream, one in self._together.items()])
-
-    def _follow(self, recipe: Recipe) -> None:
-        """The engine looks into the table of a recipe from now on."""
-        self.recipe, self._lacking = recipe, 0
-        self._table[luck.TABLE], self._table[luck.MASK] = recipe.table.ctypes.data, len(recipe.table) - 1
 
     def _more(self, address: int, item: int) -> int:
         """Called by the engine: item ``item`` of a stream, and what follows, is wanted."""

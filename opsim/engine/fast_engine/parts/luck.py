@@ -10,7 +10,7 @@ from opsim.engine.fast_engine.parts.state import Floor
 from opsim.streams import BLOCK
 
 DURATION, AUTOMATIC, GAP, MIX, REPAIR, UPTIME, ROUTING, START, YIELD, QUALITY, ABSENCE, HOLD, HOLD_RUN = range(1, 14)
-"""Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``numbers.NAMED``."""
+"""Purposes of streams. An id is purpose, then three ranks of 16 bits, in that order: see ``named.NAMED``."""
 MOST_RANKS = 1 << 16
 new_stream = fresh(Stream)
 _floats_at = array_at("float")
