@@ -17,7 +17,10 @@ OPSIM = ENGINE.parents[1]
 COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
 SINGLE = (OPSIM / "clock.py", OPSIM / "log.py", OPSIM / "posts.py", OPSIM / "streams.py")
 """Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
-SEEN_FROM_PYTHON = ("arena.py", "calling.py", "linking.py", "stamp.py", "store.py", "table.py", "__init__.py")
+SEEN_FROM_PYTHON = (
+    *("arena.py", "calling.py", "linking.py", "sharing_out.py", "slow.py", "stamp.py", "store.py", "table.py"),
+    "__init__.py",
+)
 """Nothing of these is compiled."""
 
 
