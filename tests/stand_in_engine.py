@@ -19,7 +19,7 @@ class StandIn(ModuleType):
     def __init__(self, refuses=(), parts=3, spoil=lambda log: log):
         super().__init__(NAME)
         self.refuses, self.parts, self.spoil = refuses, parts, spoil
-        self.is_compiled = False
+        self.is_compiled, self.costs_s, self.is_kept = False, 20.0, lambda: True
         self.asked_for, self.ran = [], []
 
     def run_plan(self, plan, replication=0):
@@ -30,8 +30,8 @@ class StandIn(ModuleType):
     def unsupported(self, plan):
         return list(self.refuses(plan) if callable(self.refuses) else self.refuses)
 
-    def compiled(self, plan):
-        return self.is_compiled
+    def compiling_s(self, plan):
+        return 0.0 if self.is_compiled else self.costs_s
 
     def ready(self, plan, told=None):
         self.asked_for.append(plan)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ENGINES = ("simpy", "fast", "auto")
 SIMPY, FAST, AUTO = ENGINES
 COMPILING_S, LOADING_S = 20.0, 1.0
-"""What the fast engine costs before its first row: compiled for the first time on a machine, and read again later."""
+"""What the fast engine costs before its first row: compiled on a machine that nothing is known of, and read later."""
 Run = Callable[["Plan", int], "EventLog"]
 Told = Callable[[int, int], None]
 """``told(done, total)`` while something is compiled."""
@@ -134,16 +134,25 @@ def worth(able: Choice, plan: Plan, simpy_s: float, *, of: str = "", here: bool 
     """
     if able.asked != AUTO or able.engine != FAST:
         return able
-    from opsim.engine.fast_engine import compiled
+    from opsim.engine.fast_engine import compiling_s
 
-    there = here and compiled(plan)
+    costs_s = compiling_s(plan) if here else COMPILING_S
     takes = f"{'less than a second' if simpy_s < 1 else f'about {_rounded(simpy_s)} s'}{of}"
-    once = f"about {COMPILING_S:.0f} s, once on {'this' if here else 'each'} machine"
-    if simpy_s > (LOADING_S if there else COMPILING_S):
-        costs = "the fast one is compiled already" if there else f"compiling takes {once}"
+    compiling = f"about {_rounded(costs_s)} s, {_how_often(here)}"
+    if simpy_s > max(costs_s, LOADING_S):
+        costs = f"compiling takes {compiling}" if costs_s else "the fast one is compiled already"
         return Choice(FAST, f"as SimPy would take {takes}, and {costs}", AUTO)
-    costs = f"loaded (about {LOADING_S:.0f} s)" if there else f"compiled ({once})"
+    costs = f"compiled ({compiling})" if costs_s else f"loaded (about {LOADING_S:.0f} s)"
     return Choice(SIMPY, f"as it takes {takes}, and the fast one would first be {costs}", AUTO, may_pay=True)
+
+
+def _how_often(here: bool) -> str:
+    """It is compiled for a Plan."""
+    from opsim.engine.fast_engine import is_kept
+
+    if not here:
+        return "once on each machine"
+    return "once on this machine" if is_kept() else "each time, as it can be kept nowhere"
 
 
 def _rounded(seconds: float) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.readiness import compiled, ready
+from opsim.engine.fast_engine.readiness import compiling_s, is_kept, ready
 from opsim.engine.fast_engine.run import run_plan
 from opsim.plan import Plan
 
-__all__ = ["compiled", "ready", "run_plan", "unsupported"]
+__all__ = ["compiling_s", "is_kept", "ready", "run_plan", "unsupported"]
 
 
 def unsupported(plan: Plan) -> list[str]:

@@ -11,22 +11,34 @@ import numpy as np
 from opsim.engine.fast_engine.luck.of_plan import luck_of
 from opsim.engine.fast_engine.luck.trust import is_trusted
 from opsim.engine.fast_engine.machine import complete, needed
-from opsim.engine.fast_engine.machine.sharing_out import Told
+from opsim.engine.fast_engine.machine.sharing_out import WORTH_HELP, Told, n_helpers
 from opsim.engine.fast_engine.machine.steps import Step
-from opsim.engine.fast_engine.machine.store import is_marked, mark
-from opsim.engine.fast_engine.machine.table import is_complete
+from opsim.engine.fast_engine.machine.store import folder, is_marked, mark
+from opsim.engine.fast_engine.machine.table import lacking
 from opsim.plan import Plan
 
+STEP_S, LUCK_S, EMULATED_S = 0.07, 12.0, 3.0
+"""About so many CPU seconds are compiled for a step, what draws numbers and every floor's steps, emulators."""
 LUCK, EMULATED = "luck", "emulated"
 """Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
 
 
-def compiled(plan: Plan) -> bool:
-    """Whether ``ready`` has nothing to compile for a Plan: its machine code is in this process, or on disk."""
+def compiling_s(plan: Plan) -> float:
+    """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
     from opsim.engine.fast_engine.build import Build
 
-    lacks_luck = _luck() or (_emulated(plan) and not is_marked(EMULATED))
-    return not lacks_luck and is_complete(needed(Build(plan).steps.values()))
+    n_steps = sum(1 for _ in lacking(needed(Build(plan).steps.values())))
+    cpu_s = n_steps * STEP_S
+    if _luck():
+        cpu_s += LUCK_S
+    if _emulated(plan) and not is_marked(EMULATED):
+        cpu_s += EMULATED_S
+    return cpu_s / (1 + n_helpers() if n_steps >= WORTH_HELP else 1)
+
+
+def is_kept() -> bool:
+    """Whether there is a place on disk for what is compiled."""
+    return folder() is not None
 
 
 def ready(plan: Plan, told: Told | None = None) -> None:

@@ -103,6 +103,18 @@ def test_auto_takes_what_is_sooner_done_and_says_why(monkeypatch, simpy_s, is_co
     assert chosen.words == words and chosen.may_pay == (chosen.engine == "simpy")
 
 
+def test_where_little_has_to_be_compiled_little_work_is_enough(monkeypatch):
+    stand_in(monkeypatch).costs_s = 1.5
+    assert choose("auto", plan(SHORT), 2.0).words.endswith("and compiling takes about 1.5 s, once on this machine")
+    assert choose("auto", plan(SHORT), 1.4).engine == "simpy"
+
+
+def test_where_nothing_can_be_kept_compiling_is_not_said_to_be_once(monkeypatch):
+    made = stand_in(monkeypatch)
+    made.is_kept = lambda: False
+    assert "about 20 s, each time, as it can be kept nowhere" in choose("auto", plan(SHORT), 30.0).why
+
+
 def test_what_is_compiled_on_other_machines_is_not_known_here(monkeypatch):
     stand_in(monkeypatch).is_compiled = True
     chosen = choose("auto", plan(SHORT), 10.0, here=False)

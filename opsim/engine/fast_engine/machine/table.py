@@ -111,9 +111,9 @@ def _path(one: Step) -> Path | None:
     return path_of(one.function, one.line)
 
 
-def is_complete(steps: Iterable[Step]) -> bool:
-    """Whether nothing of some steps would have to be compiled."""
-    return all(TABLE[one.line] or is_on_disk(one) for one in steps)
+def lacking(steps: Iterable[Step]) -> Iterator[Step]:
+    """Those of some steps that would have to be compiled."""
+    return (one for one in steps if not (TABLE[one.line] or is_on_disk(one)))
 
 
 def is_on_disk(one: Step) -> bool:
