@@ -97,15 +97,26 @@ def _compiled_code() -> Iterator[Finding]:
     if None in places:
         yield Finding("compiled code", NOTE, "can be kept nowhere: each process compiles anew; set NUMBA_CACHE_DIR")
     else:
-        yield Finding("compiled code", OK, f"is kept in {' and '.join(map(str, dict.fromkeys(places)))}")
+        kept = f"is kept in {' and '.join(map(str, dict.fromkeys(places)))}"
+        named = os.environ.get("NUMBA_CACHE_DIR")
+        if named and Path(named) not in places:
+            yield Finding("compiled code", NOTE, f"{kept}, as NUMBA_CACHE_DIR cannot be written: {named}")
+        else:
+            yield Finding("compiled code", OK, kept)
 
 
 def _fast_engine() -> Iterator[Finding]:
     """How much of the fast engine is compiled, of these sources and by this numba."""
+    from numba import config
+
     from opsim.engine.fast_engine.machine.store import folder
 
     where = folder()
-    if where is not None:
+    if getattr(config, "DISABLE_JIT", 0):
+        yield Finding("fast engine", NOTE, "off, as NUMBA_DISABLE_JIT is set: --engine auto takes SimPy")
+    elif where is None:
+        yield Finding("fast engine", NOTE, "compiled anew by each command, as it can be kept nowhere")
+    else:
         n_steps = len(list(where.glob("*.step")))
         said = f"{n_steps} of its steps are compiled" if n_steps else "compiled when it is first used"
         yield Finding("fast engine", OK, f"{said}, in {where}")

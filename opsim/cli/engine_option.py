@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from opsim.study.engine_choice import Chosen
 
 COMPILING = "compiling the fast engine (once)"
+NOT_KEPT = "compiling the fast engine (each time, as it can be kept nowhere: set NUMBA_CACHE_DIR)"
 
 
 class EngineWord(click.Choice):  # type: ignore[type-arg]  # of click 8.1 it takes none
@@ -42,6 +43,12 @@ def telling(what: str, report: Report) -> Chosen:
     def chosen(choice: Choice) -> Told | None:
         if choice.asked == AUTO:
             report.say(f"{what}: {choice.words}")
-        return lambda done, total: report.once(done, total, COMPILING)
+        return lambda done, total: report.once(done, total, _compiling())
 
     return chosen
+
+
+def _compiling() -> str:
+    from opsim.engine.fast_engine import is_kept
+
+    return COMPILING if is_kept() else NOT_KEPT

@@ -142,7 +142,7 @@ def worth(able: Choice, plan: Plan, simpy_s: float, *, of: str = "", here: bool 
     if simpy_s > max(costs_s, LOADING_S):
         costs = f"compiling takes {compiling}" if costs_s else "the fast one is compiled already"
         return Choice(FAST, f"as SimPy would take {takes}, and {costs}", AUTO)
-    costs = f"compiled ({compiling})" if costs_s else f"loaded (about {LOADING_S:.0f} s)"
+    costs = f"compiled ({compiling})" if costs_s else f"read from disk (about {LOADING_S:.0f} s)"
     return Choice(SIMPY, f"as it takes {takes}, and the fast one would first be {costs}", AUTO, may_pay=True)
 
 

@@ -59,3 +59,18 @@ def test_a_folder_that_can_be_made_can_be_written(tmp_path, name):
 def test_a_file_is_no_folder(tmp_path):
     (tmp_path / "file").write_text("")
     assert not checkup._writable(tmp_path / "file")
+
+
+def test_why_there_is_no_fast_engine_is_said(monkeypatch):
+    monkeypatch.setattr("opsim.engine.fast_engine.machine.store.folder", lambda: None)
+    assert found("fast engine").said == "compiled anew by each command, as it can be kept nowhere"
+    monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
+    assert found("fast engine").said.startswith("off, as NUMBA_DISABLE_JIT is set")
+
+
+def test_a_place_for_compiled_code_that_cannot_be_written_is_named(monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file"))
+    assert found("compiled code").state == NOTE and str(tmp_path / "file") in found("compiled code").said
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    assert found("compiled code").state == OK

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 NAMES = (
@@ -15,10 +16,9 @@ NAMES = (
 
 
 def know_all() -> None:
-    """Have the steps of all blocks, and of the core, known by their lines."""
-    import_module("opsim.engine.fast_engine.build")
-    for name in NAMES:
-        import_module(f"opsim.engine.fast_engine.{name}")
+    """Have all steps known by their lines: also those of files that a block comes to only where a plan asks for it."""
+    for path in sorted(Path(__file__).parent.glob("[!_]*.py")):
+        import_module(f"opsim.engine.fast_engine.{path.stem}")
 
 
 def install_all(build: Any) -> None:

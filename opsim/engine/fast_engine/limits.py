@@ -1,8 +1,9 @@
-"""What the fast engine has numbers for: ranks of 16 bits, in the ids of streams."""
+"""What the fast engine does not run: rules that are plug-ins in Python, and more than there are ids of streams for."""
 
 from __future__ import annotations
 
 from opsim.engine.fast_engine.parts.luck import MOST_RANKS
+from opsim.engine.plugin_rules import plugin_rules
 from opsim.plan import Plan
 
 _RANKED = ("workers", "tasks", "stations", "operations", "sources", "stops", "breakdowns")
@@ -14,3 +15,9 @@ def refuse_too_many(plan: Plan) -> None:
         n = len(getattr(plan, what))
         if n > MOST_RANKS:
             raise NotImplementedError(f"{n:,} {what}, where it tells {MOST_RANKS:,} apart")
+
+
+def refuse_plug_ins(plan: Plan) -> None:
+    """Raises NotImplementedError for a Plan with rules that only Python can follow."""
+    if rules := plugin_rules(plan):
+        raise NotImplementedError("; ".join(dict.fromkeys(map(str, rules))))

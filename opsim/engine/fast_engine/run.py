@@ -8,6 +8,7 @@ from threading import local
 from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
+from opsim.engine.fast_engine.limits import refuse_plug_ins
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.room import Columns
@@ -25,6 +26,7 @@ class Machine:
     """A plan's floor in memory, with all that runs it again and again: one for each thread."""
 
     def __init__(self, plan: Plan, told: Callable[[int, int], None] | None = None):
+        refuse_plug_ins(plan)
         self.plan, self.build = plan, Build(plan)
         self.floor = self.build.floor
         complete(needed(self.build.steps.values()), told)
@@ -92,7 +94,8 @@ MOST_KEPT = 2
 def run_plan(plan: Plan, replication: int = 0) -> EventLog:
     """Run a Plan to its horizon (exclusive): the rows of ``simpy_engine.run_plan``, to the last bit.
 
-    Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again.
+    Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again. Raises
+    NotImplementedError for what ``unsupported`` says.
     """
     with one_blas_thread():
         return machine_of(plan).run(replication)

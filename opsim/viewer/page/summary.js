@@ -12,5 +12,6 @@ export function summaryOf(world) {
     .sort((a, b) => b[1] - a[1])
     .map(([state, count]) => `${count} ${state.words || state.name}`);
   const queued = variant.stations.reduce((sum, _, i) => sum + world.station(i).queue, 0);
-  return `${people.join(", ")}; ${queued} ${queued === 1 ? "job waits" : "jobs wait"}`;
+  const who = people.length ? `${people.join(", ")}; ` : "";
+  return `${who}${queued} ${queued === 1 ? "job waits" : "jobs wait"}`;
 }

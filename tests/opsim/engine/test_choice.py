@@ -90,7 +90,7 @@ SIMPY, MOMENT = "the SimPy engine, as it takes", "less than a second"
     ("simpy_s", "is_compiled", "words"),
     [
         (0.3, False, f"{SIMPY} {MOMENT}, and the fast one would first be compiled {ONCE}"),
-        (0.3, True, f"{SIMPY} {MOMENT}, and the fast one would first be loaded (about 1 s)"),
+        (0.3, True, f"{SIMPY} {MOMENT}, and the fast one would first be read from disk (about 1 s)"),
         (2.34, False, f"{SIMPY} about 2.3 s, and the fast one would first be compiled {ONCE}"),
         (2.34, True, "the fast engine, as SimPy would take about 2.3 s, and the fast one is compiled already"),
         (151.0, False, f"the fast engine, as SimPy would take about 150 s, and compiling takes {ONCE[1:-1]}"),

@@ -10,6 +10,8 @@ import llvmlite.binding as llvm
 
 from opsim.engine.fast_engine.machine.store import Code
 
+RUNTIME = "NRT_"
+
 
 @cache
 def _linker() -> Any:
@@ -22,7 +24,18 @@ def _linker() -> Any:
 
 def can_link(code: Code) -> bool:
     """Whether all is there that it calls. NOTE: LLVM would end the process where something is not."""
+    if any(name.startswith(RUNTIME) for name in code.needs):
+        _know_runtime()
     return all(llvm.address_of_symbol(name) for name in code.needs)
+
+
+@cache
+def _know_runtime() -> None:
+    """Have numba's runtime known by its names, which code with arrays in it calls."""
+    from numba.core.registry import cpu_target
+    from numba.core.runtime import rtsys
+
+    rtsys.initialize(cpu_target.target_context)
 
 
 def link(codes: Iterable[Code]) -> list[int]:

@@ -4,10 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 from made_machine import as_floor, empty_floor, entered
-from plans import CELL, plan
+from plans import CELL, plan, queue
+from stand_in_engine import install_rule
 
-from opsim.engine.choice import NotFast, choose
-from opsim.engine.fast_engine import limits, unsupported
+from opsim.engine.choice import NotFast, able_to
+from opsim.engine.fast_engine import limits, run_plan, unsupported
 from opsim.engine.fast_engine.limits import refuse_too_many
 from opsim.engine.fast_engine.parts.luck import MOST_RANKS, stream_id, stream_of
 
@@ -28,9 +29,9 @@ def test_the_fast_engine_says_so_and_auto_takes_the_other(monkeypatch):
     made = plan(CELL)
     monkeypatch.setattr(limits, "MOST_RANKS", 2)
     assert unsupported(made) == ["3 workers, where it tells 2 apart"]
-    assert choose("auto", made, 1000).engine == "simpy"
+    assert able_to("auto", made).engine == "simpy"
     with pytest.raises(NotFast, match="3 workers"):
-        choose("fast", made)
+        able_to("fast", made)
 
 
 def test_ids_of_different_ranks_differ_up_to_the_last():
@@ -50,3 +51,11 @@ def test_a_visit_beyond_is_an_error_and_not_another_stream():
     assert stream_at(floor.address, MOST_RANKS - 1) & 0xFFFF == MOST_RANKS - 1
     with pytest.raises(OverflowError, match="65,536 visits"):
         stream_at(floor.address, MOST_RANKS)
+
+
+def test_a_plan_with_a_plug_in_rule_is_refused_in_the_words_of_unsupported(tmp_path, monkeypatch):
+    install_rule(tmp_path, monkeypatch, "opsim.dispatch", "mine")
+    made = plan(queue(horizon="1 h").replace("oldest_job", "mine"))
+    with pytest.raises(NotImplementedError) as refused:
+        run_plan(made)
+    assert [str(refused.value)] == unsupported(made)
