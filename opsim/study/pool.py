@@ -84,7 +84,7 @@ class Pool:
         self._end()
 
     def _submitted(self, items: Iterator[Any], n: int) -> set[Future[Any]]:
-        with _without_control_c():
+        with _without_signals():
             return {self._pool.submit(_work, item) for item in islice(items, n)}
 
     def _end(self) -> None:
@@ -112,12 +112,16 @@ def _let_go(pool: ProcessPoolExecutor) -> None:
 
 
 @contextmanager
-def _without_control_c() -> Iterator[None]:
-    """Processes started in this block never see Ctrl-C, not even while they still import; here it comes afterwards."""
+def _without_signals() -> Iterator[None]:
+    """Processes started in this block never see Ctrl-C, not even while they still import; here it comes afterwards.
+
+    Nor SIGTERM before they know what to do then: a process that is ended while it still has what this one does would go
+    on, and be waited for for ever.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         yield
     finally:
@@ -130,6 +134,8 @@ _here: dict[str, Any] = {}
 def _begin(prepare: Prepare, parent_lives: Any, parent_ends: Any) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     if parent_ends is not None:
         parent_ends.close()  # a copy: while it is open, nobody would see that the parent ended
         gc.freeze()  # what was there before the fork is not looked through again and again

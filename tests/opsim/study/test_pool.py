@@ -7,6 +7,8 @@ from functools import partial
 
 import pytest
 
+from opsim.forking import can_fork
+from opsim.study import pool
 from opsim.study.pool import ProcessLost, pooled
 
 POWER_OF_TWO = partial(partial, pow, 2)
@@ -32,6 +34,26 @@ def test_a_process_that_cannot_begin_says_why():
 def test_a_killed_process_is_said_in_words():
     with pytest.raises(ProcessLost, match="was killed"):
         list(pooled(partial(partial, signal.raise_signal), [signal.SIGKILL], 2))
+
+
+def test_a_process_that_is_ended_before_it_has_begun_ends(monkeypatch):
+    """Not by what its parent does then, which it still has: it would go on."""
+    if not can_fork():
+        pytest.skip("processes are not forked here, and begin with nothing of their parent")
+    begin, handled = pool._begin, []
+
+    def ended_first(*given):
+        signal.raise_signal(signal.SIGTERM)
+        begin(*given)
+
+    monkeypatch.setattr(pool, "_begin", ended_first)
+    before = signal.signal(signal.SIGTERM, lambda *_: handled.append(1))
+    try:
+        with pytest.raises(ProcessLost, match="was killed"):
+            list(pooled(POWER_OF_TWO, range(6), 2))
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert multiprocessing.active_children() == [] and not handled
 
 
 def test_an_iteration_that_is_left_early_leaves_no_process():
