@@ -5,7 +5,7 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import drop_at, here, inlined, step, tell_2
 from opsim.engine.fast_engine.parts.bits import clear_bit, lowest_bit, may_serve
 from opsim.engine.fast_engine.parts.claims import take_claim
-from opsim.engine.fast_engine.parts.keys import is_better, keep_best, pair_key
+from opsim.engine.fast_engine.parts.keys import is_better, keep_best, pair_key, pair_numbers
 from opsim.engine.fast_engine.parts.rounds import on_round
 from opsim.engine.fast_engine.parts.rows import log_worker
 from opsim.engine.fast_engine.parts.state import CREWS, Floor, Job, Station, Worker
@@ -19,7 +19,7 @@ STAY, HOME, PATROL = range(3)
 def send_workers(floor: Floor) -> None:
     """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
     while True:
-        while len(floor.free) and floor.n_calling and _serve_one(floor):
+        while len(floor.free) and floor.n_calling and not floor.none_fits and _serve_one(floor):
             pass
         if floor.idle == STAY or not len(floor.free):
             return
@@ -31,18 +31,52 @@ def send_workers(floor: Floor) -> None:
 
 
 @inlined
+def _numbers(floor: Floor, worker: Worker, station: Station) -> tuple[float, float, float, float, float, float]:
+    n_waiting = len(station.calling) + len(station.queue)
+    return pair_numbers(floor, worker, station, n_waiting, station.calling[0].since_s)
+
+
+@inlined
 def _key(floor: Floor, worker: Worker, station: Station) -> None:
     first = station.calling[0]
     pair_key(floor, worker, station, first.job, len(station.calling) + len(station.queue), first.since_s)
 
 
+@inlined
+def _is_best(floor: Floor, worker: Worker, station: Station, best: Worker, best_station: Station, is_second: bool):
+    """Whether a pair comes before the best so far, where blocks put something before the rule's numbers."""
+    if is_second:
+        _key(floor, best, best_station)
+        keep_best(floor)
+    _key(floor, worker, station)
+    if not is_better(floor):
+        return False
+    keep_best(floor)
+    return True
+
+
+@inlined
+def _next_able(floor: Floor, at: int) -> int:
+    """The number, from one on, of the next of those free who can serve at a station that calls."""
+    free, calls = floor.free, floor.calls
+    while at < len(free):
+        skills = free[at].skills
+        for word in range(floor.n_words):
+            if skills[word] & calls[word]:
+                return at
+        at += 1
+    return at
+
+
 @step
 def _serve_best(floor: Floor) -> bool:
-    """The worker of the best pair is sent, where there is one."""
+    """The worker of the best pair is sent, where there is one; True where there may be another pair."""
     best, best_station = floor.no_worker, floor.outside
     patrols, n_pairs = floor.idle == PATROL, 0
-    for i in range(len(floor.free)):
-        worker = floor.free[i]
+    smallest = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    at = _next_able(floor, 0)
+    while at < len(floor.free):
+        worker = floor.free[at]
         for word in range(floor.n_words):
             able = worker.skills[word] & floor.calls[word]
             while able:
@@ -54,21 +88,27 @@ def _serve_best(floor: Floor) -> bool:
                 if n_pairs == 1:
                     best, best_station = worker, station  # most often the only pair, and its key is never asked for
                     continue
+                if len(floor.prefixes):
+                    if _is_best(floor, worker, station, best, best_station, n_pairs == 2):
+                        best, best_station = worker, station
+                    continue
                 if n_pairs == 2:
-                    _key(floor, best, best_station)
-                    keep_best(floor)
-                _key(floor, worker, station)
-                if is_better(floor):
-                    best, best_station = worker, station
-                    keep_best(floor)
+                    smallest = _numbers(floor, best, best_station)
+                numbers = _numbers(floor, worker, station)
+                if numbers < smallest:
+                    best, best_station, smallest = worker, station, numbers
+        at = _next_able(floor, at + 1)
     if not best:
+        floor.none_fits = not patrols  # these fit by where they stand, too
         return False
     if best_station.calling[0].job.with_tools:
         floor.found_worker, floor.found_station = best, best_station
         tell_2(floor.tools_line, floor, best_station, best_station.calling[0].job)
         best, best_station = floor.found_worker, floor.found_station
+    n_free, calls = len(floor.free), floor.calls[0]
     _send(floor, best, best_station, best_station.calling[0].job)
-    return True
+    # it was the only pair, and nobody has come free or has called since: there is none, and no need to look
+    return n_pairs > 1 or len(floor.free) >= n_free or floor.n_words > 1 or floor.calls[0] & ~calls != 0
 
 
 @step

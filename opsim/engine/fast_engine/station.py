@@ -151,6 +151,7 @@ def call(floor: Floor, station: Station, job: Job) -> None:
     if not has_bit(floor.calls, station.rank):
         set_bit(floor.calls, station.rank)
         floor.n_calling += 1
+        floor.none_fits = 0
 
 
 @step

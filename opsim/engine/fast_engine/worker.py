@@ -20,6 +20,7 @@ def set_free(floor: Floor, worker: Worker) -> None:
     worker.station = NOTHING
     if not worker.in_free:
         worker.in_free = 1
+        floor.none_fits = 0
         push(floor, floor.free, worker)
 
 

@@ -47,6 +47,7 @@ def may_serve(worker: Worker, station: Station) -> bool:
 @inlined
 def see_skills(floor: Floor, worker: Worker) -> None:
     """The stations that his ratings and all limits leave him."""
+    floor.none_fits = 0
     for word in range(floor.n_words):
         left = worker.own_skills[word]
         for limit in range(floor.n_limits):

@@ -41,32 +41,40 @@ def keep_best(floor: Floor) -> None:
 
 
 @inlined
+def pair_numbers(
+    floor: Floor, worker: Worker, station: Station, n_waiting: float, since_s: float
+) -> tuple[float, float, float, float, float, float]:
+    """What the plan's rule compares a free worker and a calling station by; somebody calls there since some time."""
+    walk_s, rating = worker.walk_s[worker.place * floor.n_stations + station.rank], worker.rating[station.rank]
+    n, at, by = float(n_waiting), float(station.rank), float(worker.rank)
+    if floor.rule == 0:
+        return _longest_queue(n, since_s, walk_s, rating, at, by)
+    if floor.rule == 1:
+        return _nearest(n, since_s, walk_s, rating, at, by)
+    if floor.rule == 2:
+        return _oldest_job(n, since_s, walk_s, rating, at, by)
+    if floor.rule == 3:
+        return _most_downstream(n, since_s, walk_s, rating, at, by)
+    if floor.rule == 4:
+        return _best_skill(n, since_s, walk_s, rating, at, by)
+    return _least_exposed(n, since_s, walk_s, rating, at, by)
+
+
+@inlined
 def pair_key(floor: Floor, worker: Worker, station: Station, job: Job, n_waiting: float, since_s: float) -> None:
-    """What a free worker and a calling station are compared by; ``job`` is the one that calls, since some time."""
+    """The key of a free worker and a calling station; ``job`` is the one that calls, since some time."""
     floor.key_n = 0
     for i in range(len(floor.prefixes)):
         ask_3(floor.prefixes[i].line, floor, worker, station, job)
-    n_stations, rank = floor.n_stations, station.rank
-    walk_s, rating = worker.walk_s[worker.place * n_stations + rank], worker.rating[rank]
-    at, by = float(rank), float(worker.rank)
-    n = float(n_waiting)
-    if floor.rule == 0:
-        found = _longest_queue(n, since_s, walk_s, rating, at, by)
-    elif floor.rule == 1:
-        found = _nearest(n, since_s, walk_s, rating, at, by)
-    elif floor.rule == 2:
-        found = _oldest_job(n, since_s, walk_s, rating, at, by)
-    elif floor.rule == 3:
-        found = _most_downstream(n, since_s, walk_s, rating, at, by)
-    elif floor.rule == 4:
-        found = _best_skill(n, since_s, walk_s, rating, at, by)
-    else:
-        found = _least_exposed(n, since_s, walk_s, rating, at, by)
-    for i in range(6):
-        floor.key[floor.key_n + i] = found[i]
-    floor.key_n += 6
+    found = pair_numbers(floor, worker, station, n_waiting, since_s)
+    put(floor, found[0])  # NOTE: a loop over them jumps by a table six times
+    put(floor, found[1])
+    put(floor, found[2])
+    put(floor, found[3])
+    put(floor, found[4])
+    put(floor, found[5])
 
 
 assert (*("longest_queue", "nearest", "oldest_job", "most_downstream", "best_skill", "least_exposed"),) == ALLOCATION, (
-    "pair_key has the rules in another order"
+    "pair_numbers has the rules in another order"
 )

@@ -229,6 +229,7 @@ class Floor:
     now, env_now : the instant that is being settled, and that of the event; they differ only between events
     heap_* : events to come, by time, then by when they were set; n_events : set so far
     n_words : of a set of stations as bits; error : why the run has to end, 0 while all is well
+    none_fits : whether it is known that nobody who is free can serve where somebody calls
     """
 
     table: int
@@ -280,6 +281,7 @@ class Floor:
     calls: Array[int]
     free: List[Worker]
     n_calling: int
+    none_fits: int
     saturated: List[Source]
     losing: int
     n_open: int
