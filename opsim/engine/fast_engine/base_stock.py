@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.fast_engine.kits import waited_for
-from opsim.engine.fast_engine.machine import inlined, step
+from opsim.engine.fast_engine.machine import here, inlined, step
 from opsim.engine.fast_engine.material import create
 from opsim.engine.fast_engine.parts.state import Floor, Job
 from opsim.engine.fast_engine.parts.stocks import Refill
 from opsim.engine.rules import release
 from opsim.plan.release import BASE_STOCK
 
-_stock_wanted = inlined(release.stock_wanted)
+_stock_wanted, _waited = inlined(release.stock_wanted), here(waited_for)
 
 
 @step
@@ -27,6 +27,13 @@ def left(floor: Floor, refill: Refill, job: Job) -> None:
     refill.n_jobs[job.product] -= 1
 
 
+@inlined
+def _pieces(floor: Floor, refill: Refill, product: int) -> int:
+    """Pieces of a product in its store and on the way there."""
+    shelf = floor.stock.shelves[product]
+    return shelf.units + (refill.n_jobs[product] - len(shelf.jobs)) * floor.products[product].lot
+
+
 @step
 def ask(floor: Floor, refill: Refill) -> bool:
     """Begin the jobs that are wanted; True where there were some."""
@@ -36,17 +43,10 @@ def ask(floor: Floor, refill: Refill) -> bool:
         product = source.ranks[0]
         if source.closed:
             continue
-        while _stock_wanted(_pieces(floor, refill, product), waited_for(floor, product), source.level):
+        while _stock_wanted(_pieces(floor, refill, product), _waited(floor, product), source.level):
             create(floor, source)
             began = True
     return began
-
-
-@step
-def _pieces(floor: Floor, refill: Refill, product: int) -> int:
-    """Pieces of a product in its store and on the way there."""
-    shelf = floor.stock.shelves[product]
-    return shelf.units + (refill.n_jobs[product] - len(shelf.jobs)) * floor.products[product].lot
 
 
 def install(build: Any) -> None:

@@ -31,6 +31,7 @@ def stop_station(floor: Floor, station: Station) -> None:
 def shut_station(floor: Floor, station: Station) -> None:
     """One reason more to stand still, once what is under way is done: nobody is called, nothing begins."""
     station.down += 1
+    floor.n_down += 1
     for i in range(len(station.calling)):
         stand_still(floor, station, station.calling[i].job)
     while len(station.calling):
@@ -42,6 +43,7 @@ def shut_station(floor: Floor, station: Station) -> None:
 def start_station(floor: Floor, station: Station) -> None:
     """One reason less to stand still; where it was the last one, jobs on servers go on."""
     station.down -= 1
+    floor.n_down -= 1
     if station.down:
         return
     n = len(station.standing)

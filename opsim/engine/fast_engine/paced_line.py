@@ -25,7 +25,7 @@ OUTERMOST = -100
 def watch(floor: Floor, line: Line) -> bool:
     """Stand or run, and move on where that is due; True where something changed."""
     line.changed = 0
-    why = _kept(line)
+    why = _kept(floor, line)
     if line.due and why == NO_CAUSE:
         why = ask_1(line.move_line, floor, line)
     if why != line.why:
@@ -34,13 +34,14 @@ def watch(floor: Floor, line: Line) -> bool:
 
 
 @inlined
-def _kept(line: Line) -> int:
+def _kept(floor: Floor, line: Line) -> int:
     """Why the line has to stand now."""
     if line.n_ending:
         return FULL
-    for i in range(line.n_stations):
-        if line.stations[i].down:
-            return line.stations[i].stands_for
+    if floor.n_down:
+        for i in range(line.n_stations):
+            if line.stations[i].down:
+                return line.stations[i].stands_for
     if _all_gone(line):
         return AWAY
     return UNFINISHED if line.n_late else NO_CAUSE

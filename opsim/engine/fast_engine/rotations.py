@@ -36,14 +36,7 @@ _as_rotation = cast(Rotation)
 @step
 def keep_up(floor: Floor, rotation: Rotation) -> bool:
     """Posts are given out anew where a change is due, or somebody has come or gone."""
-    there, same = rotation.now_there, True
-    clear(there)
-    for member in range(rotation.n_members):
-        if _is_there(rotation.members[member]):
-            n = len(there)
-            same = same and n < len(rotation.there) and rotation.there[n] == member
-            push(floor, there, member)
-    if rotation.due or not same or len(there) != len(rotation.there):
+    if rotation.due or _others_are_there(rotation):
         if rotation.due:
             rotation.turn += 1
             rotation.due = 0
@@ -55,6 +48,18 @@ def keep_up(floor: Floor, rotation: Rotation) -> bool:
 
 
 @inlined
+def _others_are_there(rotation: Rotation) -> bool:
+    """Whether other members are there than when posts were given out."""
+    there, n = rotation.there, 0
+    for member in range(rotation.n_members):
+        if _is_there(rotation.members[member]):
+            if n == len(there) or there[n] != member:
+                return True
+            n += 1
+    return n != len(there)
+
+
+@inlined
 def _is_there(worker: Worker) -> bool:
     """On shift, or in overtime; not who merely finishes something before he goes."""
     return worker.kind != OFF and worker.kind != ABSENT and not worker.going
@@ -63,9 +68,10 @@ def _is_there(worker: Worker) -> bool:
 @inlined
 def _see_there(floor: Floor, rotation: Rotation) -> None:
     clear(rotation.there)
-    for n in range(len(rotation.now_there)):
-        push(floor, rotation.there, rotation.now_there[n])
-        rotation.position[rotation.now_there[n]] = n
+    for member in range(rotation.n_members):
+        if _is_there(rotation.members[member]):
+            rotation.position[member] = len(rotation.there)
+            push(floor, rotation.there, member)
 
 
 @step

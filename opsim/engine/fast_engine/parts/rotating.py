@@ -55,7 +55,6 @@ class Rotation:
     turn: int
     due: int
     there: List[int]
-    now_there: List[int]
     position: Array[int]
     at: Array[int]
     found: Array[int]

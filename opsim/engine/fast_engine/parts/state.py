@@ -229,6 +229,7 @@ class Floor:
     now, env_now : the instant that is being settled, and that of the event; they differ only between events
     heap_* : events to come, by time, then by when they were set; n_events : set so far
     n_words : of a set of stations as bits; error : why the run has to end, 0 while all is well
+    n_down : reasons for which stations stand, all together
     none_fits : whether it is known that nobody who is free can serve where somebody calls
     """
 
@@ -264,6 +265,7 @@ class Floor:
     n_rows: int
     n_stations: int
     stations: Array[Station]
+    n_down: int
     n_workers: int
     workers: Array[Worker]
     n_products: int
