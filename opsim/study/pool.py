@@ -13,6 +13,7 @@ from threading import Thread
 from typing import Any
 
 from opsim.forking import can_fork
+from opsim.study.handfuls import Done, Left, do, next_size
 from opsim.whole import remove_unfinished
 
 Prepare = Callable[[], Callable[[Any], Any]]
@@ -23,7 +24,7 @@ NOTE: a process that dies before it has read its arguments blocks its parent for
 FORKED_S, SPAWNED_S = 0.3, 4.0
 """Seconds of work left below which one process is sooner done: a fork takes 0.03 s, a new process 2 s to start."""
 WAITING = 4
-"""Items handed out ahead for each process: none is ever idle, and a million items are not a million futures."""
+"""Handfuls handed out ahead for each process: none is ever idle, and a million items are not a million futures."""
 
 
 def cores() -> int:
@@ -61,16 +62,23 @@ class Pool:
 
         Raises ProcessLost, and what the work itself raises.
         """
-        left, whole = iter(items), False
+        left, whole, n = Left(items), False, 1
         try:
-            running = self._submitted(left, self._ahead)
+            running = self._submitted(left, self._ahead, n)
             if meanwhile is not None:
                 meanwhile()
             while running:
                 done, running = wait(running, return_when=FIRST_COMPLETED)
-                running |= self._submitted(left, len(done))
+                answers = [future.result() for future in done if future.exception() is None]
+                for one in answers:
+                    left.give_back(one.undone)
+                    n = next_size(one)
+                if len(answers) == len(done):
+                    running |= self._submitted(left, len(done), n)
+                for one in answers:
+                    yield from one.results
                 for future in done:
-                    yield future.result()
+                    future.result()  # raises what it may have raised
             whole = True
         except BrokenProcessPool:
             raise ProcessLost("a process was killed (out of memory?)") from None
@@ -83,9 +91,10 @@ class Pool:
         self._pool.shutdown()
         self._end()
 
-    def _submitted(self, items: Iterator[Any], n: int) -> set[Future[Any]]:
+    def _submitted(self, items: Iterator[Any], handfuls: int, n: int) -> set[Future[Any]]:
+        """So many handfuls of n items each, while there are items."""
         with _without_signals():
-            return {self._pool.submit(_work, item) for item in islice(items, n)}
+            return {self._pool.submit(_work, some) for _ in range(handfuls) if (some := list(islice(items, n)))}
 
     def _end(self) -> None:
         self._parent_ends.close()  # each process sees this, and ends
@@ -155,7 +164,7 @@ def _end_with_parent(parent_lives: Any) -> None:
         os._exit(1)
 
 
-def _work(item: Any) -> Any:
+def _work(items: list[Any]) -> Done:
     if "failed" in _here:
         raise _here["failed"]
-    return _here["work"](item)
+    return do(_here["work"], items)

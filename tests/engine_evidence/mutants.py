@@ -46,7 +46,7 @@ class Fault:
 MUTANTS = {
     "wrong_tie": Fault(
         "of two workers to whom everything else is alike the last goes, not the first",
-        *("parts.keys.pair_key", "float(worker.rank)", "-float(worker.rank)"),
+        *("parts.keys.pair_numbers", "float(worker.rank)", "-float(worker.rank)"),
     ),
     "stale_timeout": Fault(
         "what was called off happens all the same",

@@ -6,6 +6,7 @@ What replications before have asked for is drawn as a run begins, by a recipe; f
 from __future__ import annotations
 
 import ctypes
+from collections import deque
 from math import isqrt
 from typing import Any
 
@@ -19,7 +20,7 @@ from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD
 from opsim.engine.fast_engine.named import NAMED
 from opsim.engine.fast_engine.parts import luck
-from opsim.engine.fast_engine.recipe import Recipe, Wanted, wanted
+from opsim.engine.fast_engine.recipe import Recipe, Wanted, is_dear, wanted
 from opsim.engine.fast_engine.settle import NO_LUCK
 from opsim.plan import Plan
 from opsim.streams import BLOCK
@@ -28,6 +29,9 @@ MOST_AHEAD = 32
 """Blocks at once, of a stream that has not said how many it needs."""
 ONE_IN = 8
 """As soon as one in so many streams had to be called for, a new recipe costs less than the calls."""
+OF_LAST, DEAR_ONE_IN = 4, 32
+"""A dear block too many costs four calls: so of those as many are drawn at once as each of the last replications has
+wanted, then by one, or by a small share of what there is."""
 
 _OF_PEOPLE = luck.DURATION, luck.HOLD
 _AT = {name: field.at // WORD for name, field in LAYOUTS["Stream"].fields.items()}
@@ -53,6 +57,7 @@ class Numbers:
         self._together: dict[int, Wanted] = {}
         self._streams: dict[int, Any] = {}
         self._asked: dict[int, int] = {}
+        self._dear: dict[int, deque[int]] = {}
         self._words: dict[int, Any] = {}
         self._kept: list[Any] = []
         self._whole: dict[int, Whole] = {}
@@ -83,6 +88,8 @@ class Numbers:
         for stream, blocks in self._asked.items():
             following = self._words[stream][_AT["next"]]
             used = blocks if following < 0 else -(-following // BLOCK)
+            if stream in self._dear:
+                self._dear[stream].append(used)
             self.needed[stream] = max(used, self.needed.get(stream, 0))
             self._lacking += stream in self._together or self._joins(stream)
 
@@ -116,19 +123,24 @@ class Numbers:
         number = words[_AT["id"]]
         self._words[number] = words
         if words[_AT["next"]] >= 0:
-            self._give(words, self._stream(number).fill(block, self._ahead(number, block)), block * BLOCK)
+            stream = self._stream(number)
+            self._give(words, stream.fill(block, self._ahead(number, block)), block * BLOCK)
             return
         whole = self._whole.setdefault(number, Whole())
         first = whole.n // BLOCK
         if block >= first:  # else another one of this stream has asked for it
-            whole.add(self._stream(number).fill(first, max(block + 1 - first, self._ahead(number, first))))
+            stream = self._stream(number)
+            whole.add(stream.fill(first, max(block + 1 - first, self._ahead(number, first))))
         self._give(words, whole.numbers, 0)
 
     def _ahead(self, stream: int, block: int) -> int:
         """How many blocks from one on: what was needed so far, else one more than there were in this replication."""
-        needed = self.needed.get(stream, 0)
-        more = block // ONE_IN + 1 if needed else min(block + 1, MOST_AHEAD)
-        ahead = max(needed - block, more)
+        if stream in self._dear:
+            ahead = max(min(self._dear[stream], default=0) - block, block // DEAR_ONE_IN + 1)
+        else:
+            needed = self.needed.get(stream, 0)
+            more = block // ONE_IN + 1 if needed else min(block + 1, MOST_AHEAD)
+            ahead = max(needed - block, more)
         self._asked[stream] = block + ahead
         return ahead
 
@@ -137,6 +149,8 @@ class Numbers:
         if found is None:
             ranks = stream >> 32 & 0xFFFF, stream >> 16 & 0xFFFF, stream & 0xFFFF
             found = self._streams[stream] = NAMED[stream >> 48](self.draws, self.plan, *ranks)
+            if is_dear(found.drawn):
+                self._dear.setdefault(stream, deque(maxlen=OF_LAST))
         return found
 
     def _give(self, words: Any, numbers: Any, first: int) -> None:

@@ -40,6 +40,11 @@ def wanted(stream: int, name: np.ndarray, drawn: Any) -> Wanted | None:
     return Wanted(stream, name, drawn, held)
 
 
+def is_dear(drawn: Any) -> bool:
+    """Whether a model is asked for each block of a stream: some 50 us of an emulator, where a call costs 20."""
+    return not isinstance(drawn.drawn if isinstance(drawn, HeldAtShares) else drawn, (OfAKind, NoLuck))
+
+
 class Recipe:
     """Of some streams, each of so many blocks, for any replication of a Plan.
 

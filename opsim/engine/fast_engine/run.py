@@ -33,6 +33,7 @@ class Machine:
         self.floor.table = TABLE.ctypes.data
         self.numbers = Numbers(plan, self.build.arena, self.floor)
         self.columns = Columns(self.build.arena, self.floor)
+        self._names = names_of(plan)
         self.build.arena.freeze()
 
     def run(self, replication: int) -> EventLog:
@@ -63,7 +64,7 @@ class Machine:
             self._refuse()
         close_floor(at)
         self._raise_what_failed()
-        return EventLog(replication, self.plan.horizon_s, self.columns.end(), names_of(self.plan))
+        return EventLog(replication, self.plan.horizon_s, self.columns.end(), self._names.copy())
 
     def _raise_what_failed(self) -> None:
         if self.numbers.failed is not None:

@@ -100,8 +100,10 @@ def test_a_log_keeps_its_numbers_while_others_are_drawn(shop):
     assert all(np.array_equal(log[name], before[name], equal_nan=before[name].dtype.kind == "f") for name in COLUMNS)
 
 
-class Failing:
-    """A plug-in's model that gives up in its third block."""
+class Own:
+    """A plug-in's model, which is asked for each block."""
+
+    n_asked, most = 0, 1_000_000
 
     def mean_duration_s(self, worker=None):
         return 20.0
@@ -111,15 +113,35 @@ class Failing:
 
     def sample(self, n, rng, *, worker=None, condition=None):
         self.n_asked += 1
-        if self.n_asked > 2:
+        if self.n_asked > self.most:
             raise RuntimeError("no more")
         return TimePerformances(10.0 + rng.random(n))
 
 
+def with_model(shop, model):
+    return replace(shop, tasks=(replace(shop.tasks[0], model=model), *shop.tasks[1:]))
+
+
+def test_of_dear_numbers_no_more_are_drawn_at_once_than_the_last_replications_all_wanted(shop):
+    model, before = Own(), {0: [], 1: [], 2: []}
+    made = replace(with_model(shop, model), horizon_s=12 * 3600.0)
+    machine = Machine(made)
+    for replication in (0, 1, 2, 3, 4, 5, 3):
+        log, model.n_asked = run_simpy(made, replication), 0
+        assert first_difference(log, machine.run(replication)) == ""
+        drawn = 0
+        for worker in np.unique(log["worker"][log["task"] == 0]).tolist():
+            wanted = 1 + log["k"][(log["task"] == 0) & (log["worker"] == worker)].max() // 64
+            drawn += max(wanted, min(before[worker][-4:], default=0))
+            before[worker].append(wanted)
+        assert model.n_asked == drawn
+    assert len(set(before[1])) > 1, "each wanted as many as the others"
+
+
 def test_what_a_model_raises_is_raised_and_the_floor_runs_again(shop):
-    model = Failing()
-    model.n_asked = 0
-    machine = Machine(replace(shop, tasks=(replace(shop.tasks[0], model=model), *shop.tasks[1:])))
+    model = Own()
+    model.most = 2
+    machine = Machine(with_model(shop, model))
     for _ in range(2):
         with pytest.raises(RuntimeError, match="no more"):
             machine.run(0)
