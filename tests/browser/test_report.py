@@ -37,7 +37,7 @@ OVER_THE_EDGE = """width => [...document.querySelectorAll('main *')].filter(e =>
 }).map(e => e.outerHTML.slice(0, 120))"""
 
 
-def until(watched, script, tries=100):
+def until(watched, script, tries=1000):
     """Waits without evaluating text within the page, which its policy forbids."""
     for _ in range(tries):
         if watched(script):

@@ -1,3 +1,4 @@
+import re
 from hashlib import blake2b
 
 import numpy as np
@@ -49,3 +50,15 @@ def test_a_stream_is_numpys_own_of_seed_and_spawn_key(seed, replication):
     assert stream(seed, replication, *name).bit_generator.state == wanted
     blocks = Items(seed, replication, name[:2], lambda rng, _: rng.bit_generator.state)
     assert blocks.block(12) == wanted
+
+
+@pytest.mark.parametrize("wrong", [-1, 1.5, "two"])
+def test_a_seed_or_replication_that_is_no_whole_number_from_0_is_refused_in_words(wrong):
+    said = re.escape(f"found {wrong!r}, expected a whole number from 0")
+    for seed, replication in ((wrong, 0), (1, wrong)):
+        with pytest.raises(ValueError, match=said):
+            stream(seed, replication, "a")
+
+
+def test_a_number_of_numpys_is_one_of_ours():
+    assert stream(np.int64(3), np.int32(2), "a").random() == stream(3, 2, "a").random()

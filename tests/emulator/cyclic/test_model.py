@@ -303,9 +303,9 @@ def test_times_are_drawn_a_thousand_times_faster_than_walked():
     import time
 
     drawn(2, distance_m=10.0)
-    start = time.perf_counter()
+    start = time.process_time()
     many = drawn(256, distance_m=10.0)
-    assert many.duration_s.sum() > 1000 * (time.perf_counter() - start)
+    assert many.duration_s.sum() > 1000 * (time.process_time() - start)
 
 
 def test_an_old_library_still_loads():

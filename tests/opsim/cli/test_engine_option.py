@@ -91,6 +91,24 @@ def test_auto_says_in_one_line_which_it_takes_and_why(mine, tmp_path, monkeypatc
     assert (engine["asked"], engine["used"]) == ("auto", "simpy") and "'mine'" in engine["why"]
 
 
+VARIANTS = """
+overrides: {wide: {stations.press.buffer: 4}, theirs: {allocation.rule: mine}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("names", "said_by"), [("{base: [], wide: [wide]}", ["base"]), ("{base: [], wide: [wide], theirs: [theirs]}", None)]
+)
+def test_auto_says_once_what_is_the_same_for_all_variants(names, said_by, tmp_path, monkeypatch):
+    stand_in(monkeypatch)
+    install_rule(tmp_path, monkeypatch, "opsim.dispatch", "mine")
+    people = MINE.replace("mine", "oldest_job")
+    file = line(tmp_path, f"{LINE}{people}{VARIANTS}scenarios: {names}\n")
+    code, _, said = opsim("run", file, "-o", tmp_path / "out", "--engine", "auto", "--processes", 1)
+    saying = re.findall(r"^run (\w+): the SimPy engine, as", said, re.MULTILINE)
+    assert code == 0 and saying == (said_by or ["base", "wide", "theirs"])
+
+
 def test_the_default_says_nothing_of_engines(tmp_path):
     _, shown, said = opsim("run", line(tmp_path), "-o", tmp_path / "out", "--replications", 1)
     assert "engine" not in shown + said

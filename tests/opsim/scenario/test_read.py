@@ -197,7 +197,7 @@ def test_editors_can_have_the_schema():
     assert schema["$defs"]["Run"]["properties"]["horizon"]["type"] == "string"
 
 
-def test_a_file_of_4000_lines_is_checked_within_a_second():
+def test_a_file_of_4000_lines_is_checked_before_it_costs_much():
     stations = "".join(f"  s{i}:\n    at: bench\n    tasks: [lift]\n    buffer: 3\n" for i in range(1000))
     skills = ", ".join(f"s{i}: 1.0" for i in range(1000))
     text = GOOD.replace("stations:\n", f"stations:\n{stations}").replace("{pack: 1.1}", f"{{pack: 1.1, {skills}}}")
@@ -207,7 +207,7 @@ def test_a_file_of_4000_lines_is_checked_within_a_second():
             scenarios_in(wrong.encode(), Path("line.yaml"))
         except ScenarioError as error:
             assert error.problems
-        assert time.process_time() - start < 1  # 0.1 s on a machine of 2026
+        assert time.process_time() - start < 5  # 0.1 s on a machine of 2026; a square law would take minutes
 
 
 def test_a_folder_is_not_a_scenario(tmp_path):

@@ -197,4 +197,4 @@ def endless(number):
 
 
 def test_a_floor_that_does_not_end_is_told_of_and_the_others_go_on():
-    assert [one.trouble for one in compared(range(3), endless, most_s=0.5)] == ["", "no end", ""]
+    assert [one.trouble for one in compared(range(3), endless, most_s=2.0)] == ["", "no end", ""]

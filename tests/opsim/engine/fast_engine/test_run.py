@@ -36,8 +36,8 @@ for n in range(8):
     made = plan(TEXT)
     machine_of(made)
     armed.append(True)
-    signal.setitimer(signal.ITIMER_REAL, 0.002 + 0.004 * n, 0.001)
     try:
+        signal.setitimer(signal.ITIMER_REAL, 0.002 + 0.004 * n, 0.001)
         run_plan(made)
         sys.exit("a run of 300,000 customers was not stopped")
     except KeyboardInterrupt:
@@ -99,3 +99,9 @@ def test_memory_that_is_not_there_is_an_error_and_the_next_run_is_right(monkeypa
             run.run_plan(made)
     assert first_difference(simpy_run(made), run.run_plan(made)) == ""
     assert "ignored" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("engine", [run.run_plan, simpy_run])
+def test_a_negative_replication_is_refused_in_words(engine):
+    with pytest.raises(ValueError, match="replication: found -1, expected a whole number from 0"):
+        engine(plan(queue(horizon="1 h")), -1)
