@@ -3,6 +3,7 @@
 One thread, insertion order preserved, compression and row-group size said: the same log gives the same bytes.
 """
 
+import atexit
 import json
 import os
 import re
@@ -38,6 +39,7 @@ def connect() -> Any:
     if parent_process() is None:
         return database
     _open[os.getpid()] = database
+    atexit.register(_open.clear)  # the thread that waits for the parent's end outlives Python, and all it can reach
     return database.cursor()
 
 

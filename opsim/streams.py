@@ -7,6 +7,7 @@ item can be had again later and alone, blocks may be drawn ahead, and adding a w
 from collections.abc import Callable, Iterator, Sequence
 from hashlib import blake2b
 from itertools import count
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,10 @@ def _key(seed: int, replication: int, name: Sequence[str | int]) -> bytes:
 
 
 def _words(number: int, fewest: int) -> bytes:
-    """A whole number from 0 as words of 32 bits, the lowest first."""
+    """A whole number as words of 32 bits, the lowest first. Raises ValueError for what is no whole number from 0."""
+    if not isinstance(number, Integral) or number < 0:
+        raise ValueError(f"a seed or a replication: found {number!r}, expected a whole number from 0")
+    number = int(number)
     n_words = max(fewest, -(-number.bit_length() // 32))
     return np.frombuffer(number.to_bytes(4 * n_words, "little"), "<u4").astype(np.uint32).tobytes()
 

@@ -37,12 +37,17 @@ def engine_option(default: str | None = SIMPY) -> Callable[[Callable[..., Any]],
     return click.option("--engine", type=EngineWord(), default=default, help=words)
 
 
-def telling(what: str, report: Report) -> Chosen:
-    """Says which engine ``auto`` takes, and that the fast one is compiled; ``what`` is being done."""
+def telling(what: str, report: Report, said: set[str] | None = None) -> Chosen:
+    """Says which engine ``auto`` takes, and that the fast one is compiled; ``what`` is being done.
+
+    said : sentences that are not said again, and what is said is added to them
+    """
+    before = set[str]() if said is None else said
 
     def chosen(choice: Choice) -> Told | None:
-        if choice.asked == AUTO:
+        if choice.asked == AUTO and choice.words not in before:
             report.say(f"{what}: {choice.words}")
+            before.add(choice.words)
         return lambda done, total: report.once(done, total, _compiling())
 
     return chosen

@@ -51,12 +51,13 @@ def run_variants(
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
             _refuse_other_runs(variants, out, how.get("seed"), _way_out(out, how))
+    said = set[str]() if len({one.words for one in engines.values()}) == 1 else None  # else each variant says its own
     with stops_once():
         return (
             out,
             variants,
             {
-                name: _run(name, loaded, out / name, how | {"engine": engines[name]})
+                name: _run(name, loaded, out / name, how | {"engine": engines[name]}, said)
                 for name, loaded in variants.items()
             },
         )
@@ -114,7 +115,7 @@ def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None, wa
         raise ValueError("\n".join([*words, way_out]))
 
 
-def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
+def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any], said: set[str] | None) -> Any:
     from opsim.cli.progress import progress
     from opsim.cli.stopping import stopped
     from opsim.study import run_scenario
@@ -125,7 +126,7 @@ def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any]) -> Any:
     kept = f"finished replications are kept in {folder}; the same command goes on from there"
     try:
         with mistakes(OSError, OtherRun, Busy, NoSuchFigure), failures(kept), progress(f"run {name}") as report:
-            chosen = telling(f"run {name}", report)
+            chosen = telling(f"run {name}", report, said)
             return run_scenario(loaded, folder=folder, progress=report, meanwhile=_report_modules, chosen=chosen, **how)
     except KeyboardInterrupt as stop:
         raise stopped(stop, kept) from None

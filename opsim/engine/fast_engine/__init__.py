@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from opsim.engine.fast_engine.limits import plug_ins_of
 from opsim.engine.fast_engine.readiness import compiling_s, is_kept, ready
 from opsim.engine.fast_engine.run import run_plan
 from opsim.plan import Plan
@@ -12,10 +13,9 @@ __all__ = ["compiling_s", "is_kept", "ready", "run_plan", "unsupported"]
 def unsupported(plan: Plan) -> list[str]:
     """What of a Plan only the reference engine runs, in sentences; nothing where this one runs all of it."""
     from opsim.engine.fast_engine.build import Build
-    from opsim.engine.plugin_rules import plugin_rules
 
-    if rules := plugin_rules(plan):
-        return list(dict.fromkeys(str(rule) for rule in rules))
+    if said := plug_ins_of(plan):
+        return said
     try:
         Build(plan)
     except NotImplementedError as error:

@@ -17,7 +17,12 @@ def refuse_too_many(plan: Plan) -> None:
             raise NotImplementedError(f"{n:,} {what}, where it tells {MOST_RANKS:,} apart")
 
 
+def plug_ins_of(plan: Plan) -> list[str]:
+    """Rules that only Python can follow, in words, each once."""
+    return list(dict.fromkeys(map(str, plugin_rules(plan))))
+
+
 def refuse_plug_ins(plan: Plan) -> None:
     """Raises NotImplementedError for a Plan with rules that only Python can follow."""
-    if rules := plugin_rules(plan):
-        raise NotImplementedError("; ".join(dict.fromkeys(map(str, rules))))
+    if said := plug_ins_of(plan):
+        raise NotImplementedError("; ".join(said))
