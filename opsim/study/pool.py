@@ -13,7 +13,6 @@ from threading import Thread
 from typing import Any
 
 from opsim.forking import can_fork
-from opsim.study.handfuls import Done, Left, do, next_size
 from opsim.whole import remove_unfinished
 
 Prepare = Callable[[], Callable[[Any], Any]]
@@ -24,7 +23,7 @@ NOTE: a process that dies before it has read its arguments blocks its parent for
 FORKED_S, SPAWNED_S = 0.3, 4.0
 """Seconds of work left below which one process is sooner done: a fork takes 0.03 s, a new process 2 s to start."""
 WAITING = 4
-"""Handfuls handed out ahead for each process: none is ever idle, and a million items are not a million futures."""
+"""Items handed out ahead for each process: none is ever idle, and a million items are not a million futures."""
 
 
 def cores() -> int:
@@ -62,23 +61,16 @@ class Pool:
 
         Raises ProcessLost, and what the work itself raises.
         """
-        left, whole, n = Left(items), False, 1
+        left, whole = iter(items), False
         try:
-            running = self._submitted(left, self._ahead, n)
+            running = self._submitted(left, self._ahead)
             if meanwhile is not None:
                 meanwhile()
             while running:
                 done, running = wait(running, return_when=FIRST_COMPLETED)
-                answers = [future.result() for future in done if future.exception() is None]
-                for one in answers:
-                    left.give_back(one.undone)
-                    n = next_size(one)
-                if len(answers) == len(done):
-                    running |= self._submitted(left, len(done), n)
-                for one in answers:
-                    yield from one.results
+                running |= self._submitted(left, len(done))
                 for future in done:
-                    future.result()  # raises what it may have raised
+                    yield future.result()
             whole = True
         except BrokenProcessPool:
             raise ProcessLost("a process was killed (out of memory?)") from None
@@ -91,10 +83,9 @@ class Pool:
         self._pool.shutdown()
         self._end()
 
-    def _submitted(self, items: Iterator[Any], handfuls: int, n: int) -> set[Future[Any]]:
-        """So many handfuls of n items each, while there are items."""
+    def _submitted(self, items: Iterator[Any], n: int) -> set[Future[Any]]:
         with _without_signals():
-            return {self._pool.submit(_work, some) for _ in range(handfuls) if (some := list(islice(items, n)))}
+            return {self._pool.submit(_work, item) for item in islice(items, n)}
 
     def _end(self) -> None:
         self._parent_ends.close()  # each process sees this, and ends
@@ -164,7 +155,7 @@ def _end_with_parent(parent_lives: Any) -> None:
         os._exit(1)
 
 
-def _work(items: list[Any]) -> Done:
+def _work(item: Any) -> Any:
     if "failed" in _here:
         raise _here["failed"]
-    return do(_here["work"], items)
+    return _here["work"](item)

@@ -51,9 +51,11 @@ def performed(floor: Floor, job: Job, worker: Worker) -> None:
 @step
 def operation_over(floor: Floor, job: Job, worker: Worker) -> None:
     """The operation is done, by a worker who stays with the job where it is carried, or held, and has to wait."""
-    carried = job.plan.carried
+    may_stay = job.plan.carried or floor.held_when_blocked
+    floor.at_once = floor.alone and not may_stay
     _operation_done(floor, job)
-    if (carried or floor.held_when_blocked) and job.on_floor and _stays(floor, job):
+    floor.at_once = 0
+    if may_stay and job.on_floor and _stays(floor, job):
         hold(floor, worker, job)
     else:
         set_free(floor, worker)
@@ -89,7 +91,9 @@ def automatic_done(floor: Floor, event: Event) -> None:
         job.setup_task = -1
         proceed(floor, job, floor.no_worker)
     elif task_done(job):
+        floor.at_once = floor.alone
         _operation_done(floor, job)
+        floor.at_once = 0
     else:
         next_task(floor, job, floor.no_worker)
 

@@ -21,7 +21,7 @@ from opsim.engine.fast_engine.machine import (
 from opsim.engine.fast_engine.machine.memory import give_bytes_back
 from opsim.engine.fast_engine.parts.claims import give_up_claims, put_claim
 from opsim.engine.fast_engine.parts.events import stir, stir_gate
-from opsim.engine.fast_engine.parts.gates import want_in
+from opsim.engine.fast_engine.parts.gates import goes_in_next, want_in
 from opsim.engine.fast_engine.parts.job_blocks import JobBlocks
 from opsim.engine.fast_engine.parts.records import Ahead, Source
 from opsim.engine.fast_engine.parts.rows import job_now, log_instant, log_job
@@ -136,10 +136,21 @@ def go_to(floor: Floor, job: Job, step: int) -> None:
         return
     job_now(floor, job, BLOCKED, 0)
     aim(job, step)
+    if floor.at_once and goes_in_next(floor, job):
+        _go_in(floor, job, job.gate.stations[0])
+        return
     want_in(floor, job, floor.now)
     station = job.station
     if station.clear:
         tell_2(station.clear.line, floor, station, job)
+
+
+@inlined
+def _go_in(floor: Floor, job: Job, station: Station) -> None:
+    """What becomes of a claim that is met, without putting it down; who moves up behind the job does not go so."""
+    floor.at_once = 0
+    station.n_inside += 1
+    _depart_for(floor, job, station)
 
 
 @step
@@ -274,4 +285,4 @@ def forget_job(floor: Floor, job: Job) -> None:
 
 _ask_after, _move_on, _go_to, _bring = here(ask_after), here(move_on), here(go_to), here(bring)
 _makes, _forgets, _leave_floor, _leave_station = here(new_job), here(forget_job), here(leave_floor), here(leave_station)
-_seat = here(seat)
+_seat, _depart_for = here(seat), here(depart_for)

@@ -60,7 +60,9 @@ def report(floor: Floor, event: Event) -> None:
     """Something happened now. It is applied in settle, in the order of (kind, natural rank, job number)."""
     if not floor.settle_pending and (floor.heap_n == 0 or floor.heap_time[0] > floor.env_now):
         floor.now = floor.env_now  # the instant has no other event, so this is its end already
+        floor.alone = 1
         tell_1(event.line, floor, event)
+        floor.alone = 0
         forget_event(floor, event)
         _dispatch(floor)
     else:

@@ -35,6 +35,19 @@ def leads_to(gate: Gate, job: Job) -> bool:
 
 
 @inlined
+def goes_in_next(floor: Floor, job: Job) -> bool:
+    """Whether a claim of the job at its gate would be the first that is looked at, and met, and no block has a word."""
+    gate, station = job.gate, job.station
+    if gate.n_stations > 1 or len(gate.claims) or len(floor.stirred) or job.ahead or job.held_by:
+        return False
+    if gate.pick or len(gate.allows) or len(gate.entered) or len(floor.left_station):
+        return False
+    if station.clear or station.vacate or len(station.afters):
+        return False
+    return gate.stations[0].n_inside < gate.stations[0].capacity
+
+
+@inlined
 def is_allowed(floor: Floor, gate: Gate, job: Job) -> bool:
     """Whether no block keeps a job out."""
     for i in range(len(gate.allows)):

@@ -230,6 +230,8 @@ class Floor:
     heap_* : events to come, by time, then by when they were set; n_events : set so far
     n_words : of a set of stations as bits; error : why the run has to end, 0 while all is well
     n_down : reasons for which stations stand, all together
+    alone : whether what happens now is the only thing in its instant; at_once : whether nothing follows of it but that
+    the job which is done goes on, which may be let in then without a claim
     none_fits : whether it is known that nobody who is free can serve where somebody calls
     """
 
@@ -246,6 +248,8 @@ class Floor:
     heap_event: Array[Event]
     n_events: int
     settle_pending: int
+    alone: int
+    at_once: int
     active: Worker
     has_orders: int
     reports: List[Event]

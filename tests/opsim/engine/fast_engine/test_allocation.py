@@ -25,7 +25,7 @@ def hall(n_stations: int, *, rule: str, idle: str, priority: bool) -> str:
             "layout: {places: {" + ", ".join(f"p{i}: [{i % 4} m, {i // 8} m]" for i in ranks) + "}}",
             "tasks: {t: {dist: exponential, mean: 20 s}}",
             "stations:",
-            *(f"  s{i}: {{at: p{i // 2}, tasks: [t], servers: 2{'' if i % 5 else first}}}" for i in ranks),
+            *(f"  s{i}: {{at: p{i // 6}, tasks: [t], servers: 2{'' if i % 5 else first}}}" for i in ranks),
             "products:",
             *(f"  q{i}: {{route: [s{i}, s{(5 * i + 3) % n_stations}]}}" for i in ranks),
             "sources:",
@@ -49,4 +49,4 @@ def test_the_same_people_go_to_the_same_stations(rule, n_stations):
 @pytest.mark.parametrize("n_stations", [SHORT, LONG])
 def test_what_blocks_put_before_the_rule_and_who_is_idle(idle, n_stations):
     log = twins(hall(n_stations, rule="longest_queue", idle=idle, priority=True))
-    assert len(log.of(WALK)) > len(log.of(WORK)) / 3
+    assert len(log.of(WALK)) > 20
