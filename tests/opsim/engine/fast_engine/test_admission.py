@@ -1,4 +1,4 @@
-"""Jobs that come in as SimPy's engine lets them in: some at once, where nothing else happens, others by their claims."""
+"""Jobs come in as SimPy's engine lets them in: some at once, where nothing else happens, others by their claims."""
 
 import pytest
 from twins import twins
