@@ -43,7 +43,9 @@ def _key(floor: Floor, worker: Worker, station: Station) -> None:
 
 
 @inlined
-def _is_best(floor: Floor, worker: Worker, station: Station, best: Worker, best_station: Station, is_second: bool):
+def _is_best(
+    floor: Floor, worker: Worker, station: Station, best: Worker, best_station: Station, is_second: bool
+) -> bool:
     """Whether a pair comes before the best so far, where blocks put something before the rule's numbers."""
     if is_second:
         _key(floor, best, best_station)
