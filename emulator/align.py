@@ -62,6 +62,7 @@ def align(
     labels: Labels = NUMBERS,
     marks: np.ndarray | None = None,
     mark_strength: float = landmarks.STRENGTH,
+    penalty: float = 0.0,
     n_threads: int | None = None,
     progress: Progress | None = None,
 ) -> Alignment:
@@ -71,6 +72,7 @@ def align(
     each sequence. The result does not depend on ``n_threads``. Raises ValueError that tells the sequence (by its name
     in ``labels``) for an empty list, unequal bones, postures opposite to the next one or to the mean of all.
     marks (N, E), own unit times, are brought together softly: see ``landmarks``; the history then counts them too.
+    penalty : weight of |sqrt(gamma') - 1|^2 against the mean |q|^2; 0 leaves the warps free, as in the paper
     """
     sequences = checked(directions, labels)
     uniform = np.stack([resample(sequence, np.linspace(0.0, 1.0, n_times)) for sequence in sequences])
@@ -79,18 +81,21 @@ def align(
     if marks is not None and mark_strength > 0:
         bumps = landmarks.channels(marks, n_times - 1, _mean_square(velocity), mark_strength)
         fields = np.concatenate([velocity, bumps], axis=-1)
+    level = np.sqrt(penalty * _mean_square(velocity))
+    if penalty > 0:
+        fields = np.concatenate([fields, np.full((*fields.shape[:-1], 1), level)], axis=-1)
     spread = _spread(fields)
     if len(sequences) == 1 or spread == 0.0:
         identity = np.tile(np.linspace(0.0, 1.0, n_times), (len(sequences), 1))
         return Alignment(identity, uniform, velocity.mean(0), reference, (spread,), spread, spread)
     register = _Rounds(fields, n_threads, progress)
     warps, _ = register(fields[_nearest_to_mean(fields)])
-    template = warped(fields, warp.centre(warps)).mean(0)
+    template = _mean_field(fields, warp.centre(warps), level)
     history: list[float] = []
     while len(history) < max_iterations and not _settled(history, tolerance):
         warps, inner = register(template)
         history.append(_mean_square(fields) + _mean_square(template[None]) - 2.0 * float(inner.mean()))
-        template = warped(fields, warps).mean(0)
+        template = _mean_field(fields, warps, level)
     warps = warp.centre(warps)
     template = warped(fields, warps).mean(0)
     centred = _mean_square(fields) - _mean_square(template[None])
@@ -104,6 +109,7 @@ def align_to(
     template: np.ndarray,
     reference: np.ndarray,
     *,
+    penalty: float = 0.0,
     n_threads: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -111,6 +117,10 @@ def align_to(
     sequences = checked(directions)
     clock = np.linspace(0.0, 1.0, len(template) + 1)
     fields = elastic.tsrvf(np.stack([resample(sequence, clock) for sequence in sequences]), reference)
+    level = np.sqrt(penalty * _mean_square(fields))
+    if penalty > 0:
+        fields = np.concatenate([fields, np.full((*fields.shape[:-1], 1), level)], axis=-1)
+        template = np.concatenate([template, np.full((len(template), 1), level)], axis=-1)
     warps, _ = _Rounds(fields, n_threads, progress)(template)
     return warps, np.stack([resample(sequence, gamma) for sequence, gamma in zip(sequences, warps)])
 
@@ -122,6 +132,14 @@ def resample(directions: np.ndarray, at: np.ndarray) -> np.ndarray:
     """
     directions = np.asarray(directions, float)
     return geodesic.along(directions, np.clip(np.asarray(at, float), 0.0, 1.0) * (len(directions) - 1))
+
+
+def _mean_field(fields: np.ndarray, warps: np.ndarray, level: float) -> np.ndarray:
+    """Mean of the warped fields (cells, D); where warps are penalised the last channel stays at ``level``."""
+    mean = warped(fields, warps).mean(0)
+    if level > 0:
+        mean[:, -1] = level
+    return mean
 
 
 def _spread(fields: np.ndarray) -> float:

@@ -7,6 +7,8 @@ taken between the unit directions to both hips, so that the heading, as the post
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from emulator.skeleton import Skeleton
@@ -46,9 +48,22 @@ def top_speed_m_per_s(positions: np.ndarray, rate_hz: float) -> float:
     return float(np.linalg.norm(np.diff(positions, axis=0), axis=-1).max() * rate_hz)
 
 
-def glitch(positions: np.ndarray, rate_hz: float, limit_m_per_s: float = IMPOSSIBLE_M_PER_S) -> str:
-    """Why a repetition (T, J, 3) cannot be a body's movement, or "" if nothing speaks against it."""
-    if not np.all(np.isfinite(positions)):
-        return "positions are missing"
-    speed = top_speed_m_per_s(positions, rate_hz)
-    return f"a joint moves at {speed:.1f} m/s (at most {limit_m_per_s:g})" if speed > limit_m_per_s else ""
+def glitch(
+    positions: np.ndarray, rate_hz: float, limit_m_per_s: float = IMPOSSIBLE_M_PER_S, names: Sequence[str] = ()
+) -> str:
+    """Why a repetition (T, J, 3) cannot be a body's movement, or "" if nothing speaks against it.
+
+    names : of the joints; with them the first joint and time are told
+    """
+    missing = np.argwhere(~np.isfinite(positions).all(axis=-1))
+    if len(missing):
+        frame, joint = missing[0]
+        where = f": {names[joint]} at frame {frame} ({frame / rate_hz:.2f} s)" if names else ""
+        more = f", and {len(missing) - 1} more" if where and len(missing) > 1 else ""
+        return f"positions are missing{where}{more}"
+    if top_speed_m_per_s(positions, rate_hz) <= limit_m_per_s:
+        return ""
+    speed = np.linalg.norm(np.diff(positions, axis=0), axis=-1) * rate_hz
+    frame, joint = np.unravel_index(speed.argmax(), speed.shape)
+    where = f": {names[joint]} from frame {frame} to {frame + 1} ({(frame + 1) / rate_hz:.2f} s)" if names else ""
+    return f"a joint moves at {speed.max():.1f} m/s (at most {limit_m_per_s:g}){where}"

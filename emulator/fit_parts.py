@@ -11,18 +11,19 @@ from emulator.dwell_fit import fit_dwells, predictors
 from emulator.dwells import NONE, Dwells
 from emulator.fit_settings import FitSettings
 from emulator.flatten import SIEM
+from emulator.footing import Footing
 from emulator.joint import JointScale
 from emulator.margin import Margin, fit_margin, within_worker
 from emulator.marks import clock_to_coordinates
 from emulator.motion import MotionSet
-from emulator.posture_size import posture_size
 from emulator.reduce import JointPCA
 from emulator.registered import Registered
+from emulator.root import RootChannel
 from emulator.storage import bits, on_grid
 from emulator.warp import clr, from_clr
 
-ROOT_SHARE, PACE_SHARE, BONE_SHARE, NEARLY_ALL = 0.98, 0.98, 0.98, 0.999999
-LARGEST_ROOT, LARGEST_PACE = 8, 10
+ROOT_SHARE, PACE_SHARE, BONE_SHARE, FINE_RAD = 0.9999, 0.98, 0.98, 0.002
+LARGEST_POSTURE, LARGEST_ROOT, LARGEST_PACE = 120, 60, 10
 DURATION_KNOTS, MARK_KNOTS = 12, 60
 LARGEST_ICC_FOR_SCORES = 0.3
 
@@ -45,20 +46,21 @@ class Parts:
     scale: JointScale
     flat: np.ndarray
     z: np.ndarray
+    footing: Footing | None
 
 
 def parts_of(made: Registered, settings: FitSettings) -> Parts:
     """Fit every step and go forward through it."""
-    flatten = SIEM.fit(made.directions)
+    flatten, n_times = SIEM.fit(made.directions), made.warps.shape[1]
     flat = flatten.forward(made.directions).reshape(len(made.directions), -1)
-    posture = stored(_posture_components(flat, settings.n_components), settings.n_times)
+    posture = stored(_posture_components(flat, settings.n_components), n_times)
     log_bones = _log_bones(made.moving)
     bones = JointPCA.fit(log_bones, BONE_SHARE)
     channel = made.channels()
-    root = stored(JointPCA.fit(channel, ROOT_SHARE, LARGEST_ROOT), settings.n_times)
+    root = stored(JointPCA.fit(channel, ROOT_SHARE, LARGEST_ROOT), n_times)
     slopes = clr(made.warps, settings.n_knots)
     pace = JointPCA.fit(slopes, PACE_SHARE, LARGEST_PACE)
-    marks = clock_to_coordinates(made.mark_clock(from_clr(pace.inverse(pace.forward(slopes)), settings.n_times)))
+    marks = clock_to_coordinates(made.mark_clock(from_clr(pace.inverse(pace.forward(slopes)), n_times)))
     mark_margins = tuple(fit_margin(column, column, MARK_KNOTS, 0.05) for column in marks.T)
     log_duration = np.log(made.moving.duration_s)
     margin = duration_margin(log_duration, made.moving.worker_index)
@@ -72,7 +74,9 @@ def parts_of(made: Registered, settings: FitSettings) -> Parts:
         "bones": bones.forward(log_bones),
     }
     scale, z = JointScale.fit(blocks | latent)
-    return Parts(flatten, posture, root, pace, bones, margin, mark_margins, dwells, scale, flat, z)
+    leg_m = RootChannel(made.moving.skeleton).leg_m(np.stack([m.bone_length_m for m in made.moving.motions]))
+    footing = Footing.fit(made.moving.motions, made.warps, blocks["posture"], leg_m)
+    return Parts(flatten, posture, root, pace, bones, margin, mark_margins, dwells, scale, flat, z, footing)
 
 
 def stored(pca: JointPCA, n_times: int) -> JointPCA:
@@ -93,8 +97,11 @@ def duration_margin(log_duration: np.ndarray, worker_index: np.ndarray) -> Margi
 
 
 def _posture_components(flat: np.ndarray, n_components: int | float | None) -> JointPCA:
+    """As many as asked for, or all that say more than ``FINE_RAD`` a bone, which no recording knows better."""
     if n_components is None:
-        return JointPCA.fit(flat, NEARLY_ALL, posture_size(flat))
+        total = np.sum((flat - flat.mean(axis=0)) ** 2)
+        fine = FINE_RAD**2 * flat.size / 2
+        return JointPCA.fit(flat, float(np.clip(1.0 - fine / max(total, 1e-300), 0.5, 1.0 - 1e-9)), LARGEST_POSTURE)
     return JointPCA.fit(flat, n_components)
 
 

@@ -44,6 +44,10 @@ class FitReport:
     disco_p            : permutation test of emulated against recorded postures; small says that they differ
     times              : duration and marks, emulated beside recorded
     fastest_m_per_s    : greatest speed of any joint in a recorded performance
+    too_fast, too_fast_new : share of draws of the same and of new people in which a joint is faster than 1.1 x the
+                         fastest recorded, in real time at 30 frames a second
+    jerk_ratio, jerk_new_ratio : peak jerk of a joint over that recorded, medians over draws and joints
+    wander_cm, wander_recorded_cm : how far a planted foot strays from its place, drawn (same people) and recorded
     """
 
     task: str
@@ -73,6 +77,12 @@ class FitReport:
     disco_p: float = math.nan
     times: tuple[TimeFit, ...] = ()
     fastest_m_per_s: float = math.nan
+    too_fast: float = math.nan
+    too_fast_new: float = math.nan
+    jerk_ratio: float = math.nan
+    jerk_new_ratio: float = math.nan
+    wander_cm: float = math.nan
+    wander_recorded_cm: float = math.nan
 
     def rows(self) -> list[tuple[str, str]]:
         """Label and text of each figure, in the order to print them."""
@@ -88,9 +98,23 @@ class FitReport:
             ("ICC of log duration", icc),
             ("roughness, emulated / recorded", f"{_figure(self.roughness_ratio)} {_new(self.roughness_new_ratio)}"),
             ("fastest joint, recorded", _figure(self.fastest_m_per_s, " m/s")),
+            *self._in_real_time(),
             ("novelty, emulated / recorded", _figure(self.novelty_ratio)),
             ("DISCO, emulated against recorded", f"p = {_figure(self.disco_p)}"),
             *((f"{fit.name}, emulated / recorded", _time(fit)) for fit in self.times),
+        ]
+
+    def _in_real_time(self) -> list[tuple[str, str]]:
+        """Nothing of a library from before these were measured."""
+        if math.isnan(self.too_fast):
+            return []
+        new = "" if math.isnan(self.too_fast_new) else f" (new people {100 * self.too_fast_new:.0f} %)"
+        wander = f"{_figure(self.wander_cm)} / {_figure(self.wander_recorded_cm)} cm"
+        feet = [] if math.isnan(self.wander_recorded_cm) else [("foot wander, emulated / recorded", wander)]
+        return [
+            ("draws over 1.1 x the fastest", f"{100 * self.too_fast:.0f} %{new}"),
+            ("peak jerk, emulated / recorded", f"{_figure(self.jerk_ratio)} {_new(self.jerk_new_ratio)}".rstrip()),
+            *feet,
         ]
 
     def as_dict(self) -> dict[str, Any]:

@@ -11,6 +11,9 @@ from emulator.model import SCHEMES
 AUTO = "auto"
 """Choose the scheme by cross-validation: see ``fit_choice``."""
 
+CLOCK = (101, 301)
+"""Fewest and most points of a common clock whose number is not asked for."""
+
 Progress = Callable[[int, int, str], None] | None
 
 
@@ -20,23 +23,27 @@ class FitSettings:
 
     scheme: str
     n_components: int | float | None
-    n_times: int
+    n_times: int | None
     n_knots: int
     landmarks: float
     seed: int
     command: str
+    penalty: float | None = None
 
     def __post_init__(self) -> None:
         for wrong in unknown_scheme(self.scheme):
             raise ValueError(wrong)
+        if self.penalty is not None and not 0 <= self.penalty < float("inf"):
+            raise ValueError(f"penalty: found {self.penalty}, expected a weight from 0")
         if not 0 <= self.landmarks < float("inf"):
             raise ValueError(f"landmarks: found {self.landmarks}, expected a strength from 0")
         if self.n_components is not None and not self.n_components > 0:
             raise ValueError(
                 f"n_components: found {self.n_components}, expected a number from 1 or a share of variance"
             )
-        if self.n_times < 10 or not 2 <= self.n_knots < self.n_times:
-            raise ValueError(f"n_times {self.n_times} must be 10 or more and n_knots {self.n_knots} from 2 to below it")
+        n_times = self.n_times or CLOCK[0]
+        if n_times < 10 or not 2 <= self.n_knots < n_times:
+            raise ValueError(f"n_times {n_times} must be 10 or more and n_knots {self.n_knots} from 2 to below it")
 
 
 def unknown_scheme(scheme: str) -> list[str]:

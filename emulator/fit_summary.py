@@ -16,27 +16,36 @@ from emulator.fit_judge import reconstruction_deg, strangers
 from emulator.fit_parts import Parts
 from emulator.fit_report import FitReport, TimeFit
 from emulator.fit_settings import FitSettings
+from emulator.footing import fastest_m_per_s
+from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.disco import disco
 from emulator.judge.distance import distances
 from emulator.judge.energy import pooled
+from emulator.judge.footing import footing
+from emulator.judge.joint_speeds import peak_ratio, share_too_fast
 from emulator.judge.novelty import novelty
 from emulator.judge.roughness import roughness
 from emulator.model import SCHEME, SCHEMES, MotionEmulator
 from emulator.motion import MotionSet
 from emulator.performances import MotionPerformances
-from emulator.quickness import recorded_m_per_s
 from emulator.registered import Registered
 from emulator.workforce import BETWEEN_METHOD, Workforce
 
-ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES = 1.5, 50, 25, 199, 101
+ROUGH, N_NEW, N_TIMES, N_PERMUTATIONS, MOST_TIMES, MOST_CLIPS = 1.5, 50, 25, 199, 101, 60
 GAUSSIAN = "Gaussian by its factor; within-worker correlations shrunk by rho {rho}"
-SMOOTHED = (
-    "the recordings' own coordinates, each blurred by low-rank noise that makes a posture seven eighths as far from "
-    "the nearest recording as a left-out recording is, other coordinates by Silverman's rule; slopes of the pace "
-    "within a fifth of the recorded ones; a known worker from his own repetitions, and with the weight of one of them "
-    "from everybody's deviations about his shrunk mean"
+HELD = (
+    "held near the identity with weight {:g}, the least at which recordings given each other's pace accelerate hardly "
+    "more than they did"
 )
-POSTURE_SIZE = "as many as held-out repetitions need (ten folds)"
+ROOT = "a path of its own in leg lengths, and the heading; feet stand when and as those of the nearest recording did"
+SMOOTHED = (
+    "mixtures of two recordings of one worker, mostly of the first, each blurred by smooth low-rank noise that makes a "
+    "posture up to seven eighths as far from the nearest recording as a left-out recording is, other coordinates by "
+    "Silverman's rule; slopes of the pace within a fifth of the recorded ones; a known worker from the worker's own "
+    "repetitions, and with the weight of one of them from everybody's deviations about the worker's shrunk mean; a new "
+    "worker near a recorded one, with smooth noise between people, of the size that a t gives to the next of so few"
+)
+POSTURE_SIZE = "all that say more than 0.1 degrees a bone"
 ROUGH_NOTE = (
     "draws of new people are much rougher than the recordings: the people differ in kind (for example in the leading "
     "leg), and one between two kinds moves like neither; draw known workers, or fit the kinds apart"
@@ -48,6 +57,10 @@ TWINS_NOTE = (
 ONCE_NOTE = (
     "one repetition of each worker: what changes from one to the next is not known, so a worker does the same every "
     "time, and all variation lies between workers"
+)
+ALONE_NOTE = (
+    "one person: how people differ is not known, so there is no law between people, and every worker drawn moves as "
+    "this one does"
 )
 ALIKE_NOTE = (
     "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
@@ -90,7 +103,9 @@ def summary(
 
 
 def _once(whole: MotionSet) -> tuple[str, ...]:
-    return (ONCE_NOTE,) if 1 < len(whole) == len(whole.workers) else ()
+    if len(whole.workers) == 1:
+        return (ALONE_NOTE,)
+    return (ONCE_NOTE,) if len(whole) == len(whole.workers) else ()
 
 
 def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> FitReport:
@@ -104,13 +119,13 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
     new_to_recorded, p, left_out = _postures(model.aligned_directions(alike.scores), made.directions, rng)
     twins = (ALIKE_NOTE if model.posture.n_components == 0 else TWINS_NOTE,) if math.isnan(new_to_recorded) else ()
     return replace(
-        model.report,
+        _in_real_time(model.report, alike, new, made),
         reconstruction_deg=reconstruction_deg(model.flatten, made.directions, model.posture.n_components),
         roughness_ratio=rough,
         roughness_new_ratio=rough_new,
         novelty_ratio=new_to_recorded,
         disco_p=p,
-        fastest_m_per_s=recorded_m_per_s(made.moving),
+        fastest_m_per_s=fastest_m_per_s(made.moving.motions),
         times=_times(many, made),
         notes=model.report.notes
         + twins
@@ -149,6 +164,28 @@ def _postures(drawn: np.ndarray, recorded: np.ndarray, rng: np.random.Generator)
     return novelty(across, left_out), test.p, left_out
 
 
+def _in_real_time(report: FitReport, alike: MotionPerformances, new: MotionPerformances, made: Registered) -> FitReport:
+    """Speed, jerk and feet of at most ``MOST_CLIPS`` draws each, beside all recordings."""
+    recorded, rate_hz = Clips.recorded(made.whole, alike.skeleton), frame_rate_hz(made.whole)
+    some = np.unique(np.linspace(0, len(alike) - 1, MOST_CLIPS).astype(int))
+    known, others = Clips.drawn(alike[some], rate_hz), Clips.drawn(new[:MOST_CLIPS], rate_hz)
+    wander, recorded_wander = (_mean(footing(clips).wander_cm) for clips in (known, recorded[some]))
+    return replace(
+        report,
+        too_fast=share_too_fast(known, recorded),
+        too_fast_new=share_too_fast(others, recorded),
+        jerk_ratio=peak_ratio(known, recorded, 3),
+        jerk_new_ratio=peak_ratio(others, recorded, 3),
+        wander_cm=wander,
+        wander_recorded_cm=recorded_wander,
+    )
+
+
+def _mean(values: np.ndarray) -> float:
+    known = values[np.isfinite(values)]
+    return float(known.mean()) if len(known) else math.nan
+
+
 def _times(drawn: MotionPerformances, made: Registered) -> tuple[TimeFit, ...]:
     emulated = [drawn.duration_s, *drawn.mark_s.T]
     recorded = [made.whole.duration_s, *made.whole.mark_s.T]
@@ -157,14 +194,14 @@ def _times(drawn: MotionPerformances, made: Registered) -> tuple[TimeFit, ...]:
 
 def _methods(made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings) -> dict[str, str]:
     methods = {
-        "registration": "S-TSRVF, dynamic programming, group template, warps centred",
+        "registration": "S-TSRVF, dynamic programming, group template, warps centred; " + HELD.format(made.penalty),
         "pace": "centred log ratio of the warps, monotone cubic between knots, PCA",
         "components": POSTURE_SIZE if settings.n_components is None else "as asked for",
         "density": GAUSSIAN.format(rho=f"{workforce.within.rho:.3f}") if workforce.smoothed is None else SMOOTHED,
         "workers": BETWEEN_METHOD.format(rho=f"{workforce.between.rho:.3f}"),
         "marks": "; ".join(f"{n}: {m.name}" for n, m in zip(made.whole.mark_names, parts.mark_margins)),
         "icc": "Shrout & Fleiss ICC(1,1) of log duration, 95 % interval of Thomas & Hultquist",
-        "root": "rides on the feet; slip, clearance and heading modelled",
+        "root": ROOT,
     }
     holds = {"holds": HOLDS_METHOD} if len(parts.dwells) else {}
     marks = {"landmarks": f"marks drawn together with strength {settings.landmarks:g}"} if settings.landmarks else {}

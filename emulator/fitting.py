@@ -7,15 +7,18 @@ from dataclasses import replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.bandwidth import smoothed
+from emulator.bandwidth import Curves, smoothed, stiff
 from emulator.covariates.table import table_of
 from emulator.fit_choice import choose
 from emulator.fit_parts import Parts, parts_of
 from emulator.fit_people import Covariates, covariates_of
 from emulator.fit_settings import AUTO, FitSettings, Progress
 from emulator.fit_summary import judged, summary
+from emulator.joint import CURVES
 from emulator.model import SCHEME, MotionEmulator
 from emulator.motion import MotionSet
+from emulator.population import Population
+from emulator.reduce import JointPCA
 from emulator.registered import Registered, registered
 from emulator.sound import refuse_unsound
 from emulator.workforce import Workforce, shrinkages
@@ -58,7 +61,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         motions.task,
         motions.skeleton,
         motions.mark_names,
-        settings.n_times,
+        made.warps.shape[1],
         parts.flatten,
         parts.posture,
         parts.root,
@@ -70,6 +73,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         workforce,
         summary(made, parts, workforce, settings, covariates.lines),
         parts.dwells,
+        parts.footing,
     )
 
 
@@ -79,13 +83,30 @@ def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings, covariat
     crew = replace(crew, group=motions.source)
     if settings.scheme != SCHEME or len(z) == n_workers or parts.posture.n_components == 0:
         return crew
-    centred, block = parts.flat - parts.posture.mean, parts.scale.block("posture")
-    size, bend = parts.scale.spread[block], _bending(parts, settings.n_times)
-    return replace(crew, smoothed=smoothed(z, index, crew.within.spread, block, size, centred @ centred.T, bend))
+    centred = parts.flat - parts.posture.mean
+    curves = _curves(parts)
+    blurred = smoothed(z, index, crew.within.spread, curves[0], curves[1:], centred @ centred.T)
+    return replace(crew, smoothed=blurred, population=_population(crew, parts, curves))
 
 
-def _bending(parts: Parts, n_times: int) -> np.ndarray:
-    """(P, P) products of the second differences in time of the posture components."""
-    second = np.diff(parts.posture.basis.reshape(parts.posture.n_components, n_times, -1), n=2, axis=1)
-    second = second.reshape(parts.posture.n_components, -1)
-    return np.asarray(second @ second.T)
+def _population(crew: Workforce, parts: Parts, curves: tuple[Curves, ...]) -> Population | None:
+    if not crew.has_worker_effect:
+        return None
+    between = crew.apart() / np.sqrt(len(crew.names))
+    smooth, bones = between.copy(), parts.scale.block("bones")
+    for curve in curves:
+        smooth[:, curve.at] = stiff(between[:, curve.at], curve)
+    return Population.fit(between, smooth, parts.scale.spread, tuple(curve.at for curve in curves), bones)
+
+
+def _curves(parts: Parts) -> tuple[Curves, ...]:
+    """The blocks of z that say curves over time: postures, root paths, paces; those without coordinates left out."""
+    found = []
+    for name, channels in zip(CURVES, (parts.flatten.n_channels, 4, 1)):
+        pca: JointPCA = getattr(parts, name)
+        block = parts.scale.block(name)
+        if pca.n_components:
+            second = np.diff(pca.basis.reshape(pca.n_components, -1, channels), n=2, axis=1)
+            second = second.reshape(pca.n_components, -1)
+            found.append(Curves(block, parts.scale.spread[block], np.asarray(second @ second.T)))
+    return tuple(found)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from emulator import sphere
+from emulator.alignable import base_points
 
 
 @dataclass(frozen=True)
@@ -14,16 +15,16 @@ class SIEM:
     """Single inverse exponential map: every posture to the tangent space of one reference posture.
 
     reference : (B, 3) unit vectors; the element-wise Karcher mean of all training postures, so that no posture
-    comes near the opposite point, where the map has no inverse.
-    Source: Chen, Park & Srivastava, definition 3.
+    comes near the opposite point, where the map has no inverse; where one does, a point beside the mean.
+    Source: Chen, Park & Srivastava, definition 3; see ``alignable.base_points``.
     """
 
     reference: np.ndarray
 
     @classmethod
     def fit(cls, directions: np.ndarray) -> SIEM:
-        """The map at the mean posture of directions (..., B, 3)."""
-        return cls(sphere.mean(directions.reshape(-1, *directions.shape[-2:]), axis=0))
+        """The map at the base points of directions (..., B, 3)."""
+        return cls(base_points(directions)[1])
 
     @property
     def n_channels(self) -> int:

@@ -9,6 +9,8 @@ from itertools import accumulate
 import numpy as np
 
 BLOCKS = ("posture", "root", "pace", "duration", "marks", "bones", "dwells")
+CURVES = ("posture", "root", "pace")
+"""The blocks that say curves over time."""
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ class Law:
 
     weight : (M,) adds to 1; mean : (M, K); reach : (M,) factor on the noise; centre : (K,)
     noise  : what varies about a component, mean 0; people : how workers differ, or None for one worker
+    size   : (M,) factor on how workers differ about people's mean; None: 1
     One component is the plain Gaussian (MVG of Chen, Park & Srivastava sec. 4.3.1).
     """
 
@@ -25,6 +26,7 @@ class Law:
     noise: LowRankNormal
     centre: np.ndarray
     people: LowRankNormal | None = None
+    size: np.ndarray | None = None
 
     def sample(self, n: int, rng: np.random.Generator, given: tuple[int, np.ndarray] | None = None) -> np.ndarray:
         """n draws (n, K): first the component (if there are several), then the noise, then the people.
@@ -41,7 +43,8 @@ class Law:
             z *= self.reach[at, None]  # NOTE: in place; a new array of all draws costs as much as drawing them
         z += self._centres[at]
         if self.people is not None:
-            z += self.people.sample(n, rng)
+            drawn = self.people.sample(n, rng)
+            z += drawn if self.size is None else self.people.mean + self.size[at, None] * (drawn - self.people.mean)
         return z if given is None else self._moved(z, at, *given)
 
     @cached_property
@@ -66,7 +69,10 @@ class Law:
     def covariance_with(self, coordinate: int) -> np.ndarray:
         """(M, K) covariance of z with one coordinate within each component."""
         column = self.reach[:, None] ** 2 * self.noise.covariance_with(coordinate)
-        return column if self.people is None else column + self.people.covariance_with(coordinate)
+        if self.people is None:
+            return column
+        size = np.ones(1) if self.size is None else self.size
+        return column + size[:, None] ** 2 * self.people.covariance_with(coordinate)
 
     def coordinates(self, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Means (M, A) and covariances (M, A, A) of the coordinates ``at`` (A,) in each component."""

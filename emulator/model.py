@@ -13,9 +13,11 @@ import numpy as np
 
 from emulator import dwell_times
 from emulator.conditions import CONDITIONS, given
+from emulator.decode import Decoder
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
+from emulator.footing import Footing, Legs
 from emulator.joint import JointScale
 from emulator.margin import Margin, inverse_all
 from emulator.marks import coordinates_to_clock
@@ -30,6 +32,7 @@ from emulator.workforce import WorkerEffect, Workforce
 SCHEME = "SIEM/JointPCA/Smoothed"
 SCHEMES = (SCHEME, "SIEM/JointPCA/MVG")
 SLOPE_ROOM = np.log(1.2)
+FASTER = 1.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +42,8 @@ class MotionEmulator:
     posture, root, pace, bones : JointPCA of tangent postures (T * 2B), side channel (T * 4), pace (Q), log bones (B)
     margin, mark_margins : of log moving duration (the whole duration, if nothing pauses), of each mark's coordinate
     dwells : sites of pauses and the law of each dwell; whole duration = moving duration + dwells
+    footing : when and how the recorded feet stood, or None
+    rides : the root rides on the feet and its side channel is what they do not explain, as in libraries of before
     """
 
     task: str
@@ -56,6 +61,8 @@ class MotionEmulator:
     workforce: Workforce
     report: FitReport
     dwells: Dwells = NONE
+    footing: Footing | None = None
+    rides: bool = False
 
     @classmethod
     def fit(
@@ -64,9 +71,10 @@ class MotionEmulator:
         *,
         scheme: str = SCHEME,
         n_components: int | float | None = None,
-        n_times: int = 101,
+        n_times: int | None = None,
         n_knots: int = 20,
         landmarks: float = 0.0,
+        penalty: float | None = None,
         progress: Callable[[int, int, str], None] | None = None,
         seed: int = 0,
         command: str = "",
@@ -76,14 +84,19 @@ class MotionEmulator:
         scheme       : one of SCHEMES, or "auto": see ``fit_choice``
         n_components : posture components: a number, a share of variance in (0, 1), or None: see ``posture_size``
         landmarks    : strength that brings marks together in the registration (see ``landmarks``; 0.01 is strong)
-        n_times      : points of the common clock; n_knots : cells of the pace, 2 to n_times - 1
+        n_times      : points of the common clock, or None: as many as recordings of this length have frames at 30 Hz,
+                       101 to 301; n_knots : cells of the pace, 2 to n_times - 1
+        penalty      : weight that holds warps near the identity (see ``align``); None: as recordings that are given
+                       each other's pace ask for, 0: free, as in the paper
         progress     : called with (done, total, label); seed decides nothing but the figures of the report
         Raises ValueError for an unknown scheme, fewer than three repetitions, or settings out of range.
         """
         from emulator.fit_settings import FitSettings
         from emulator.fitting import fit
 
-        return fit(motions, FitSettings(scheme, n_components, n_times, n_knots, landmarks, seed, command), progress)
+        return fit(
+            motions, FitSettings(scheme, n_components, n_times, n_knots, landmarks, seed, command, penalty), progress
+        )
 
     def sample(
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None
@@ -256,7 +269,26 @@ class MotionEmulator:
 
     @property
     def channel(self) -> RootChannel:
-        return RootChannel(self.skeleton)
+        return RootChannel(self.skeleton, self.rides)
+
+    @cached_property
+    def decoder(self) -> Decoder:
+        """What makes postures of coefficients."""
+        return Decoder(self.posture, self.flatten)
+
+    @cached_property
+    def most_m_per_s(self) -> float:
+        """The greatest speed that a joint of a drawn body may have: a tenth beyond the fastest recorded one.
+
+        A draw beyond it is drawn in, see ``MotionPerformances.damped``; without a bound in libraries of before.
+        """
+        fastest = self.report.fastest_m_per_s
+        return float("inf") if self.footing is None or not fastest > 0 else FASTER * fastest
+
+    @cached_property
+    def legs(self) -> Legs | None:
+        """What of the body stands; None without ankles and toes."""
+        return Legs.of(self.skeleton)
 
     def _repr_html_(self) -> str:
         from emulator.shown.models import emulator_html

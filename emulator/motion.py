@@ -144,7 +144,11 @@ class MotionSet:
             raise ValueError(f"{self.task}: no repetition is left (selection: {self.selection})")
         for motion in self.motions:
             if motion.skeleton != self.skeleton:
-                raise ValueError(f"{self.task}: motion {motion.name} has another skeleton than the first")
+                odd = sorted(set(motion.skeleton.names) ^ set(self.skeleton.names))
+                how = f"only one has {', '.join(odd[:6])}" if odd else "its joints hang or are ordered otherwise"
+                raise ValueError(
+                    f"{self.task}: motion {motion.name} has another skeleton than {self.motions[0].name}: {how}"
+                )
             if len(motion.mark_s) != len(self.mark_names):
                 raise ValueError(
                     f"{self.task}: motion {motion.name} has {len(motion.mark_s)} marks, not {len(self.mark_names)}"

@@ -10,7 +10,6 @@ import numpy as np
 
 from emulator.covariates.body import Body, BodyError
 from emulator.density import LowRankNormal, regression
-from emulator.quickness import no_faster
 from emulator.workforce import WorkerEffect
 
 if TYPE_CHECKING:
@@ -93,21 +92,18 @@ def _drawn(
     """Somebody with this body; ``people`` lean on the first rows of the law, what else there is goes by luck."""
     crew = model.workforce
     law = crew.about(body, outside)
-    if people is None:
-        z = law.sample(1, rng)[0]
-    else:
+    numbers = None
+    if people is not None:
         numbers = np.array([people(f"{crew.group}/{name}") for name in crew.names], float)
         if not np.isfinite(numbers).all():
             raise BodyError([f"people: found {numbers.tolist()}, expected a finite number for each of {crew.names}"])
-        more = len(law.factor) - len(numbers)
-        of_rows = numbers @ crew.by_person if law is crew.between else np.append(numbers, rng.standard_normal(more))
-        z = law.of(of_rows, rng)
+    z, like = crew.somebody(law, body, rng, numbers)
     if slowness is not None and not np.isfinite(slowness):
         raise BodyError([f"slowness: found {slowness}, expected a finite number of standard deviations"])
     if slowness is not None and body.pace is None:
         at = model.scale.block("duration").start
         z = _moved(z, law.covariance_with(at), at, law.mean[at] + slowness * law.spread[at])
-    return _as_asked(model, no_faster(model, z, law), law, body, outside)
+    return replace(_as_asked(model, z, law, body, outside), like=like)
 
 
 def _as_asked(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, body: Body, outside: str) -> WorkerEffect:

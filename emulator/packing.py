@@ -8,13 +8,15 @@ import numpy as np
 
 from emulator.covariates import stored
 from emulator.density import LowRankNormal
+from emulator.footing import PRINT
 from emulator.model import MotionEmulator
 from emulator.reduce import JointPCA
 from emulator.storage import bits, encode
 
 PCA = ("posture", "root", "pace", "bones")
 DWELLS = ("clock", "zero_share", "mark_share")
-SMOOTHED = ("scores", "owner", "reach", "factor", "spread")
+POPULATION = ("rows", "drawn_in")
+SMOOTHED = ("scores", "owner", "reach", "factor", "spread", "drawn_in", "partner")
 
 
 def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -26,7 +28,8 @@ def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 
 
 def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    plain = {
+    plain: dict[str, Any] = {
+        "rides": model.rides,
         "skeleton": {"names": list(model.skeleton.names), "parents": list(model.skeleton.parents)},
         "mark_names": list(model.mark_names),
         "n_times": model.n_times,
@@ -65,6 +68,13 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         plain["covariates"], told = stored.pack(model.workforce.told.model)
         arrays |= {f"covariates_{name}": value for name, value in told.items()}
         arrays["told_fitted"] = model.workforce.told.fitted
+    if model.workforce.population is not None:
+        arrays |= {f"population_{name}": getattr(model.workforce.population, name) for name in POPULATION}
+    if model.footing is not None:
+        plain["floor"] = model.footing.floor
+        arrays["footing_postures"] = model.footing.postures
+        arrays["footing_stands"] = np.packbits(model.footing.stands, axis=-1)
+        arrays["footing_prints"] = np.rint(model.footing.prints / PRINT).astype(np.int16)
     if model.workforce.smoothed is not None:
         arrays |= {f"smoothed_{name}": getattr(model.workforce.smoothed, name) for name in SMOOTHED}
     return plain, arrays

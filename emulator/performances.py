@@ -11,6 +11,7 @@ import numpy as np
 
 from emulator import decode
 from emulator.dwell_times import moving_share
+from emulator.footing import bend, stood
 from emulator.skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -18,7 +19,24 @@ if TYPE_CHECKING:
 
 AT_ONCE = 16
 """Performances whose paths are made at a time."""
+KEPT = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)
 Floats = type[np.floating] | np.dtype
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """Where and how n bodies stand.
+
+    control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 3) what the legs bend
+    posture : (n, P) posture coefficients; kept : (n,) what share of their deviation from the mean movement is kept
+    fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
+    """
+
+    control: np.ndarray
+    bends: np.ndarray
+    posture: np.ndarray
+    kept: np.ndarray
+    fastest_m_per_s: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,8 +107,7 @@ class MotionPerformances:
         place = self._place(times_s, n_times)
         path = np.empty((*place.shape, 4))
         for rows in self._blocks():
-            some = self[rows]
-            path[rows] = _linear(some._path(some._on_clock(place[rows, :0])[0]), place[rows])
+            path[rows] = decode.along(self[rows]._ground.control, place[rows])
         return path
 
     def positions_m(
@@ -106,26 +123,71 @@ class MotionPerformances:
         positions = np.empty((*place.shape, self.skeleton.n_joints, 3), dtype)
         for rows in self._blocks():
             some, lengths = self[rows], self.bone_length_m[rows]
-            aligned, along = some._on_clock(place[rows])
-            flat = along.reshape(*along.shape[:2], -1)
-            stand_all(flat, lengths, self.skeleton.chain, some._path(aligned), place[rows], positions[rows])
+            flat = some._directions(place[rows]).reshape(*place[rows].shape, -1)
+            path = decode.along(some._ground.control, place[rows])
+            stand_all(flat, lengths, self.skeleton.chain, path, positions[rows])
         return positions
+
+    @property
+    def damped(self) -> np.ndarray:
+        """(n,) how much a body was drawn in towards the mean movement, 0 to 1, since a joint was too fast for a body.
+
+        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; times and marks stay as they were drawn.
+        """
+        return np.concatenate([np.zeros(0), *(1.0 - self[rows]._ground.kept for rows in self._blocks())])
 
     def _directions(self, place: np.ndarray, dtype: Floats = np.float64) -> np.ndarray:
         model = self.model
-        posture = model.scale.raw(self.scores, "posture")
-        return decode.directions(model.posture, model.flatten, posture, place, np.dtype(dtype))
+        if model.footing is None:
+            return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
+        directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
+        for rows in self._blocks():
+            some = self[rows]
+            directions[rows] = model.decoder.directions(some._ground.posture, place[rows], np.dtype(dtype))
+            if model.legs is not None:
+                bend(directions[rows], some.bone_length_m, model.legs, place[rows], some._ground.bends)
+        return directions
 
-    def _on_clock(self, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Directions (n, T, B, 3) at the points of the common clock and (n, S, B, 3) at places (n, S), made as one."""
-        clock = np.broadcast_to(np.arange(float(self.model.n_times)), (len(self), self.model.n_times))
-        both = self._directions(np.concatenate([clock, place], axis=1))
-        return np.ascontiguousarray(both[:, : self.model.n_times]), np.ascontiguousarray(both[:, self.model.n_times :])
+    @cached_property
+    def _ground(self) -> Ground:
+        """Where and how the bodies stand, drawn in where a joint is too fast."""
+        model, n = self.model, len(self)
+        kept, ground = np.ones(n), self._grounded(np.ones(n))
+        too_fast = np.flatnonzero(ground.fastest_m_per_s > model.most_m_per_s * self.body_scale)
+        if too_fast.size == 0:
+            return ground
+        for share in KEPT:
+            kept[too_fast] = share
+            ground = self._grounded(kept)
+            still = ground.fastest_m_per_s[too_fast] > model.most_m_per_s * self.body_scale[too_fast]
+            too_fast = too_fast[still]
+            if too_fast.size == 0:
+                break
+        return ground
 
-    def _path(self, aligned: np.ndarray) -> np.ndarray:
-        """(n, T, 4) on the common clock: x, y, z of the root in metres and its heading in radians."""
-        root, yaw = self.model.channel.inverse(self.model.root_channel(self.scores), aligned, self.bone_length_m)
-        return np.concatenate([root, yaw[..., None]], axis=-1)
+    def _grounded(self, kept: np.ndarray) -> Ground:
+        """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
+        model, n, lengths = self.model, len(self), self.bone_length_m
+        posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
+        near = None if model.footing is None else model.footing.nearest(posture)
+        centre = [model.scale.centre[model.scale.block(name)] for name in ("posture", "root")]
+        posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
+        clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
+        aligned = model.decoder.directions(posture, clock)
+        flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
+        root, yaw = model.channel.inverse(flat, aligned, lengths)
+        path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 3))
+        fastest = np.zeros(n)
+        if model.footing is not None:
+            leg_m = model.channel.leg_m(lengths)
+            stands, prints_m = model.footing.stands[near], model.footing.prints[near] * leg_m[:, None, None, None]
+            time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
+            floor_m = model.footing.floor * float(leg_m.mean())
+            path, bends, fastest = stood(
+                self.skeleton, model.legs, aligned, lengths, path, stands, prints_m, time_s, floor_m
+            )
+            path[..., :2] -= path[:, :1, :2]
+        return Ground(decode.control_points(path), bends, posture, kept.copy(), fastest)
 
     def _blocks(self) -> Iterator[slice]:
         """A few performances at a time: what is computed on the way is several times larger than the answer."""
@@ -138,10 +200,3 @@ class MotionPerformances:
         if len(self.model.dwells):
             own = moving_share(self.model, self.scores, own)
         return decode.places(self.model.warps(self.scores), own)
-
-
-def _linear(path: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Values (n, T', ...) of path (n, T, ...) at places (n, T'), linear between."""
-    rows, cell = np.arange(len(place))[:, None], np.minimum(place.astype(int), path.shape[1] - 2)
-    share = (place - cell).reshape(*place.shape, *[1] * (path.ndim - 2))
-    return (1 - share) * path[rows, cell] + share * path[rows, cell + 1]

@@ -1,8 +1,9 @@
-"""What is mended in repetitions before a model is fitted, each with a note: uneven frames, jumps that come back.
+"""What is mended in repetitions before a model is fitted, each with a note: jumps, opposite points, uneven frames.
 
 A jump: a bone (or the root, the heading) leaves in one frame by far more than its usual step and is back within 0.2 s.
 Registration stands it (no other warp moves by more than 0.1 frames, tests/emulator/test_bad_sets.py); the postures do
 not. In the public recordings it is found in 3 of 900 repetitions, one of them the known marker fault of the squats.
+Opposite points: see ``opposite_points``.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ from typing import Any
 import numpy as np
 
 from emulator import sphere
+from emulator.floor import floor_notes
 from emulator.motion import Motion, MotionSet
+from emulator.opposite_points import led_around, led_over, named
 from emulator.stillness import moves
 
 LEAST_JUMP = 0.15
@@ -23,7 +26,6 @@ TIMES_USUAL = 8.0
 """A jump is this many times the median step of the quarter seconds around it."""
 LONGEST_S = 0.2
 UNEVEN = 0.01
-_MOST_NAMES = 6
 
 
 def repaired(motions: MotionSet) -> MotionSet:
@@ -33,11 +35,13 @@ def repaired(motions: MotionSet) -> MotionSet:
     """
     notes, mended = [], []
     for motion in motions.motions:
-        even, uneven_note = _even(motion)
-        bridged, jump_note = _bridged(even)
-        mended.append(bridged)
-        notes += [f"{motion.name}: {note}" for note in (uneven_note, jump_note) if note]
-    notes += _still_note(mended) + _copies_note(mended)
+        bridged, jump_note = _bridged(motion)
+        turning, turn_note = led_over(bridged, LONGEST_S)
+        even, uneven_note = _even(turning)
+        mended.append(even)
+        notes += [f"{motion.name}: {note}" for note in (jump_note, turn_note, uneven_note) if note]
+    mended, far_notes = led_around(mended)
+    notes += far_notes + _still_note(mended) + _copies_note(mended) + floor_notes(mended)
     return replace(motions, motions=tuple(mended), notes=(*motions.notes, *notes)) if notes else motions
 
 
@@ -76,7 +80,7 @@ def _bridged(motion: Motion) -> tuple[Motion, str]:
             what = motion.skeleton.bone_names[part] if name == "directions" else name
             size = 2 * np.arcsin(min(size / 2, 1.0)) if name == "directions" else size  # chord to arc
             said.append(f"{what} jumps by {size:.2f} {unit} at frame{'s' * (last > first)} {_frames(first, last)}")
-    return (replace(motion, **changed), f"{_named(said)}; bridged") if said else (motion, "")
+    return (replace(motion, **changed), f"{named(said)}; bridged") if said else (motion, "")
 
 
 def _across(values: np.ndarray, found: list[tuple[int, int, int, float]], on_sphere: bool) -> np.ndarray:
@@ -127,7 +131,7 @@ def _still_note(motions: Sequence[Motion]) -> list[str]:
     still = [motion.name for motion in motions if not moves(motion)]
     if not still:
         return []
-    return [f"{len(still)} of {len(motions)} repetitions do not move, their own clock is kept: {_named(still)}"]
+    return [f"{len(still)} of {len(motions)} repetitions do not move, their own clock is kept: {named(still)}"]
 
 
 def _copies_note(motions: Sequence[Motion]) -> list[str]:
@@ -140,9 +144,4 @@ def _copies_note(motions: Sequence[Motion]) -> list[str]:
             copies.append(f"{motion.name} of {motions[known].name}")
     if not copies or len(first) == 1:  # that all are one recording is said by the fit itself
         return []
-    return [f"copies of one recording, all used: {_named(copies)}"]
-
-
-def _named(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
-    return ", ".join(names[:_MOST_NAMES]) + more
+    return [f"copies of one recording, all used: {named(copies)}"]

@@ -18,6 +18,7 @@ from emulator.law import Law
 from emulator.margin import within_worker
 
 BASE = 1.0
+FEWEST_OWN, N_MIXED, MOST_MIXED = 5, 3, 0.4
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +29,8 @@ class SmoothedScores:
     reach  : (N,) factor on the noise about each; smaller where repetitions lie close together
     factor : (R, K) noise is reach * xi @ factor, xi (R,) standard normal
     spread : (K,) within-worker standard deviations that draws are to have
+    partner : (N, P) recordings that each is mixed with, itself for none; P = 0: nothing is mixed
+    drawn_in : (K,) what deviations from a worker's mean are multiplied by, at most 1, to leave room for the noise
     """
 
     scores: np.ndarray
@@ -35,6 +38,8 @@ class SmoothedScores:
     reach: np.ndarray
     factor: np.ndarray
     spread: np.ndarray
+    drawn_in: np.ndarray
+    partner: np.ndarray
 
     @cached_property
     def noise(self) -> LowRankNormal:
@@ -47,24 +52,81 @@ class SmoothedScores:
         return np.stack([self.scores[self.owner == w].mean(axis=0) for w in range(self.owner.max() + 1)])
 
     @cached_property
-    def deviations(self) -> np.ndarray:
-        """(N, K) from the worker's mean, drawn in where with the noise a coordinate varied more than ``spread``.
+    def sources(self) -> tuple[np.ndarray, np.ndarray]:
+        """(M,) the recording that each component goes by, and (M, K) its deviation from the worker's mean, drawn in.
 
-        Never drawn out: coordinates without noise are fine detail, which would get rough.
+        Never drawn out: coordinates without noise are fine detail, which would get rough. Each is a mixture of a
+        recording with one that is near it, mostly of the first, at its length: on common clocks that goes farther from
+        both than smooth noise does, no rougher than they are, and stays within a kind of execution.
         """
-        deviation = within_worker(self.scores, self.owner)
-        variance = np.mean(deviation**2, axis=0)
-        left = np.maximum(self.spread**2 - np.mean(self.reach**2) * self.noise.spread**2, 0.0)
-        return np.asarray(deviation * np.sqrt(np.minimum(left / np.maximum(variance, 1e-18), 1.0)))
+        own = within_worker(self.scores, self.owner) * self.drawn_in
+        n, n_partners = self.partner.shape
+        if n_partners == 0:
+            return np.arange(n), own
+        first, second = np.repeat(np.arange(n), n_partners), self.partner.ravel()
+        share = np.where(first == second, 0.0, np.tile(MOST_MIXED * np.arange(1, n_partners + 1) / n_partners, n))[
+            :, None
+        ]
+        mixed = (1.0 - share) * own[first] + share * own[second]
+        mixed = within_worker(mixed / np.sqrt((1.0 - share) ** 2 + share**2), self.owner[first])
+        lost = np.mean(own**2, axis=0) / np.maximum(np.mean(mixed**2, axis=0), 1e-18)
+        return first, mixed * np.sqrt(lost)  # a worker's mean stays, and so does the variance
 
-    def anyone(self, mean: np.ndarray, people: LowRankNormal | None = None) -> Law:
-        """The law of somebody never seen with this mean (K,), or of one of these people: all deviations alike."""
-        n = len(self.scores)
-        return Law(np.full(n, 1.0 / n), self.deviations, self.reach, self.noise, mean, people)
+    def anyone(self, mean: np.ndarray, like: int | None = None) -> Law:
+        """The law of somebody never seen with this mean (K,): deviations like those of one worker, or of all."""
+        first, deviation = self.sources
+        rows = np.arange(len(first)) if like is None else self.rows_of(like)
+        weight = np.full(len(rows), 1.0 / len(rows))
+        return Law(weight, deviation[rows], self.reach[first[rows]], self.noise, mean)
+
+    def population(self, people: LowRankNormal, own: np.ndarray, factors: np.ndarray, sizes: np.ndarray) -> Law:
+        """The law of one performance of a new person each time: who he is like, of which size, and what he does.
+
+        people : noise between people, with their mean; own (W, K) deviations of the recorded people, by ``factors``
+        (A, K) at ``sizes`` (A,)
+        """
+        first, every = self.sources
+        parts = []
+        for worker, deviation in enumerate(own):
+            rows = self.rows_of(worker)
+            mean = (factors * deviation)[:, None] + every[rows]
+            reach = np.broadcast_to(self.reach[first[rows]], mean.shape[:2])
+            size = np.broadcast_to(sizes[:, None], mean.shape[:2])
+            weight = np.full(mean.shape[:2], 1.0 / (len(own) * reach.size))
+            parts.append((weight.ravel(), mean.reshape(-1, own.shape[1]), reach.ravel(), size.ravel()))
+        weight, mean, reach, size = (np.concatenate(part) for part in zip(*parts))
+        return Law(weight, mean, reach, self.noise, people.mean, people, size)
+
+    def rows_of(self, worker: int) -> np.ndarray:
+        """The components that somebody like this worker has: that worker's own, and others' where there are few."""
+        owner = self.owner[self.sources[0]]
+        own = np.flatnonzero(owner == worker)
+        if len(own) >= FEWEST_OWN:
+            return own
+        others = np.flatnonzero(owner != worker)
+        step = max(1, len(others) // (FEWEST_OWN - len(own)))
+        return np.concatenate([own, others[worker % step :: step][: FEWEST_OWN - len(own)]])
 
     def known(self, number: int, shrunk_mean: np.ndarray) -> Law:
         """The law of a worker seen in training: his own repetitions, and a little of what others do."""
-        own, n = self.owner == number, len(self.scores)
-        weight = np.append(np.ones(own.sum()), np.full(n, BASE / n)) / (own.sum() + BASE)
-        mean = np.concatenate([self.means[number] - shrunk_mean + self.deviations[own], self.deviations])
-        return Law(weight, mean, np.append(self.reach[own], self.reach), self.noise, shrunk_mean)
+        first, deviation = self.sources
+        own, n = self.owner[first] == number, len(first)
+        base = BASE / (np.sum(self.owner == number) + BASE)
+        weight = np.append(np.full(own.sum(), (1.0 - base) / own.sum()), np.full(n, base / n))
+        mean = np.concatenate([self.means[number] - shrunk_mean + deviation[own], deviation])
+        return Law(weight, mean, np.append(self.reach[first[own]], self.reach[first]), self.noise, shrunk_mean)
+
+
+def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
+    """The factor, at most 1, by which deviations of this variance leave no more than ``left`` of it."""
+    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), 1.0))
+
+
+def partners(owner: np.ndarray, apart: np.ndarray) -> np.ndarray:
+    """(N, ``N_MIXED``) the nearest other recordings of one worker by distances (N, N); itself where none is left."""
+    among = np.where(owner[:, None] == owner[None], apart, np.inf)
+    np.fill_diagonal(among, np.inf)
+    nearest = np.argsort(among, axis=1, kind="stable")[:, :N_MIXED]
+    none = np.take_along_axis(among, nearest, axis=1) == np.inf
+    found = np.where(none, np.arange(len(owner))[:, None], nearest)
+    return np.pad(found, ((0, 0), (0, max(0, N_MIXED - found.shape[1]))), mode="edge")

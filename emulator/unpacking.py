@@ -14,16 +14,21 @@ from emulator.density import LowRankNormal
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
-from emulator.joint import BLOCKS, JointScale
-from emulator.margin import Margin
+from emulator.footing import PRINT, Footing
+from emulator.joint import BLOCKS, CURVES, JointScale
+from emulator.margin import Margin, within_worker
 from emulator.model import MotionEmulator
 from emulator.packing import PCA, SMOOTHED
+from emulator.population import Population
 from emulator.reduce import JointPCA
 from emulator.skeleton import Skeleton
-from emulator.smoothed import SmoothedScores
+from emulator.smoothed import SmoothedScores, room
 from emulator.storage import decode
 from emulator.told import Told
 from emulator.workforce import Workforce
+
+NEW = ("drawn_in", "partner")
+"""Of smoothed scores, what libraries of before do not have."""
 
 
 def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> Any:
@@ -64,6 +69,8 @@ def _unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray
         parts.workforce(),
         FitReport.of_dict(plain["report"]),
         parts.dwells(size["dwells"], len(mark_names)),
+        parts.footing(size["posture"]),
+        bool(plain.get("rides", True)),  # a library of before says nothing of it
     )
 
 
@@ -139,6 +146,18 @@ class _Parts:
             raise ValueError(f"{self.task}: its sites of pauses make no sense")
         return Dwells(clock, zero, tuple(self.margin("dwell", j) for j in range(n_sites)), mark)
 
+    def footing(self, n_posture: int) -> Footing | None:
+        if "floor" not in self.plain:
+            return None
+        postures = self.array("footing_postures", -1, n_posture)
+        packed = self.array("footing_stands", len(postures), 2, -(-self.n_times // 8))
+        whole = self.array("footing_prints", len(postures), 2, self.n_times, 3)
+        floor = _number(self.plain["floor"])
+        if len(postures) == 0 or packed.dtype != np.uint8 or whole.dtype != np.int16 or floor > 0:
+            raise ValueError(f"{self.task}: its footing makes no sense")
+        stands = np.unpackbits(packed, axis=-1, count=self.n_times).astype(bool)
+        return Footing(postures, stands, whole * PRINT, floor)
+
     def workforce(self) -> Workforce:
         names = tuple(str(name) for name in self.plain["workers"])
         effects = self.array("effects", len(names), self.k)
@@ -149,7 +168,17 @@ class _Parts:
         doubt = self.array("doubt", len(names), self.k) if there else np.zeros_like(effects)
         if np.any(doubt < 0):
             raise ValueError(f"{self.task}/doubt: found a negative standard deviation")
-        return Workforce(between, within, names, effects, doubt, smoothed, group, self._told(len(names)))
+        return Workforce(
+            between,
+            within,
+            names,
+            effects,
+            doubt,
+            smoothed,
+            group,
+            self._told(len(names)),
+            self._population(len(names)),
+        )
 
     def _told(self, n_workers: int) -> Told | None:
         if "covariates" not in self.plain:
@@ -160,6 +189,14 @@ class _Parts:
         if model.r2.shape != (self.k,):
             raise ValueError(f"{self.task}: covariates of {model.r2.size} coordinates, expected {self.k}")
         return Told(model, self.array("told_fitted", n_workers, self.k))
+
+    def _population(self, n_workers: int) -> Population | None:
+        if f"{self.task}/population_rows" not in self.arrays:
+            return None
+        sizes = dict(zip(BLOCKS, self.sizes))
+        as_is = np.concatenate([np.full(sizes[name], name in (*CURVES, "bones")) for name in BLOCKS])
+        drawn_in = self._shares("population_drawn_in", self.k)
+        return Population(self.array("population_rows", n_workers, self.k), drawn_in, as_is)
 
     def _normal(self, name: str) -> LowRankNormal:
         factor, spread = self.array(f"{name}_factor", -1, self.k), self.array(f"{name}_spread", self.k)
@@ -173,12 +210,24 @@ class _Parts:
 
     def _smoothed(self, n_workers: int) -> SmoothedScores:
         n = len(self.array("smoothed_scores", -1, self.k))
-        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,))))
-        found = SmoothedScores(**{name: self.array(f"smoothed_{name}", *shape) for name, shape in shapes.items()})
+        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,), (self.k,), (n, -1))))
+        there = f"{self.task}/smoothed_drawn_in" in self.arrays
+        parts = {
+            name: self.array(f"smoothed_{name}", *shape) for name, shape in shapes.items() if name not in NEW or there
+        }
+        if not there:  # a library of before: coordinate by coordinate
+            noise, reach = np.sum(parts["factor"] ** 2, axis=0), np.mean(parts["reach"] ** 2)
+            variance = np.mean(within_worker(parts["scores"], parts["owner"]) ** 2, axis=0)
+            parts["partner"] = np.zeros((n, 0), int)
+            parts["drawn_in"] = room(parts["spread"] ** 2 - reach * noise, variance)
+        found = SmoothedScores(**parts)
         if found.owner.dtype.kind != "i" or set(found.owner.tolist()) != set(range(n_workers)):
             raise ValueError(f"{self.task}/smoothed_owner: expected numbers of all {n_workers} workers")
-        if np.any(found.reach < 0) or np.any(found.spread < 0):
-            raise ValueError(f"{self.task}: a reach or a spread of the smoothed scores is negative")
+        partner = found.partner
+        if partner.dtype.kind != "i" or np.any((partner < 0) | (partner >= n)):
+            raise ValueError(f"{self.task}/smoothed_partner: expected numbers of the {n} recordings")
+        if np.any(found.reach < 0) or np.any(found.spread < 0) or np.any((found.drawn_in < 0) | (found.drawn_in > 1)):
+            raise ValueError(f"{self.task}: a reach, a spread or a share of the smoothed scores makes no sense")
         return found
 
     def _shares(self, name: str, *shape: int) -> np.ndarray:

@@ -12,6 +12,7 @@ from emulator.anova import anova
 from emulator.density import LowRankNormal
 from emulator.law import Law
 from emulator.margin import within_worker
+from emulator.population import Population
 from emulator.smoothed import SmoothedScores
 
 if TYPE_CHECKING:
@@ -38,12 +39,14 @@ class WorkerEffect:
 
     scale : multiplies every bone length; it is 1 unless a body height was asked for
     said  : what was done with a body that was asked for, in words
+    like  : the recorded person whose repetitions the worker's vary like; empty: like anybody's
     """
 
     z: np.ndarray
     name: str = ""
     scale: float = 1.0
     said: tuple[str, ...] = ()
+    like: str = ""
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,7 @@ class Workforce:
     smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
     group : whose names these are: two tasks of one group were done by the same people where names agree
     told : what bodies say of z, or None
+    population : how new people differ; None: by the Gaussian ``between``
     """
 
     between: LowRankNormal
@@ -65,6 +69,7 @@ class Workforce:
     smoothed: SmoothedScores | None = None
     group: str = ""
     told: Told | None = None
+    population: Population | None = None
 
     @classmethod
     def fit(
@@ -99,16 +104,69 @@ class Workforce:
 
     def law(self, effect: WorkerEffect | None) -> Law:
         """The law of z of the worker with this effect, or (None) of a new worker each time."""
+        if effect is None and self._anybody is not None:
+            return self._anybody
         people = self.between if effect is None else None
         mean = np.zeros_like(self.between.mean) if effect is None else effect.z
         if self.smoothed is None:
             return Law(np.ones(1), np.zeros((1, len(mean))), np.ones(1), self.within, mean, people)
         if effect is None or effect.name not in self.names:
-            return self.smoothed.anyone(mean, people)
+            like = self.names.index(effect.like) if effect is not None and effect.like in self.names else None
+            return replace(self.smoothed.anyone(mean, like), people=people)
         number = self.names.index(effect.name)
         known = self._known_laws[number]
         moved = effect.z - self.effects[number]
         return known if not moved.any() else replace(known, centre=known.centre + moved)
+
+    @cached_property
+    def _anybody(self) -> Law | None:
+        """The law of a new person each time, where it is more than the Gaussian between."""
+        if self.population is None or self.smoothed is None:
+            return None
+        rows, sizes = self.population.rows, self.population.sizes
+        people = LowRankNormal(self.between.mean, rows, np.linalg.norm(rows, axis=0), 0.0)
+        return self.smoothed.population(people, self.apart(), self.population.factors(), sizes)
+
+    def apart(self, body: Body | None = None) -> np.ndarray:
+        """(W, K) how recorded people deviate, with the variance between people: less what a body tells, if heard of.
+
+        Their means deviate by more, with repetitions' luck in them, and their shrunk means by less.
+        """
+        own, spread = self.effects - self.effects.mean(axis=0), self.between.spread
+        if body is not None and self.told is not None and self.told.hears(body):
+            own, spread = own - self.told.fitted, spread * self.told.left
+        return np.sqrt(len(own)) * _between_rows(own, spread**2)
+
+    def somebody(
+        self, law: LowRankNormal, body: Body, rng: np.random.Generator, numbers: np.ndarray | None
+    ) -> tuple[np.ndarray, str]:
+        """A new person's mean z (K,), and the recorded person he is like.
+
+        law     : of people with this body, see ``about``
+        numbers : (W,) standard normal, how he leans to each recorded person; None: by luck
+        """
+        if self.population is None or self.smoothed is None:
+            return self._by_gaussian(law, rng, numbers), ""
+        heard = law is not self.between
+        rows = self.population.rows
+        if heard:
+            assert self.told is not None
+            rows = np.concatenate([rows * self.told.left, self.told.unsure_rows(body)])
+        at = int(rng.integers(self.population.sizes.size))
+        like = int(rng.integers(len(self.names)))
+        xi = rng.standard_normal(len(rows))
+        if numbers is not None:
+            like = int(np.abs(numbers).argmax())
+            xi[: len(numbers)] = numbers
+        own = self.population.factors()[at] * self.apart(body)[like]
+        return law.mean + own + self.population.sizes[at] * (xi @ rows), self.names[like]
+
+    def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
+        if numbers is None:
+            return law.sample(1, rng)[0]
+        more = len(law.factor) - len(numbers)
+        xi = numbers @ self.by_person if law is self.between else np.append(numbers, rng.standard_normal(more))
+        return law.of(xi, rng)
 
     @cached_property
     def by_person(self) -> np.ndarray:

@@ -1,6 +1,5 @@
 """The page's decoder in numpy, from the packed columns alone: what the page does, and nothing that it does not."""
 
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -16,10 +15,7 @@ class Twin:
     def __init__(self, meta, data):
         self.meta, self.columns = meta, unpacked_columns(meta["columns"], data)
         self.trees = [(tuple(s["names"]), tuple(s["parents"])) for s in meta["skeletons"]]
-        self.models = [
-            (Scores if m["codec"] == "scores" else Frames)(m, self.trees[m["skeleton"]][1], self.columns)
-            for m in meta["models"]
-        ]
+        self.models = [Frames(m, self.trees[m["skeleton"]][1], self.columns) for m in meta["models"]]
         self.gone = [n for n, state in enumerate(meta["states"]) if state["name"] in ("off", "absent")]
         sizes = np.cumsum([0, *(3 * (len(parents) - 1) for _, parents in self.trees)])
         self.standing = [self.columns["standing"][a:b].reshape(-1, 3) for a, b in pairwise(sizes)]
@@ -118,7 +114,11 @@ class Frames:
         own = {role: columns[name] for role, name in meta["columns"].items()}
         self.parents, self.rate_hz, self.d = parents, meta["rate_hz"], meta["sizes"]["directions"]
         self.basis = own["basis"].reshape(self.d + 1, -1).astype(float)
-        self.scale, self.first, self.values = own["scale"].astype(float), own["first"].astype(int), own["values"]
+        self.scale, self.first, self.values = (
+            own["scale"].astype(float),
+            own["first"].astype(int),
+            unfolded(own["values"]),
+        )
         self.bone_m = own["bone_m"].reshape(len(self.first) - 1, -1).astype(float)
         self.duration_s = own["duration_s"].astype(float)
         self.own = own
@@ -126,7 +126,7 @@ class Frames:
     def channels(self, row):
         n_frames, width = self.first[row + 1] - self.first[row], self.d + 4
         begin = width * self.first[row]
-        differences = self.values[begin : begin + width * n_frames].reshape(width, n_frames).astype(np.int64)
+        differences = self.values[begin : begin + width * n_frames].reshape(width, n_frames)
         return np.cumsum(np.cumsum(differences, axis=1), axis=1) * self.scale[:, None]
 
     def at(self, row, own_s):
@@ -134,8 +134,10 @@ class Frames:
         place = min(max(min(own_s, self.duration_s[row]), 0.0) * self.rate_hz, channels.shape[1] - 1)
         cell = max(min(int(place), channels.shape[1] - 2), 0)
         u = place - cell
-        a, b, c, d = (channels[:, min(max(cell + k, 0), channels.shape[1] - 1)] for k in (-1, 0, 1, 2))
-        now = b + 0.5 * u * (c - a + u * (2 * a - 5 * b + 4 * c - d + u * (3 * (b - c) + d - a)))
+        b, c = channels[:, cell], channels[:, min(cell + 1, channels.shape[1] - 1)]
+        a = channels[:, cell - 1] if cell > 0 else 2 * b - c
+        d = channels[:, cell + 2] if cell + 2 < channels.shape[1] else 2 * c - b
+        now = ((1 - u) ** 3 * a + (4 - 6 * u**2 + 3 * u**3) * b + (1 + 3 * (u + u**2 - u**3)) * c + u**3 * d) / 6
         directions = (self.basis[0] + now[: self.d] @ self.basis[1:]).reshape(-1, 3)
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         if "amend_first" in self.own:
@@ -144,7 +146,7 @@ class Frames:
 
     def amend(self, row, own_s, directions):
         bone, at_s, step = self.own["amend_bone"], self.own["amend_at_s"], float(self.own["amend_step"][0])
-        by = self.own["amend_by"].reshape(3, -1).astype(float) * step
+        by = unfolded(self.own["amend_by"]).reshape(3, -1) * step
         for k in range(int(self.own["amend_first"][row]), int(self.own["amend_first"][row + 1]) - 1):
             if bone[k] == bone[k + 1] and at_s[k] <= own_s < at_s[k + 1]:
                 u = (own_s - float(at_s[k])) / (float(at_s[k + 1]) - float(at_s[k]))
@@ -152,82 +154,9 @@ class Frames:
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
 
 
-class Scores:
-    def __init__(self, meta, parents, columns):
-        self.meta, self.parents, self.n = meta, parents, meta["n"]
-        self.own = {role: columns[name].astype(float) for role, name in meta["columns"].items()}
-        self.T, self.Q, self.B = meta["n_times"], meta["n_knots"], len(parents) - 1
-
-    def sequence(self, what, row):
-        k = self.meta["sizes"][what]
-        coefficients = self.own[what].reshape(k, self.n)[:, row] * self.own[f"{what}_scale"]
-        mean = self.own[f"{what}_mean"]
-        return mean + coefficients @ self.own[f"{what}_basis"].reshape(k, mean.size)
-
-    @cached_property
-    def frame(self):
-        return self.own["frame"].reshape(self.B, 3, 3)
-
-    def whole(self, row):
-        """(warp (T,), directions (T, B, 3), bones (B,), path (T, 4)) of a performance."""
-        slopes = np.clip(self.sequence("pace", row), self.own["slope_least"], self.own["slope_most"])
-        bone_m = np.exp(self.sequence("bones", row)) * self.own["body_scale"][row]
-        pairs = self.sequence("posture", row).reshape(self.T, self.B, 2)
-        angle = np.linalg.norm(pairs, axis=-1, keepdims=True)
-        tangent = pairs[..., :1] * self.frame[:, 1] + pairs[..., 1:] * self.frame[:, 2]
-        directions = np.cos(angle) * self.frame[:, 0] + np.sinc(angle / np.pi) * tangent
-        channel = self.sequence("root", row).reshape(self.T, 4)
-        return warp(slopes, self.T), directions, bone_m, self.ride(directions, bone_m, channel)
-
-    def ride(self, directions, bone_m, channel):
-        feet, legs, soft = self.meta["feet"], self.meta["legs"], self.meta["soft_m"]
-        leg_m = bone_m[legs].sum() / 2 if legs else bone_m.sum() / 4
-        joints = hung(self.parents, directions, bone_m, np.zeros(3), channel[:, 3])
-        low = joints[..., 2].min(axis=1)
-        way, floor = np.zeros((self.T, 2)), np.zeros(self.T)
-        if feet:
-            foot = joints[:, feet]
-            lowest = foot[..., 2].min(axis=1)
-            weight = np.exp((lowest[:, None] - foot[..., 2]) / soft)
-            floor = soft * np.log(weight.mean(axis=1)) - lowest
-            share = weight / weight.sum(axis=1, keepdims=True)
-            both = 0.5 * (share[1:] + share[:-1])
-            way[1:] = -np.cumsum((both[..., None] * np.diff(foot[..., :2], axis=0)).sum(axis=1), axis=0)
-        level = way + channel[:, :2] * leg_m
-        height = np.maximum(floor + channel[:, 2] * leg_m, -low)
-        return np.column_stack([level - level[0], height, channel[:, 3]])
-
-    def at(self, row, own_s):
-        gamma, directions, bone_m, path = self.whole(row)
-        dwell_s = self.own["dwell_s"].reshape(-1, self.n)[:, row]
-        moving_s = self.own["duration_s"][row] - dwell_s.sum()
-        for clock, pause_s in zip(self.own["dwell_clock"], dwell_s):
-            start_s = moving_s * np.interp(clock * (self.T - 1), np.arange(self.T), gamma)
-            own_s = own_s - min(max(own_s - start_s, 0.0), pause_s)
-        share = min(max(own_s / moving_s, 0.0), 1.0)
-        cell = min(max(int(np.searchsorted(gamma, share, side="right")) - 1, 0), self.T - 2)
-        u = (share - gamma[cell]) / (gamma[cell + 1] - gamma[cell])
-        angle = np.arccos(np.clip((directions[cell] * directions[cell + 1]).sum(-1, keepdims=True), -1, 1))
-        small = angle < 1e-6
-        sine = np.where(small, 1.0, np.sin(angle))
-        p = np.where(small, 1 - u, np.sin((1 - u) * angle) / sine)
-        q = np.where(small, u, np.sin(u * angle) / sine)
-        now = p * directions[cell] + q * directions[cell + 1]
-        return now / np.linalg.norm(now, axis=1, keepdims=True), bone_m, (1 - u) * path[cell] + u * path[cell + 1]
-
-
-def warp(slopes, n_times):
-    rise = np.exp(slopes - slopes.max())
-    rise /= rise.sum()
-    n = rise.size
-    level = np.concatenate([[0], np.cumsum(rise)])
-    inner = 2 * rise[:-1] * rise[1:] / (rise[:-1] + rise[1:])
-    slope = np.concatenate([rise[:1], inner, rise[-1:]])
-    at = np.linspace(0, 1, n_times)
-    cell = np.minimum((at * n).astype(int), n - 1)
-    u = at * n - cell
-    h1, h2, h3 = u * u * (3 - 2 * u), u * (1 - u) ** 2, u * u * (u - 1)
-    return (level[cell] + rise[cell] * h1 + slope[cell] * h2 + slope[cell + 1] * h3) / level[-1]
+def unfolded(values):
+    values = values.astype(np.int64)
+    return (values >> 1) ^ -(values & 1)
 
 
 def hung(parents, directions, bone_m, root, heading):

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.align import align, align_to, resample
+from emulator.align import align, align_to
+from emulator.fit_settings import FitSettings
 from emulator.held_out import split_within_workers
-from emulator.holds import cut
+from emulator.model import SCHEME
 from emulator.motion import MotionSet
+from emulator.registered import N_ALIGNED, moving_of, penalised, postures_at
 from emulator.repair import repaired
 from emulator.warp import clr, from_clr
 
@@ -39,10 +41,14 @@ class Halves:
 def in_halves(motions: MotionSet, split: int, n_times: int = N_TIMES) -> Halves:
     """Dealt out person by person; template and reference posture are those of the first half."""
     fitted, held = split_within_workers(motions, split)
-    first, second = (cut(repaired(half))[0] for half in (fitted, held))
-    found = align([m.directions for m in first.motions], n_times=n_times, n_threads=1)
-    warps, _ = align_to([m.directions for m in second.motions], found.template, found.reference, n_threads=1)
-    return Halves(split, fitted, held, _aligned(first, found.warps), _aligned(second, warps))
+    first, second = (moving_of(repaired(half))[0] for half in (fitted, held))
+    settings = FitSettings(SCHEME, None, n_times, N_KNOTS, 0.0, 0, "")
+    penalty, _ = penalised(first, settings)
+    grid = min(n_times, N_ALIGNED)
+    found = align([m.directions for m in first.motions], n_times=grid, penalty=penalty, n_threads=1)
+    theirs = [m.directions for m in second.motions]
+    warps, _ = align_to(theirs, found.template, found.reference, penalty=penalty, n_threads=1)
+    return Halves(split, fitted, held, _aligned(first, found.warps, n_times), _aligned(second, warps, n_times))
 
 
 def too_few(motions: MotionSet) -> list[str]:
@@ -55,8 +61,7 @@ def too_few(motions: MotionSet) -> list[str]:
     return [f"{motions.task}: {people}; expected {FEWEST_HELD} or more to judge by"]
 
 
-def _aligned(motions: MotionSet, warps: np.ndarray) -> np.ndarray:
+def _aligned(motions: MotionSet, warps: np.ndarray, n_times: int) -> np.ndarray:
     """Postures along the warps that the model's pace coordinates can say."""
-    n_times = warps.shape[1]
     smooth = from_clr(clr(warps, N_KNOTS), n_times)
-    return np.stack([resample(m.directions, gamma) for m, gamma in zip(motions.motions, smooth)])
+    return np.stack([postures_at(m.directions, gamma) for m, gamma in zip(motions.motions, smooth)])

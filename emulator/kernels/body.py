@@ -27,19 +27,15 @@ def stand(directions, length_m, chain, cosine, sine, joints):
 
 # NOTE: no fused multiply-add, so that the root is to the bit where root_m puts it.
 @compiled(error_model="numpy", nogil=True)
-def stand_all(directions, length_m, chain, path, place, joints):
-    """Joints (n, S, J, 3) of directions (n, S, 3B) and lengths (n, B) at places (n, S), in cells, of path (n, T, 4).
+def stand_all(directions, length_m, chain, path, joints):
+    """Joints (n, S, J, 3) of directions (n, S, 3B) and lengths (n, B) on paths (n, S, 4).
 
-    path : x, y, z of the root in metres and its heading in radians, linear between
+    path : x, y, z of the root in metres and its heading in radians
     """
     top = chain[0, 1]
-    at = np.empty(4)
     for i in range(directions.shape[0]):
         for s in range(directions.shape[1]):
-            cell = min(int(place[i, s]), path.shape[1] - 2)
-            share = place[i, s] - cell
-            for c in range(4):
-                at[c] = (1.0 - share) * path[i, cell, c] + share * path[i, cell + 1, c]
+            at = path[i, s]
             for c in range(3):
                 joints[i, s, top, c] = at[c]
             stand(directions[i, s], length_m[i], chain, np.cos(at[3]), np.sin(at[3]), joints[i, s])

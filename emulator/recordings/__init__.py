@@ -12,7 +12,12 @@ class RecordingError(ValueError):
 
 
 def read_motions(
-    path: str | Path, where: str | None = "correct", *, task: str | None = None, glitches: str = "drop"
+    path: str | Path,
+    where: str | None = "correct",
+    *,
+    task: str | None = None,
+    glitches: str = "drop",
+    mapping_file: str | Path | None = None,
 ) -> MotionSet:
     """The repetitions of one task, read from ``path``.
 
@@ -20,6 +25,7 @@ def read_motions(
                the correct executions where the file says which these are, else all, and the notes say so
     task     : the task's name; by default the file's name without the name of its collection
     glitches : "drop" leaves out repetitions that no body can do, "keep" keeps them; the notes name them either way
+    mapping_file : lines 'name in the file: joint', for names that are not known
     Raises RecordingError for a file that is not a recording, and for a mistyped covariate with the nearest word.
     """
     path = Path(path)
@@ -29,7 +35,9 @@ def read_motions(
         raise RecordingError(f"{path}: recordings end in .npz, found {path.suffix or 'no ending'!r}")
     from emulator.recordings.npz import read_npz
 
-    return read_npz(path, where, task=task, glitches=glitches)
+    return read_npz(
+        path, where, task=task, glitches=glitches, mapping_file=None if mapping_file is None else Path(mapping_file)
+    )
 
 
 __all__ = ["RecordingError", "read_motions"]

@@ -116,7 +116,8 @@ class _Reader:
         if not bone.name:
             self._wrong("found a bone without a name, expected 'name'")
         elif bone.name in self.bones or bone.name == ROOT:
-            self._wrong(f"found bone {quoted(bone.name)} again, expected each name once")
+            where = f" (one begins in line {self.bones[bone.name].line})" if bone.name in self.bones else ""
+            self._wrong(f"found bone {quoted(bone.name)} again, expected each name once{where}")
         if bone.length < 0 or not bone.direction:
             missing = "length" if bone.length < 0 else "direction"
             self._wrong(f"found no {missing} of bone {quoted(bone.name)}, expected one")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ from emulator.recordings import RecordingError
 from emulator.recordings.axes import UNITS_M, placed
 from emulator.recordings.c3d_parts import BLOCK, MIPS, C3dError, Header, Parameter, floats_of, read_header
 from emulator.recordings.take import Take
+from emulator.recordings.text import said_twice
 from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ, short
 
 MOST_BYTES = 4 * 2**30
@@ -111,9 +111,11 @@ def _labels(header: Header, n_points: int) -> tuple[list[str], list[int], int]:
     labels = [*labels[:n_points], *[""] * (n_points - len(labels))]
     others = {word for group in _NO_POINTS for word in header.parameters.get(f"POINT:{group}", _EMPTY).text}
     at = [i for i, label in enumerate(labels) if label and not label.startswith("*") and label not in others]
-    double = sorted(label for label, count in Counter(labels[i] for i in at).items() if count > 1)
-    if double:
-        raise C3dError(f"found {len(double)} labels more than once: {', '.join(map(repr, double[:5]))}")
+    wrong = said_twice(
+        [labels[i] for i in at], "POINT:LABELS", [i + 1 for i in at], "give each point a label of its own"
+    )
+    if wrong:
+        raise C3dError("; ".join(wrong[:5]))
     if not at:
         raise C3dError(f"found {n_points} points, none of them with a label")
     return [labels[i] for i in at], at, n_points - len(at)

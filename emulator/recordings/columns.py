@@ -115,6 +115,7 @@ def _split(label: str) -> tuple[str, str]:
 
 def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: int) -> Columns:
     columns, wrong = Columns(), []
+    twice: dict[str, tuple[int, int]] = {}
     axes: dict[str, dict[str, int]] = {}
     for i, (name, what) in enumerate(labels):
         if i >= width and what not in ("x", "y", "z"):
@@ -122,7 +123,7 @@ def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: i
         if what in ("x", "y", "z"):
             own = axes.setdefault(name, {})
             if what in own:
-                wrong.append(f"{path}:{line}: found {quoted(f'{name} {what}')} in columns {own[what] + 1} and {i + 1}")
+                twice.setdefault(name, (own[what], i))
             own.setdefault(what, i)
         elif what == "score":
             columns.score[name] = i
@@ -130,6 +131,9 @@ def _gathered(path: Path, line: int, labels: Sequence[tuple[str, str]], width: i
             columns.time = i
         elif columns.frame is None and FRAME.match(name):
             columns.frame = i
+    for name, (here, there) in twice.items():
+        found = f"{quoted(name)} twice, its {labels[here][1]} in columns {here + 1} and {there + 1}"
+        wrong.append(f"{path}:{line}: found {found}; give each point a name of its own")
     flat = [name for name, own in axes.items() if set(own) == {"x", "y"}]
     if flat and not any(len(own) == 3 for own in axes.values()):
         raise RecordingError(

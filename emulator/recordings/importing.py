@@ -68,6 +68,8 @@ def imported(
     to do about them.
     """
     path = Path(path)
+    if format_of(path) == "npz" and mapping_file is not None:
+        options, mapping_file = {**options, "mapping_file": mapping_file}, None
     takes = read_takes(path, **options)
     source, licence = _provenance(path)
     done = []
@@ -154,10 +156,11 @@ def _provenance(path: Path) -> tuple[str, str]:
     """Source and licence that the file itself states; a file of a capture system is its own source."""
     if format_of(path) != "npz":
         return path.name, ""
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import load_arrays
 
-    recording = read_recording(path)
-    return recording.source, "" if recording.licence == "not stated" else recording.licence
+    meta = load_arrays(path)[1]
+    licence = str(meta.get("licence", "not stated"))
+    return str(meta.get("source", "not stated")), "" if licence == "not stated" else licence
 
 
 def _looked_at(path: Path, take: Take, report: MappingReport, sides: SidesFound) -> Imported:

@@ -3,7 +3,8 @@
 A name loses its namespace and prefix, its side is looked for at every place, and the rest is looked up. Words whose
 meaning depends on the whole skeleton (a shoulder is a collar bone beside an upper arm) are settled in ``dialect.py``.
 Sources: the joint lists of Mixamo, CMU (ASF and BVH), Rokoko, Xsens MVN, Perception Neuron, OptiTrack Motive, 3ds Max
-Biped, Unity and VRM, Bandai Namco, SMPL, Kinect, OpenPose BODY_25, COCO, Halpe and MediaPipe BlazePose.
+Biped, Unity and VRM, Bandai Namco, SMPL, Kinect 1, 2 and Azure, NTU RGB+D, OpenPose BODY_25, COCO, Halpe and
+MediaPipe BlazePose.
 """
 
 from __future__ import annotations
@@ -17,14 +18,16 @@ TRUNK = "trunk"
 
 MIDDLE = {
     "hips": "pelvis", "pelvis": "pelvis", "hip": "pelvis", "midhip": "pelvis", "centerhip": "pelvis",
-    "hipcenter": "pelvis", "hipscenter": "pelvis", "spinebase": "pelvis", "root": "root", "reference": "root",
+    "hipcenter": "pelvis", "hipscenter": "pelvis", "spinebase": "pelvis", "baseofthespine": "pelvis",
+    "root": "root", "reference": "root",
     "neck": "neck", "neck1": "mid_neck", "neck2": "upper_neck", "lowerneck": "lower_neck", "midneck": "mid_neck",
     "upperneck": "upper_neck", "neckbase": "neck", "c7": "neck", "midshoulder": "neck", "neck01": "neck",
-    "neck02": "mid_neck",
+    "neck02": "mid_neck", "shouldercenter": "neck",
     "head": "head", "headbase": "head", "skull": "head",
     "thorax": "thorax", "spineshoulder": TRUNK, "spinemid": TRUNK, "torso": TRUNK, "abdomen": TRUNK, "ab": TRUNK,
     "waist": TRUNK, "lowerback": TRUNK, "upperback": TRUNK, "back": TRUNK, "lowerspine": TRUNK, "upperspine": TRUNK,
     "midspine": TRUNK, "spineupper": TRUNK, "spinelower": TRUNK, "upperchest": TRUNK, "lumbar": TRUNK,
+    "middleofthespine": TRUNK, "spinenavel": TRUNK, "spinechest": TRUNK,
     "sternum": TRUNK, "l5": TRUNK, "l3": TRUNK, "t12": TRUNK, "t8": TRUNK,
     "bip01": "root", "bip001": "root", "nose": "nose", "headtop": "top", "topofhead": "top", "vertex": "top",
 }  # fmt: skip
@@ -36,7 +39,8 @@ LIMB = {
     "radius": "wrist", "wrist": "wrist_point", "hand": "hand_or_wrist", "knuckles": "hand", "fingerbase": "hand",
     "handmiddle1": "knuckle", "handindex1": "knuckle", "middleproximal": "knuckle", "middle1": "knuckle",
     "fingers": "fingers", "handtip": "fingers", "finger": "fingers", "thumb": "thumb", "index": "index",
-    "pinky": "pinky", "hipjoint": "hip_bone", "hip": "hip", "upleg": "hip", "upperleg": "hip", "thigh": "hip",
+    "tipofthehand": "fingers", "pinky": "pinky",
+    "hipjoint": "hip_bone", "hip": "hip", "upleg": "hip", "upperleg": "hip", "thigh": "hip",
     "femur": "knee", "knee": "knee", "leg": "knee", "lowerleg": "knee", "lowleg": "knee", "shin": "knee",
     "calf": "knee", "tibia": "ankle", "ankle": "ankle", "foot": "foot_or_ankle", "heel": "heel", "toes": "toe",
     "toe": "toe", "toebase": "toe", "toe0": "toe", "ball": "toe", "bigtoe": "toe", "footindex": "toe", "hallux": "toe",
@@ -124,4 +128,4 @@ _SIDES = {"l": "left", "r": "right"}
 
 
 def _plain(name: str) -> str:
-    return re.sub(r"[^a-z0-9]", "", name.lower())
+    return re.sub(r"[^a-z0-9]", "", name.lower()).replace("centre", "center")

@@ -8,7 +8,6 @@ Read are: frames as lists ``[[x, y, z(, score)], ...]``, as ``{name: [x, y, z]}`
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,6 +22,7 @@ from emulator.recordings.keypoint_frames import points_of_frames
 from emulator.recordings.keypoint_sets import KEYPOINTS, names_by_number
 from emulator.recordings.marker_csv import MIN_SCORE
 from emulator.recordings.take import Take
+from emulator.recordings.text import said_twice
 from emulator.recordings.timing import FASTEST_HZ, SLOWEST_HZ, refuse_short
 
 MOST_BYTES = 512 * 2**20
@@ -55,9 +55,10 @@ def read_json(
         raise RecordingError(
             f"{path}: found {points.shape[1]} points a frame, expected {len(names)} as there are names"
         )
-    double = sorted(name for name, count in Counter(names).items() if count > 1)
-    if double:
-        raise RecordingError(f"{path}: found the names {', '.join(double[:5])} more than once")
+    remedy = "give each point a name of its own, here or with --columns"
+    wrong = said_twice(names, "point", range(1, len(names) + 1), remedy)
+    if wrong:
+        raise RecordingError("\n".join(f"{path}: {each}" for each in wrong[:5]))
     positions, doubted = points[..., :3].copy(), points[..., 3] < min_score
     if np.nanmax(np.abs(positions[..., 2]), initial=0.0) == 0:
         raise RecordingError(f"{path}: found 0 in every z, points in the plane of a picture; expected points in space")

@@ -12,19 +12,30 @@ from emulator.clean import glitch
 from emulator.members import MemberError, open_members, read_member
 from emulator.motion import Motion, MotionSet, motion_from_positions
 from emulator.recordings import RecordingError
+from emulator.recordings.dialect import joints_of
 from emulator.recordings.form import expected_of, form_mistakes, is_mark, mark_mistakes
+from emulator.recordings.take import Take
+from emulator.recordings.text import said_twice
 from emulator.recordings.where import rows_where
-from emulator.skeleton import Skeleton, canonical_names
+from emulator.skeleton import CANONICAL, EXTRA, Skeleton, canonical_names
 
 MAX_BYTES = 4 * 2**30
 MAX_ARRAYS = 1000
 COLLECTIONS = ("uiprmd_", "hdm05_", "bandai2_")
 
 
-def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches: str = "drop") -> MotionSet:
+def read_npz(
+    path: Path,
+    where: str | None,
+    *,
+    task: str | None = None,
+    glitches: str = "drop",
+    mapping_file: Path | None = None,
+) -> MotionSet:
     """Repetition i is ``positions[offsets[i]:offsets[i + 1]]``; ``cov_*`` and ``ann_*_frame`` have one value each.
 
     Only the joints of ``core`` are read where the file has it. ``ann_turn_frame`` becomes the mark "turn".
+    mapping_file : see ``body_of``
     """
     if glitches not in ("drop", "keep"):
         raise ValueError(f"glitches: 'drop' or 'keep', found {glitches!r}")
@@ -32,7 +43,8 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
     columns = _columns(arrays)
     keep, selection, notes = _chosen(columns, where)
     _refuse(path, mark_mistakes(arrays, keep))
-    skeleton, joints = skeleton_of(path, arrays)
+    skeleton, places, said = body_of(path, arrays, mapping_file)
+    notes += said
     marks = {key.removeprefix("ann_").removesuffix("_frame"): arrays[key] for key in arrays if is_mark(key)}
     rate_hz = float(arrays["fps"])
     motions: list[Motion] = []
@@ -40,7 +52,7 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
         frames = slice(int(arrays["offsets"][i]), int(arrays["offsets"][i + 1]))
         positions = arrays["positions"][frames].astype(float)
         name = f"{columns['worker'][i]}/{columns['trial'][i]}"
-        wrong = glitch(positions, rate_hz)
+        wrong = glitch(positions, rate_hz, names=arrays["names"].tolist())
         if wrong:
             notes.append(f"{'left out' if glitches == 'drop' else 'kept'} {name}: {wrong}")
         if wrong and glitches == "drop":
@@ -49,7 +61,7 @@ def read_npz(path: Path, where: str | None, *, task: str | None = None, glitches
             motions.append(
                 motion_from_positions(
                     skeleton,
-                    positions[:, joints],
+                    places[frames],
                     rate_hz,
                     worker=columns["worker"][i],
                     trial=columns["trial"][i],
@@ -127,16 +139,39 @@ def _chosen(columns: dict[str, list[Any]], where: str | None) -> tuple[np.ndarra
     return rows_where(where, columns), where, []
 
 
-def skeleton_of(path: Path, arrays: dict[str, np.ndarray]) -> tuple[Skeleton, list[int]]:
-    """The skeleton with canonical names, and the numbers of its joints in the file. Raises RecordingError."""
-    names, parents = arrays["names"], arrays["parents"]
+def body_of(
+    path: Path, arrays: dict[str, np.ndarray], mapping_file: Path | None = None
+) -> tuple[Skeleton, np.ndarray, list[str]]:
+    """The skeleton with canonical names, the positions of its joints (frames, J, 3), and notes on other joints.
+
+    mapping_file : names that the rules do not know; see ``read_mapping``. With it all joints are looked at, else those
+                   of ``core``, where the file has it
+    Names that stand for canonical joints are taken as they are; those of a capture system (Kinect, ...), or two for one
+    joint, as an import takes them. Raises RecordingError for an unknown name, or one that is there twice.
+    """
+    names, parents = [str(name) for name in arrays["names"]], tuple(arrays["parents"].tolist())
     joints = list(range(len(names)))
-    if "core" in arrays and "core_parents" in arrays:
-        joints, parents = [int(j) for j in arrays["core"]], arrays["core_parents"]
-    try:
-        return Skeleton(canonical_names([str(names[j]) for j in joints]), tuple(parents)), joints
-    except ValueError as error:
-        raise RecordingError(f"{path}: {error}") from None
+    if "core" in arrays and "core_parents" in arrays and mapping_file is None:
+        joints, parents = arrays["core"].tolist(), tuple(arrays["core_parents"].tolist())
+    here = [names[j] for j in joints]
+    remedy = "give each joint a name of its own, or leave one out by core"
+    wrong = [f"names: {each}" for each in said_twice(here, "joint", joints, remedy)]
+    positions = arrays["positions"][:, joints].astype(float)
+    if mapping_file is None:
+        try:
+            return Skeleton(canonical_names(here), parents), positions, []
+        except ValueError as error:
+            if not wrong and (set(here) <= {*CANONICAL, *EXTRA}):
+                raise RecordingError(f"{path}: {error}") from None
+            if not all(joints_of(here)):
+                wrong.append(f"{error}; name it with --map")
+    _refuse(path, wrong)
+    from emulator.recordings.mapping import mapped
+
+    take = Take(tuple(here), parents, positions, float(arrays["fps"]))
+    body, report = mapped(take, mapping_file, where=str(path))
+    notes = [f"joints: {report.summary()}", *(f"made {row.joint} ({row.why})" for row in report.of("made"))]
+    return Skeleton(body.names, body.parents or ()), body.positions_m, notes
 
 
 def _meta(arrays: dict[str, np.ndarray]) -> tuple[dict[str, Any], list[str]]:

@@ -42,6 +42,7 @@ OPTIONS = {
     "columns": "names of the columns",
     "asf": "a skeleton file",
     "min_score": "a least confidence",
+    "mapping_file": "a mapping file",
 }
 
 
@@ -95,7 +96,7 @@ def read_takes(path: str | Path, **options: Any) -> Sequence[Take]:
     if name == "npz":
         from emulator.recordings.takes_npz import read_recording
 
-        takes = read_recording(path).takes
+        takes = read_recording(path, **given).takes
     else:
         takes = (_reader(_form(path))(path, **given),)
     for take in takes:
@@ -109,7 +110,7 @@ def _form(path: Path) -> Format:
 
 
 def _refuse_useless(path: Path, name: str, given: dict[str, Any]) -> None:
-    usable = _form(path).options if name != "npz" else ()
+    usable = _form(path).options if name != "npz" else ("mapping_file",)
     useless = [option for option in given if option not in usable]
     unknown = [option for option in useless if option not in OPTIONS]
     if unknown:

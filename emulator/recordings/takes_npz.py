@@ -12,21 +12,21 @@ import numpy as np
 
 from emulator.recordings import RecordingError
 from emulator.recordings.form import is_mark
-from emulator.recordings.npz import load_arrays, skeleton_of
+from emulator.recordings.npz import body_of, load_arrays
 from emulator.recordings.take import Recording, Take
 
 
-def read_recording(path: str | Path) -> Recording:
+def read_recording(path: str | Path, *, mapping_file: Path | None = None) -> Recording:
     """The takes of an ``.npz`` recording with canonical joints, those of ``core`` where the file has it; nan are gaps.
 
+    mapping_file : names of joints that the rules do not know; see ``npz.body_of``
     Raises RecordingError for what is no recording, all mistakes at once.
     """
     path = Path(path)
     if not path.exists():
         raise RecordingError(f"{path}: no such file")
     arrays, meta, notes = load_arrays(path)
-    skeleton, joints = skeleton_of(path, arrays)
-    positions = arrays["positions"][:, joints].astype(float)
+    skeleton, positions, of_joints = body_of(path, arrays, mapping_file)
     columns = {key: array.tolist() for key, array in arrays.items() if key.startswith("cov_")}
     takes = []
     for i, (start, stop) in enumerate(zip(arrays["offsets"][:-1].tolist(), arrays["offsets"][1:].tolist())):
@@ -41,6 +41,7 @@ def read_recording(path: str | Path) -> Recording:
                 mark_frame={_mark(key): float(arrays[key][i]) for key in arrays if is_mark(key)},
                 covariates={key: column[i] for key, column in columns.items()},
                 contact=arrays["contact_feet"][start:stop] if "contact_feet" in arrays else None,
+                notes=tuple(of_joints),
             )
         )
     source, licence = (str(meta.get(key, "not stated")) for key in ("source", "licence"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import codecs
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from emulator.recordings import RecordingError
@@ -79,6 +79,21 @@ def decoded(text: bytes) -> str:
 def quoted(text: str, most: int = 40) -> str:
     """A piece of a file in a message: one line, at most ``most`` characters."""
     return repr(text if len(text) <= most else text[: most - 3] + "...")
+
+
+def said_twice(names: Sequence[str], what: str, places: Sequence[object], remedy: str) -> list[str]:
+    """A message for each of the names that is there more than once, with its places; empty where none is.
+
+    what : the kind of place, such as "column"; remedy : what to do about it
+    """
+    at: dict[str, list[object]] = {}
+    for name, place in zip(names, places):
+        at.setdefault(name, []).append(place)
+    return [
+        f"found {quoted(name)} {len(found)} times, as {what} {' and '.join(map(str, found))}; {remedy}"
+        for name, found in at.items()
+        if len(found) > 1
+    ]
 
 
 def finite(word: str) -> float | None:

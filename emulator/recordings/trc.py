@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,7 +13,7 @@ from emulator.recordings.columns import Columns
 from emulator.recordings.marker_csv import points_of
 from emulator.recordings.table import number_of, read_table
 from emulator.recordings.take import Take
-from emulator.recordings.text import decoded, quoted
+from emulator.recordings.text import decoded, quoted, said_twice
 from emulator.recordings.timing import rate_of, without_missing_frames
 
 _FIRST = "PathFileType"
@@ -77,10 +76,11 @@ def _names(path: Path, header: Sequence[Sequence[str]], lines: Sequence[int], sa
     if row is None:
         raise RecordingError(f"{path}:4: found no line of names, expected 'Frame#', 'Time' and the markers")
     line, cells = row
-    names = [cell for cell in cells[2:] if cell]
-    double = sorted(name for name, count in Counter(names).items() if count > 1)
-    if double:
-        raise RecordingError(f"{path}:{line}: found {', '.join(map(quoted, double[:5]))} more than once")
+    column = [i for i, cell in enumerate(cells[2:], 3) if cell]
+    names = [cells[i - 1] for i in column]
+    wrong = said_twice(names, "column", column, "give each marker a name of its own")
+    if wrong:
+        raise RecordingError("\n".join(f"{path}:{line}: {each}" for each in wrong[:5]))
     _count(path, "NumMarkers", said["NumMarkers"], len(names))
     if not names:
         raise RecordingError(f"{path}:{line}: found no marker")

@@ -40,8 +40,8 @@ def print_judged(judged: Any, title: str) -> None:
         click.echo(printable(note))
 
 
-def print_meaning() -> None:
-    """One line a column."""
+def print_meaning(real_time: bool = False) -> None:
+    """One line a column; of the table in real time, too, if one was shown."""
     import click
 
     from emulator.judge.held_out_meaning import MEANING
@@ -50,6 +50,12 @@ def print_meaning() -> None:
     for name, (heading, _) in COLUMNS.items():
         click.echo(f"{heading:9} {MEANING[name]}")
     click.echo(f"{NOTHING:9} {ABSENT}")
+    if real_time:
+        from opsim.cli.judged_real_time import meaning
+
+        click.echo("\nin real time")
+        for heading, words in meaning().items():
+            click.echo(f"{heading:10} {words}")
 
 
 def wrong_table(out: Path | None) -> list[str]:

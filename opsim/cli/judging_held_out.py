@@ -12,7 +12,13 @@ from opsim.cli.verbs import Mistake, mistakes
 
 
 def show_held_out(
-    sets: Sequence[Any], schemes: Sequence[str], n_splits: int, seed: int, target: Path | None, as_json: bool
+    sets: Sequence[Any],
+    schemes: Sequence[str],
+    n_splits: int,
+    seed: int,
+    target: Path | None,
+    as_json: bool,
+    page: Path | None = None,
 ) -> None:
     """Print the tables, and write them into ``target``; what was found before a stop or a failure is told all the same.
 
@@ -21,16 +27,18 @@ def show_held_out(
     from opsim.cli.stopping import held, stopped
 
     judged: list[Any] = []
+    timed: list[Any] = []
     failed: list[str] = []
     try:
         for motions in sets:
             _judge(motions, schemes, n_splits, seed, judged, failed, target, as_json)
+            _judge_in_real_time(motions, schemes, n_splits, seed, timed, failed, page, as_json)
     except KeyboardInterrupt as stop:
-        _end(judged, target, as_json)
+        _end(judged, timed, target, as_json, page)
         done = [one.task for one in judged]
         kept = "" if target is None and done else held(target or Path(), done, [motions.task for motions in sets])
         raise stopped(stop, kept or f"judged: {', '.join(done)}") from None
-    _end(judged, target, as_json)
+    _end(judged, timed, target, as_json, page)
     if failed:
         raise Mistake("\n".join(failed))
 
@@ -59,14 +67,47 @@ def _judge(
         failed.append(f"{motions.task}: {mistake.message.removeprefix(f'{motions.task}: ')}")
 
 
-def _end(judged: Sequence[Any], target: Path | None, as_json: bool) -> None:
+def _judge_in_real_time(
+    motions: Any,
+    schemes: Sequence[str],
+    n_splits: int,
+    seed: int,
+    timed: list[Any],
+    failed: list[str],
+    page: Path | None,
+    as_json: bool,
+) -> None:
+    """Emulators of one file in their own seconds, added to ``timed``; a file that failed before is not asked again."""
+    from opsim.cli.judged_real_time import in_real_time, print_real_time, write_page
+
+    if any(words.startswith(f"{motions.task}: ") for words in failed):
+        return
+    try:
+        with mistakes():
+            timed.append(in_real_time(motions, schemes, n_splits, seed))
+            if not as_json:
+                print_real_time(timed[-1])
+            if page is not None:
+                write_page(page, timed, seed)
+    except Mistake as mistake:
+        failed.append(f"{motions.task}: in real time: {mistake.message.removeprefix(f'{motions.task}: ')}")
+
+
+def _end(
+    judged: Sequence[Any], timed: Sequence[Sequence[Any]], target: Path | None, as_json: bool, page: Path | None
+) -> None:
     from opsim.cli.console import print_json
     from opsim.cli.judged_table import as_plain, print_meaning
 
     if as_json:
-        print_json({"out": None if target is None else str(target), "tasks": {j.task: as_plain(j) for j in judged}})
+        real_time = {of_task[0].task: [one.as_plain() for one in of_task] for of_task in timed if of_task}
+        tasks = {j.task: as_plain(j) | {"real_time": real_time.get(j.task, [])} for j in judged}
+        written = {name: None if path is None else str(path) for name, path in (("out", target), ("page", page))}
+        print_json({**written, "tasks": tasks})
     elif judged:
-        print_meaning()
+        print_meaning(real_time=any(timed))
+        if page is not None:
+            click.echo(f"page: {page}")
         if target is not None:
             click.echo(f"table: {target}")
 

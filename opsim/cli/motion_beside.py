@@ -83,13 +83,9 @@ def _standing(motion: Any) -> Any:
     NOTE: rigid bones hung from the recorded pelvis would lift the feet of a squat by 5 to 9 cm, since markers on the
     skin make bones that breathe.
     """
-    from emulator.clean import turn
-    from emulator.root import RootChannel
+    from emulator.footing import on_its_feet
 
-    channel, bones_m = RootChannel(motion.skeleton), motion.bone_length_m
-    side = channel.forward(motion.directions, bones_m, motion.root_m, motion.yaw_rad, motion.stretch)
-    root_m, yaw_rad = channel.inverse(side, motion.directions, bones_m)
-    return motion.skeleton.positions(turn(motion.directions, yaw_rad[:, None]), bones_m, root_m)
+    return on_its_feet(motion).positions_m()
 
 
 def _drawn(model: Any, n: int, people: str, rate_hz: float, rng: Any) -> list[Card]:

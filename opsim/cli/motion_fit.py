@@ -37,6 +37,7 @@ from opsim.cli.verbs import Mistake, mistakes
     metavar="NUMBER",
     help="How strongly marks are drawn together, 0 to 1; 0.01 is strong.  [default: 0]",
 )
+@click.option("--map", "mapping_file", metavar="FILE", help="Lines 'name in the file: joint' for names not known here.")
 @click.option("--cyclic", is_flag=True, help="Takes of several cycles (walking, cranking): emulators of any length.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="For the figures of the report only.")
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
@@ -49,19 +50,23 @@ def command(
     scheme: str | None,
     n_times: int,
     landmarks: str | None,
+    mapping_file: str | None,
     cyclic: bool,
     seed: int,
     as_json: bool,
 ) -> None:
     """Train an emulator on each recording FILE, a task each, and write them into one library."""
     from opsim.cli.motion_files import no_empty_folders, ready
-    from opsim.cli.motion_fit_asked import asked_of, read
+    from opsim.cli.motion_fit_asked import asked_of, read, wrong_mapping
     from opsim.cli.stopping import held
 
     with mistakes():
         asked, wrong = asked_of(n_components=n_components, scheme=scheme, n_times=n_times, landmarks=landmarks)
-        sets = _cyclic(files, task, where, out, asked, wrong) if cyclic else read(files, task, where, out, asked, wrong)
+        wrong += wrong_mapping(mapping_file)
+        names = None if mapping_file is None or wrong else Path(mapping_file)
+        sets = (_cyclic if cyclic else read)(files, task, where, out, asked, wrong, names)
     said = _said(files, out, task, where, asked) + " --cyclic" * cyclic
+    said += "" if mapping_file is None else f" --map {Path(mapping_file).name}"
     with no_empty_folders(out.parent):
         with mistakes():
             ready(out, ".npz")
@@ -107,13 +112,19 @@ class CyclicTakes:
 
 
 def _cyclic(
-    files: Sequence[str], task: str | None, where: str | None, out: Path, asked: dict[str, Any], wrong: Sequence[str]
+    files: Sequence[str],
+    task: str | None,
+    where: str | None,
+    out: Path,
+    asked: dict[str, Any],
+    wrong: Sequence[str],
+    mapping_file: Path | None,
 ) -> list[CyclicTakes]:
     from opsim.cli.motion_fit_asked import wrong_names
     from opsim.cli.motion_fit_cyclic import read_cyclic, wrong_with_cyclic
 
     other = wrong_with_cyclic(**{name: name in asked for name in ("scheme", "n_times", "landmarks")})
-    found = read_cyclic(files, task, where, [*wrong_names(files, task, out), *wrong, *other])
+    found = read_cyclic(files, task, where, [*wrong_names(files, task, out), *wrong, *other], mapping_file)
     return [CyclicTakes(name, recording, where or "all") for name, recording in found]
 
 

@@ -24,18 +24,25 @@ def asked_of(
 
 
 def read(
-    files: Sequence[str], task: str | None, where: str | None, out: Path, asked: dict[str, Any], wrong: Sequence[str]
+    files: Sequence[str],
+    task: str | None,
+    where: str | None,
+    out: Path,
+    asked: dict[str, Any],
+    wrong: Sequence[str],
+    mapping_file: Path | None = None,
 ) -> list[Any]:
     """The repetitions of each file. Raises ValueError with ``wrong`` and all else that speaks against a fit."""
     from emulator import read_motions
 
     wrong = [*_wrong_out(out, files), *wrong, *_named_wrongly(files, task)]
-    chosen = {} if where is None else {"where": None if where == "all" else where}
+    chosen: dict[str, Any] = {} if where is None else {"where": None if where == "all" else where}
     sets: list[Any] = []
     names: dict[str, str] = {}
     for file in files:
         try:
-            motions = read_motions(file, task=task if len(files) == 1 else None, **chosen)
+            name = task if len(files) == 1 else None
+            motions = read_motions(file, task=name, mapping_file=mapping_file, **chosen)
         except (ValueError, OSError) as error:
             wrong.append(str(error))
             continue
@@ -48,6 +55,13 @@ def read(
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
     return sets
+
+
+def wrong_mapping(mapping_file: str | None) -> list[str]:
+    """What speaks against a file of names for joints: that it is not there."""
+    if mapping_file is None or ("\0" not in mapping_file and Path(mapping_file).is_file()):
+        return []
+    return [f"--map: {mapping_file!r}: no such file"]
 
 
 def wrong_names(files: Sequence[str], task: str | None, out: Path) -> list[str]:

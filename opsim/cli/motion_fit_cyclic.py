@@ -9,7 +9,7 @@ from typing import Any
 
 
 def read_cyclic(
-    files: Sequence[str], task: str | None, where: str | None, wrong: Sequence[str]
+    files: Sequence[str], task: str | None, where: str | None, wrong: Sequence[str], mapping_file: Path | None = None
 ) -> list[tuple[str, Any]]:
     """(task, recording) of each file, of the takes that ``where`` chooses. Raises ValueError with all mistakes."""
     from emulator.recordings.takes_npz import read_recording
@@ -18,7 +18,7 @@ def read_cyclic(
     for file in files:
         name = task if task is not None and len(files) == 1 else Path(file).stem
         try:
-            found.append((name, _chosen(read_recording(file), where)))
+            found.append((name, _chosen(read_recording(file, mapping_file=mapping_file), where)))
         except (ValueError, OSError) as error:
             wrong.append(f"{file}: {str(error).removeprefix(f'{file}: ')}")
     names = [name for name, _ in found]

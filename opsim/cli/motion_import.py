@@ -24,7 +24,7 @@ from opsim.cli.verbs import mistakes
     "--columns",
     metavar="FILE",
     help="Names of the points of a CSV without header or a JSON without names: a file with a name a line; or "
-    "plug-in-gait, coco-17, body-25, halpe-26, blazepose-33.",
+    "plug-in-gait, coco-17, body-25, halpe-26, blazepose-33, kinect-20, kinect-25, kinect-32.",
 )
 @click.option("--map", "mapping_file", metavar="FILE", help="Lines 'name in the file: joint' for names not known here.")
 @click.option("--asf", metavar="FILE", help="The skeleton of an AMC.  [default: the one beside it]")

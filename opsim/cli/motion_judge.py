@@ -31,6 +31,9 @@ USUAL_SPLITS = 5
     "-o", "--out", type=click.Path(path_type=Path), help="A .csv file or a folder; with --paper the folder to write."
 )
 @click.option(
+    "--page", type=click.Path(path_type=Path), help="A page, FILE.html: recorded and drawn side by side in real time."
+)
+@click.option(
     "--where", help="Which repetitions, such as 'cov_correct==1'; 'all' takes all.  [default: the correct ones]"
 )
 @click.option("--splits", type=click.IntRange(1, 100), help="How often to deal out the halves.  [default: 5]")
@@ -41,6 +44,7 @@ def command(
     schemes: tuple[str, ...],
     paper: bool,
     out: Path | None,
+    page: Path | None,
     where: str | None,
     splits: int | None,
     seed: int,
@@ -48,19 +52,21 @@ def command(
 ) -> None:
     """Judge schemes on each recording FILE: fitted to half of everybody's repetitions, held against the other half.
 
+    Emulators also in real time: speed, jerk, feet, balance, a classifier, and new people beside people left out.
+
     A name such as SIEM/JointPCA/MVG, for which there is an emulator, means the emulator; all others mean the scheme of
     the paper on aligned postures. Two controls, which copy, must be seen to fail.
     """
     from opsim.cli.judged_table import table_file
 
     with mistakes():
-        sets = _read(files, where, paper, _misfits(schemes, paper, out, splits))
+        sets = _read(files, where, paper, _misfits(schemes, paper, out, splits, page))
     target = out / "index.html" if paper and out is not None else table_file(out)
-    with _written(target):
+    with _written(target), _written(page):
         if paper and out is not None:
             _show_paper(sets, out, seed, as_json)
         else:
-            show_held_out(sets, schemes, splits or USUAL_SPLITS, seed, target, as_json)
+            show_held_out(sets, schemes, splits or USUAL_SPLITS, seed, target, as_json, page)
 
 
 @contextmanager
@@ -77,17 +83,18 @@ def _written(target: Path | None) -> Iterator[None]:
         yield
 
 
-def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int | None) -> list[str]:
+def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int | None, page: Path | None) -> list[str]:
     """Options that are wrong, or do not go together."""
     if not paper:
         from emulator.judge.drawers import unknown_names
         from opsim.cli.judged_table import wrong_table
 
-        return [*unknown_names(schemes), *wrong_table(out)]
+        wrong_page = [f"{page}: expected a .html file for --page"] if page and page.suffix.lower() != ".html" else []
+        return [*unknown_names(schemes), *wrong_table(out), *wrong_page]
     from opsim.cli.motion_files import wrong_folder
 
     wrong = ["--paper: expected a folder to write into, -o FOLDER"] if out is None else wrong_folder(out)
-    given = {"--scheme": bool(schemes), "--splits": splits is not None}
+    given = {"--scheme": bool(schemes), "--splits": splits is not None, "--page": page is not None}
     return wrong + [f"{name}: does not go with --paper, which has schemes of its own" for name in given if given[name]]
 
 

@@ -38,6 +38,14 @@ class SmallChart:
         points = " ".join(f"{self.at_x(a):.1f},{self.at_y(b):.1f}" for a, b in zip(x, y))
         self.drawn.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="{width}"/>')
 
+    def band(
+        self, x: Sequence[float], low: Sequence[float], high: Sequence[float], colour: str, opacity: float
+    ) -> None:
+        """The area between two lines."""
+        ends = [*zip(x, low), *zip(reversed(x), reversed(high))]
+        points = " ".join(f"{self.at_x(a):.1f},{self.at_y(b):.1f}" for a, b in ends)
+        self.drawn.append(f'<polygon points="{points}" fill="{colour}" opacity="{opacity:g}"/>')
+
     def dots(self, x: Sequence[float], y: Sequence[float], colour: str) -> None:
         """A dot a point."""
         self.drawn += [

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-FAR_M = 1e-3
+FAR_M = 1.3e-3
 """A joint further than this from where it belongs makes the time between two frames one to amend."""
-NEAR_M = 1.5e-4
+NEAR_M = 4e-4
 """So near, times the length of the bone, broken lines come; of what is less nothing is kept."""
-STEP = 1e-4
+STEP = 2e-4
 """Of amends (no unit)."""
 LOOKS, FINE, PARTS, ROUNDS = 3, 32, 8, 3
 """Looks at each time between two frames, looks at one that is to be amended, and how often what comes at once is looked

@@ -12,7 +12,6 @@ from opsim.report.palette import OTHER, STATES, WORDS
 from opsim.viewer.columns import Columns
 from opsim.viewer.frame_models import pack_frames
 from opsim.viewer.scene import Scene
-from opsim.viewer.score_models import is_of_scores, pack_scores
 from opsim.viewer.skeletons import Tree, tree_of
 
 PRODUCT_COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#7E6BA8")
@@ -37,8 +36,7 @@ def _models(
 ) -> Iterator[dict[str, Any]]:
     """The entry of each model of performances."""
     for number, drawn in enumerate(scene.performed.drawn):
-        pack = pack_scores if is_of_scores(drawn.blocks[0]) else pack_frames
-        yield pack(drawn, _tree(trees, drawn.skeleton), columns, f"m{number}_")
+        yield pack_frames(drawn, _tree(trees, drawn.skeleton), columns, f"m{number}_")
         progress(number + 1, len(scene.performed.drawn))
 
 

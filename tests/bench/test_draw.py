@@ -2,27 +2,34 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from bench.cpu import best_s
+from scipy.interpolate import CubicSpline
 
 from emulator import decode
 from emulator.align import align
 from emulator.clean import turn
 from emulator.model import MotionEmulator
-from emulator.performances import _linear
 from emulator.synthetic import make
 
 N, N_TIMES = 1000, 301
 
 
 @cache
-def emulator():
+def on_feet():
     """A lift by five people, 301 points, 20 bones."""
     return MotionEmulator.fit(make("lift", 5, 8, seed=4)[0], n_times=N_TIMES)
+
+
+@cache
+def emulator():
+    """The same without feet, as plain numpy decodes it."""
+    return replace(on_feet(), footing=None)
 
 
 def plain_directions(model, rng):
@@ -64,8 +71,10 @@ def plain_positions(model, rng):
     coefficients = model.scale.raw(drawn.scores, "posture")
     between = decode.directions_numpy(model.posture, model.flatten, coefficients, place)
     aligned = model.aligned_directions(drawn.scores)
-    way = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
-    root, yaw = (_linear(course, place) for course in way)
+    root, yaw = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
+    course = np.concatenate([root, yaw[..., None]], axis=-1)
+    path = np.stack([CubicSpline(cells, way)(at) for way, at in zip(course, place)])
+    root, yaw = path[..., :3], path[..., 3]
     return model.skeleton.positions(turn(between, yaw[..., None]), drawn.bone_length_m[:, None], root)
 
 
@@ -82,6 +91,18 @@ def test_a_thousand_bodies_are_drawn_and_stand():
     each = ours_s / N / N_TIMES * 1e6
     print(f"\n1,000 x 301 bodies of 21 joints on the floor: {each:.2f} us a body, plain numpy x {plain_s / ours_s:.0f}")
     assert plain_s / ours_s > 8
+
+
+def test_feet_cost_half_as_much_again_as_decoding_at_most():
+    without, with_feet = best_s(
+        *(
+            partial(lambda model: model.sample(N, np.random.default_rng(1)).positions_m(n_times=N_TIMES), model)
+            for model in (emulator(), on_feet())
+        ),
+        rounds=3,
+    )
+    print(f"\n1,000 x 301 bodies: with feet x {with_feet / without:.2f}")
+    assert with_feet < 1.5 * without
 
 
 @pytest.mark.parametrize(("block", "at_most_us"), [(64, 3.0), (4096, 2.0)])

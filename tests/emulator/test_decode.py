@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from emulator import decode, sphere
 from emulator.flatten import SIEM
@@ -20,6 +21,10 @@ def posture_model(n_times=40, n_bones=7, size=0.02, offset=0.4, n_components=6):
     return JointPCA(mean.ravel(), basis.reshape(n_components, -1), 1.0), flatten
 
 
+def directions(posture, flatten, *asked):
+    return decode.Decoder(posture, flatten).directions(*asked)
+
+
 def some_places(n, n_times=40, n_places=33):
     return RNG.uniform(0, n_times - 1, (n, n_places))
 
@@ -29,40 +34,45 @@ def test_the_kernel_is_the_numpy_twin(n_bones):
     posture, flatten = posture_model(n_bones=n_bones)
     coefficients, place = RNG.normal(size=(5, 6)), some_places(5)
     want = decode.directions_numpy(posture, flatten, coefficients, place)
-    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-12
-    single = decode.directions(posture, flatten, coefficients, place, np.float32)
+    assert np.abs(directions(posture, flatten, coefficients, place) - want).max() < 1e-12
+    single = directions(posture, flatten, coefficients, place, np.float32)
     assert single.dtype == np.float32 and np.abs(single - want).max() < 1e-5
 
 
-def test_the_twin_is_exp_then_the_geodesic_between_neighbours():
+def test_the_clocks_points_are_the_recorded_postures_and_between_them_speed_and_acceleration_do_not_jump():
     posture, flatten = posture_model(n_bones=2)
     coefficients = RNG.normal(size=(1, 6))
-    tangent = posture.inverse(coefficients).reshape(40, 2, 2)
-    axes = sphere.basis(flatten.reference)
-    for at in (0.0, 7.25, 39.0):
-        low = min(int(at), 38)
-        for bone in range(2):
-            p, q = (sphere.exp(flatten.reference[bone], tangent[t, bone] @ axes[bone]) for t in (low, low + 1))
-            want = sphere.exp(p, (at - low) * sphere.log(p, q))
-            got = decode.directions_numpy(posture, flatten, coefficients, np.array([[at]]))[0, 0, bone]
-            assert np.abs(got - want).max() < 1e-14
+    exact = flatten.inverse(posture.inverse(coefficients).reshape(1, 40, 4))
+    assert np.abs(directions(posture, flatten, coefficients, np.arange(40.0)[None]) - exact).max() < 1e-12
+    step = 1e-3
+    about = np.arange(1.0, 38.0)[:, None] + step * np.array([-2, -1, 0, 1, 2])
+    here = directions(posture, flatten, coefficients, about.reshape(1, -1)).reshape(37, 5, 2, 3)
+    bend = np.diff(here, n=2, axis=1) / step**2
+    assert np.abs(bend[:, 0] - bend[:, 2]).max() < 0.02 * np.abs(bend).max()
+
+
+def test_control_points_are_scipys_cubic_spline():
+    values = RNG.normal(size=(3, 30, 4))
+    place = RNG.uniform(0, 29, (3, 50))
+    want = np.stack([CubicSpline(np.arange(30.0), v)(at) for v, at in zip(values, place)])
+    assert np.abs(decode.along(decode.control_points(values), place) - want).max() < 1e-11
 
 
 @pytest.mark.parametrize(("size", "offset"), [(3.0, 0.4), (0.05, 3.5), (0.9, 1.2)])
 def test_bones_beyond_the_series_are_decoded_all_the_same(size, offset):
     posture, flatten = posture_model(size=size, offset=offset)
     coefficients, place = RNG.normal(size=(9, 6)), some_places(9)
-    got = decode.directions(posture, flatten, coefficients, place)
+    got = directions(posture, flatten, coefficients, place)
     assert np.abs(got - decode.directions_numpy(posture, flatten, coefficients, place)).max() < 1e-12
 
 
-def test_at_the_limits_of_the_series_the_digits_hold():
+def test_at_the_limit_of_the_series_the_digits_hold():
     flatten = SIEM(sphere.normalise(RNG.normal(size=(1, 3))))
-    far, step = decode.LARGEST_TURN_RAD - 1e-6, decode.LARGEST_STEP_RAD - 1e-6
-    mean = np.array([[far, 0.0], [far - step, 0.0], [0.0, 0.0], [0.0, 0.0]])
-    posture = JointPCA(mean[:2].ravel(), np.zeros((0, 4)), 1.0)
-    place = np.linspace(0, 1, 21)[None]
-    got, want = (f(posture, flatten, np.zeros((1, 0)), place) for f in (decode.directions, decode.directions_numpy))
+    far = decode.LARGEST_TURN_RAD - 1e-6
+    mean = np.column_stack([np.linspace(far - 0.1, far, 12), np.zeros(12)])
+    posture = JointPCA(mean.ravel(), np.zeros((0, 24)), 1.0)
+    place = np.linspace(0, 11, 21)[None]
+    got, want = (f(posture, flatten, np.zeros((1, 0)), place) for f in (directions, decode.directions_numpy))
     assert np.abs(got - want).max() < 2e-13
 
 
@@ -70,28 +80,21 @@ def test_at_the_limits_of_the_series_the_digits_hold():
 def test_the_size_of_a_block_changes_nothing(monkeypatch, block_bytes):
     posture, flatten = posture_model()
     coefficients, place = RNG.normal(size=(20, 6)), some_places(20)
-    want = decode.directions(posture, flatten, coefficients, place)
+    want = directions(posture, flatten, coefficients, place)
     monkeypatch.setattr(decode, "BLOCK_BYTES", block_bytes)
-    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-13
+    assert np.abs(directions(posture, flatten, coefficients, place) - want).max() < 1e-13
 
 
 def test_a_skeleton_too_large_for_the_kernel_is_decoded_by_numpy():
     posture, flatten = posture_model(n_bones=PITCH + 1)
     coefficients, place = RNG.normal(size=(2, 6)), some_places(2)
     want = decode.directions_numpy(posture, flatten, coefficients, place)
-    assert np.abs(decode.directions(posture, flatten, coefficients, place) - want).max() < 1e-13
-
-
-def test_neighbours_that_point_oppositely_are_refused():
-    flatten = SIEM(np.array([[0.0, 0.0, 1.0]]))
-    posture = JointPCA(np.array([np.pi / 2, 0.0, -np.pi / 2, 0.0]), np.zeros((0, 4)), 1.0)
-    with pytest.raises(ValueError, match="opposite"):
-        decode.directions(posture, flatten, np.zeros((1, 0)), np.array([[0.5]]))
+    assert np.abs(directions(posture, flatten, coefficients, place) - want).max() < 1e-13
 
 
 def test_no_performance_gives_no_directions():
     posture, flatten = posture_model()
-    assert decode.directions(posture, flatten, np.zeros((0, 6)), np.zeros((0, 4))).shape == (0, 4, 7, 3)
+    assert directions(posture, flatten, np.zeros((0, 6)), np.zeros((0, 4))).shape == (0, 4, 7, 3)
 
 
 def test_places_invert_the_warp_and_hold_its_ends():

@@ -104,7 +104,7 @@ def test_the_emulator_stands_on_unseen_squats():
     ours = figures(judged(), "deep_squat", OURS)
     assert ours.n_passed == 2
     assert ours.ratio_of_medians < 0.4
-    assert 0.7 < ours.novelty < 1.4
+    assert 0.6 < ours.novelty < 1.4
     assert 0.8 < ours.roughness < 1.2
 
 

@@ -1,8 +1,11 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
-from emulator import sphere
 from emulator.clean import turn
+from emulator.decode import directions_numpy
 from emulator.model import MotionEmulator
 from tests.emulator.fitted import made
 
@@ -47,20 +50,22 @@ def test_directions_have_unit_length_and_positions_their_bones(drawn):
 
 
 def test_decoding_is_its_definition_in_numpy(drawn):
-    """Warp, geodesics between the common postures, heading, bones: step by step, without blocks and kernels."""
-    model, own = drawn.model, np.linspace(0, 1, 41)
-    place = np.stack([np.interp(own, warp, np.arange(101.0)) for warp in model.warps(drawn.scores)])
-    aligned = model.aligned_directions(drawn.scores)
-    rows, low = np.arange(12)[:, None], np.minimum(place.astype(int), 99)
-    between = sphere.between(aligned[rows, low], aligned[rows, low + 1], (place - low)[..., None])
+    """Warp, splines between the common postures, heading, bones: step by step, without blocks and kernels.
+
+    How feet are put on the floor has its own twin: tests/naive_footing.py.
+    """
+    model, own, clock = replace(drawn.model, footing=None), np.linspace(0, 1, 41), np.arange(101.0)
+    drawn = model.performances(drawn.scores)
+    place = np.stack([np.interp(own, warp, clock) for warp in model.warps(drawn.scores)])
+    between = directions_numpy(model.posture, model.flatten, model.scale.raw(drawn.scores, "posture"), place)
     assert np.abs(drawn.directions(n_times=41) - between).max() < 1e-10
     assert np.abs(drawn.directions(n_times=41, dtype=np.float32) - between).max() < 1e-5
-    path = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
-    clock = np.arange(101.0)
-    root = np.stack([[np.interp(at, clock, course) for course in way.T] for at, way in zip(place, path[0])])
-    yaw = np.stack([np.interp(at, clock, heading) for at, heading in zip(place, path[1])])
-    world = turn(between, yaw[..., None])
-    joints = drawn.skeleton.positions(world, drawn.bone_length_m[:, None], np.moveaxis(root, 1, 2))
+    aligned = model.aligned_directions(drawn.scores)
+    root, yaw = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
+    course = np.concatenate([root, yaw[..., None]], axis=-1)
+    path = np.stack([CubicSpline(clock, way)(at) for way, at in zip(course, place)])
+    world = turn(between, path[..., 3:])
+    joints = drawn.skeleton.positions(world, drawn.bone_length_m[:, None], path[..., :3])
     assert np.abs(drawn.positions_m(n_times=41) - joints).max() < 1e-10
     single = drawn.positions_m(n_times=41, dtype=np.float32)
     assert single.dtype == np.float32 and np.abs(single - joints).max() < 1e-5

@@ -50,7 +50,7 @@ class PaperClass:
 
 
 def prepared(motions: MotionSet, seed: int = 0, progress: Callable[[int, int, str], None] | None = None) -> PaperClass:
-    """The class on 301 points, aligned and fitted."""
-    settings = FitSettings(SCHEME, None, N_TIMES, N_KNOTS, landmarks=0.0, seed=seed, command="")
-    emulator = MotionEmulator.fit(motions, n_times=N_TIMES, n_knots=N_KNOTS, seed=seed, progress=progress)
+    """The class on 301 points, aligned without a penalty as in the paper, and fitted so."""
+    settings = FitSettings(SCHEME, None, N_TIMES, N_KNOTS, landmarks=0.0, seed=seed, command="", penalty=0.0)
+    emulator = MotionEmulator.fit(motions, n_times=N_TIMES, n_knots=N_KNOTS, penalty=0.0, seed=seed, progress=progress)
     return PaperClass(motions, registered(motions, settings, None).directions, emulator, seed)

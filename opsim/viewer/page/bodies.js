@@ -1,10 +1,9 @@
 // The performances of a run, decoded when somebody begins them and kept for a while.
 import { columnsOfModel } from "./columns.js";
 import { FramesModel } from "./decode_frames.js";
-import { ScoresModel } from "./decode_scores.js";
 
 const KEPT = 240;
-const CODECS = { scores: ScoresModel, frames: FramesModel };
+const CODECS = { frames: FramesModel };
 
 export class Performances {
   constructor(models, columns, skeletons) {

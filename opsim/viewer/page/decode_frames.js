@@ -1,6 +1,6 @@
-// Bodies kept as frames of a few numbers: walks, composites, other people's emulators. Catmull-Rom between frames.
+// Bodies kept as frames of a few numbers, which are the control points of cubic splines over time.
 
-/** A model of codec "frames": the same two ways in as ScoresModel. */
+/** A model of codec "frames": `performance(row)` decodes one whole performance, `pose` puts it at a moment. */
 export class FramesModel {
   constructor(model, columns, skeleton) {
     this.columns = columns;
@@ -30,7 +30,7 @@ export class FramesModel {
       let step = 0,
         value = 0;
       for (let f = 0; f < frames; f++) {
-        step += stored[start + c * frames + f];
+        step += unfolded(stored[start + c * frames + f]);
         value += step;
         values[c * frames + f] = value;
       }
@@ -61,30 +61,33 @@ export class FramesModel {
       if (bone[k] !== bone[k + 1] || at[k] > now || now >= at[k + 1]) continue;
       const u = (now - at[k]) / (at[k + 1] - at[k]);
       for (let c = 0, i = k; c < 3; c++, i += at.length)
-        directions[3 * bone[k] + c] += step[0] * ((1 - u) * by[i] + u * by[i + 1]);
+        directions[3 * bone[k] + c] += step[0] * ((1 - u) * unfolded(by[i]) + u * unfolded(by[i + 1]));
     }
     normalise(directions, width);
   }
 
+  /** On the spline, which goes on straight beyond its first and its last control point. */
   between({ values, frames, durationS }, ownS) {
     const place = Math.min(Math.max(Math.min(ownS, durationS) * this.rateHz, 0), frames - 1);
     const cell = Math.max(Math.min(Math.floor(place), frames - 2), 0),
       u = place - cell,
       { scale } = this.columns;
-    const before = Math.max(cell - 1, 0),
-      next = Math.min(cell + 1, frames - 1),
-      after = Math.min(cell + 2, frames - 1);
+    const v = 1 - u,
+      next = Math.min(cell + 1, frames - 1);
     for (let c = 0; c < this.channels.length; c++) {
       const row = c * frames,
-        a = values[row + before],
         b = values[row + cell],
         e = values[row + next],
-        g = values[row + after];
-      const value = b + 0.5 * u * (e - a + u * (2 * a - 5 * b + 4 * e - g + u * (3 * (b - e) + g - a)));
+        a = cell > 0 ? values[row + cell - 1] : 2 * b - e,
+        g = cell + 2 < frames ? values[row + cell + 2] : 2 * e - b;
+      const value = (v ** 3 * a + (4 - 3 * u * u * (1 + v)) * b + (4 - 3 * v * v * (1 + u)) * e + u ** 3 * g) / 6;
       this.channels[c] = value * scale[c];
     }
   }
 }
+
+/** 0, 1, 2, 3, 4 ... as 0, -1, 1, -2, 2 ... */
+const unfolded = (value) => (value >>> 1) ^ -(value & 1);
 
 /** Unit length for each three numbers of the first `width`. */
 export function normalise(vectors, width) {

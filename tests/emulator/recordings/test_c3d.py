@@ -114,7 +114,7 @@ def test_points_without_a_name_are_left_out(tmp_path):
         (by_hand(MM, NAMES, frames=65535), "declares 65535 frames of 21 points"),
         (by_hand(MM, NAMES, frames=0), "found 0 frames, expected 2 or more"),
         (by_hand(MM, NAMES, rate_hz=0.0), "found 0 frames a second"),
-        (by_hand(MM, [*NAMES[:-1], "head"]), "labels more than once: 'head'"),
+        (by_hand(MM, [*NAMES[:-1], "head"]), "found 'head' 2 times, as POINT:LABELS"),
         (by_hand(MM, NAMES, labels=["*1"] * len(NAMES)), "none of them with a label"),
         (by_hand(MM[:, :0], []), "found no points"),
     ],

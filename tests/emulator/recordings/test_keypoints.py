@@ -99,7 +99,7 @@ def test_missing_points_and_low_scores_are_gaps(tmp_path):
         ({"frames": PLACES, "names": list(NAMES)}, "found no frame rate"),
         ({"fps": "fast", "frames": PLACES, "names": list(NAMES)}, "found 'fast' frames a second"),
         ({"fps": 30, "frames": PLACES, "names": list(NAMES[:-1])}, "found 21 points a frame, expected 20"),
-        ({"fps": 30, "frames": PLACES, "names": [*NAMES[:-1], "head"]}, "found the names head more than once"),
+        ({"fps": 30, "frames": PLACES, "names": [*NAMES[:-1], "head"]}, "found 'head' 2 times, as point "),
         ({"fps": 30, "frames": PLACES[..., :2], "names": list(NAMES)}, "frame 0: found two numbers a point"),
         ({"fps": 30, "frames": PLACES * [1, 1, 0], "names": list(NAMES)}, "found 0 in every z"),
         ({"fps": 30, "frames": [{"people": [{"pose_keypoints_2d": [1, 2, 1]}]}] * 2}, "in the plane of a picture"),

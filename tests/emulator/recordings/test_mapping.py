@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.keypoint_sets import BLAZEPOSE_33
+from emulator.recordings.dialect import joints_of
+from emulator.recordings.keypoint_sets import BLAZEPOSE_33, KINECT_20, KINECT_25, KINECT_32
 from emulator.recordings.mapping import NEEDED, mapped
 from emulator.recordings.markers import PLUG_IN_GAIT
 from emulator.recordings.raw import read_take
@@ -81,7 +82,8 @@ def test_pelvis_neck_and_head_are_made_where_a_tracker_has_none():
     made, report = mapped(Take(BLAZEPOSE_33, None, places, 30.0))
     assert [row.joint for row in report.of("made")] == ["pelvis", "neck", "head", "left_hand", "right_hand"]
     assert np.allclose(joint(made, "pelvis"), (joint(take, "left_hip") + joint(take, "right_hip")) / 2)
-    assert np.allclose(joint(made, "neck"), (joint(take, "left_shoulder") + joint(take, "right_shoulder")) / 2)
+    middle = (joint(take, "left_shoulder") + joint(take, "right_shoulder")) / 2
+    assert np.linalg.norm(joint(made, "neck") - middle, axis=-1).max() < 0.02
     assert made.parents[made.names.index("head")] == made.names.index("neck")
     assert set(NEEDED) <= set(made.names)
 
@@ -212,3 +214,60 @@ def test_the_joints_come_in_one_order_whatever_the_file_has():
     order = np.random.default_rng(2).permutation(len(take.names))
     shuffled = Take(tuple(take.names[i] for i in order), None, take.positions_m[:, order], 50.0)
     assert mapped(shuffled)[0].names == CANONICAL
+
+
+KINECT = {
+    "the first": KINECT_20,
+    "the first, in British letters": [name.lower().replace("center", "centre") for name in KINECT_20],
+    "the second": KINECT_25,
+    "the second, as JointType": [f"JointType_{name}" for name in KINECT_25],
+    "Azure": KINECT_32,
+    "Azure, by its constants": [f"K4ABT_JOINT_{name}" for name in KINECT_32],
+}
+
+
+@pytest.mark.parametrize("names", KINECT.values(), ids=KINECT)
+def test_every_joint_of_a_kinect_is_known(names):
+    joints = joints_of(names)
+    assert all(joints)
+    assert set(NEEDED) - {"pelvis"} <= set(joints)
+    ours = dict(zip(joints, (name.upper().replace("_", "") for name in names)))
+    assert ours["left_toe"].endswith("FOOTLEFT")
+    assert ours["spine"].endswith(("SPINE", "SPINEMID", "SPINENAVEL"))
+    assert ours["neck"].endswith(("NECK", "SHOULDERCENTER", "SHOULDERCENTRE"))
+    fingers = [joint for joint in joints if joint.endswith("_fingers")]
+    assert len(fingers) == (2 if len(names) > 20 else 0)
+
+
+def shrugging(trunk):
+    """A body without neck whose shoulders rise and close and whose head nods; with these trunk joints."""
+    take, up = body(), 0.5 - 0.5 * np.cos(np.linspace(0, 2 * np.pi, 60))[:, None]
+    keep = [n for n in take.names if n != "neck" and (n in trunk or n not in ("spine", "chest"))]
+    places = points(take, keep)
+    for name, side in (("left_shoulder", -1.0), ("right_shoulder", 1.0)):
+        places[:, keep.index(name)] += up * [0.01, 0.03 * side, 0.04]
+    places[:, keep.index("head")] += up * [0.03, 0.0, -0.01]
+    return Take(tuple(keep), None, places, 50.0)
+
+
+@pytest.mark.parametrize(("trunk", "below"), [((), "pelvis"), (("spine",), "spine"), (("spine", "chest"), "chest")])
+def test_a_made_neck_keeps_its_bone_and_breathes_less_towards_the_head_than_the_middle_of_the_shoulders(trunk, below):
+    take = shrugging(trunk)
+    made, report = mapped(take)
+    neck, middle = joint(made, "neck"), points(take, [("left_shoulder", "right_shoulder")])[:, 0]
+    assert made.names[made.parents[made.names.index("neck")]] == below
+    assert np.ptp(np.linalg.norm(neck - joint(made, below), axis=-1)) < 1e-12
+    ours, middles = (np.std(np.linalg.norm(joint(made, "head") - each, axis=-1)) for each in (neck, middle))
+    assert ours < 0.5 * middles
+    assert np.abs(np.diff(neck, 2, axis=0)).max() < 2 * np.abs(np.diff(middle, 2, axis=0)).max() + 1e-3
+    assert report.of("made")[0].why == f"middle of left_shoulder and right_shoulder, at a steady way from {below}"
+
+
+def test_a_made_neck_is_a_gap_where_a_shoulder_is_and_nowhere_else():
+    take = shrugging(("spine", "chest"))
+    places = take.positions_m.copy()
+    places[5, take.names.index("left_shoulder")] = np.nan
+    places[9, take.names.index("head")] = np.nan
+    places[12, take.names.index("chest")] = np.nan
+    neck = joint(mapped(replace(take, positions_m=places))[0], "neck")
+    assert np.flatnonzero(np.isnan(neck).any(axis=-1)).tolist() == [5]

@@ -249,7 +249,7 @@ def lines_of(change):
         (lambda lines: [lines[0], "1.0,2.0,"], "a.csv:1: found names of 63 columns, expected 3 as in the rows below"),
         (lambda lines: lines[:2], "found 1 frame, expected 2 or more"),
         (lambda lines: [], "found no row of numbers"),
-        (lambda lines: [lines[0].replace("head_y", "head_x"), *lines[1:]], "a.csv:1: found 'head x' in columns"),
+        (lambda lines: [lines[0].replace("head_y", "head_x"), *lines[1:]], "a.csv:1: found 'head' twice, its x"),
         (lambda lines: [lines[0].replace("head_z", "head_w"), *lines[1:]], "a.csv:1: 'head': found x, y, expected x"),
     ],
 )  # fmt: skip

@@ -44,7 +44,7 @@ def test_empty_cells_are_gaps_also_at_the_end_of_a_row(tmp_path):
     [
         (trc_text(TAKE.names, Y_UP_MM, n_frames=1000000000), "a.trc:3: NumFrames says '1000000000', found 30"),
         (trc_text(TAKE.names, Y_UP_MM, n_markers=4), "a.trc:3: NumMarkers says '4', found 21"),
-        (trc_text([*TAKE.names[:-1], "head"], Y_UP_MM), "a.trc:4: found 'head' more than once"),
+        (trc_text([*TAKE.names[:-1], "head"], Y_UP_MM), "a.trc:4: found 'head' 2 times, as column"),
         (trc_text(TAKE.names, Y_UP_MM).replace("PathFileType", "Path"), "a.trc:1: found 'Path', expected"),
         (trc_text(TAKE.names, Y_UP_MM).replace("NumMarkers", "Markers"), "a.trc:2: found no NumMarkers"),
         (trc_text(TAKE.names, Y_UP_MM).replace("Frame#", "Nr"), "found no line of names"),

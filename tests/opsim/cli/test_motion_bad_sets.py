@@ -50,6 +50,19 @@ def upside_down(part):
     return part * [1, 1, -1] + [0, 0, 2]
 
 
+def teleported(part):
+    part[10:14, 5] += [1.0, 0.0, 0.0]
+    return part
+
+
+def without_feet(lifts, *names):
+    """The file without these joints."""
+    for name in names:
+        arrays = without(lifts, name)
+        lifts = arrays, np.split(arrays["positions"], arrays["offsets"][1:-1])
+    return lifts[0]
+
+
 def without(lifts, name):
     """The file without one joint; what hung on it hangs on its parent."""
     gone, parents = joint(lifts, name), lifts[0]["parents"]
@@ -97,11 +110,6 @@ REFUSED = {
         "20, 3), expected (frames, 21, 3) for 21 names",
     ),
     "a hip too few": (lambda s: without(s, "left_hip"), (), "left_hip"),
-    "a bone the other way": (
-        lambda s: other_way(s, "left_shoulder", "chest"),
-        (),
-        "bad: align: sequence 3 (emulated/k3): at 10% of its time the bone to left_shoulder points opposite",
-    ),
     "no number in all": (lambda s: of(s, [no_number(p.copy()) for p in s[1]]), (), "no repetition is left"),
     "more components than repetitions span": (
         lambda s: of(s, s[1]),
@@ -115,7 +123,20 @@ REFUSED = {
     ),
 }
 NOTED = {
-    "no number in one": (lambda s: odd(s, no_number), "left out emulated/k3: positions are missing"),
+    "a joint that is elsewhere for a while": (
+        lambda s: odd(s, teleported),
+        "left out emulated/k3: a joint moves at 25.",
+    ),
+    "no feet": (
+        lambda s: without_feet(s, "left_toe", "left_ankle", "right_toe", "right_ankle"),
+        "no feet in the recordings",
+    ),
+    "one foot": (lambda s: without_feet(s, "left_toe", "left_ankle"), "no left foot in the recordings"),
+    "one person": (lambda s: of(s, s[1]), "one person: how people differ is not known"),
+    "no number in one": (
+        lambda s: odd(s, no_number),
+        "left out emulated/k3: positions are missing: neck at frame 10 (0.40 s)",
+    ),
     "one stands still": (
         lambda s: odd(s, still),
         "1 of 8 repetitions do not move, their own clock is kept: emulated/k3",
@@ -127,6 +148,10 @@ NOTED = {
     ),
     "copies": (lambda s: odd(s, lambda _: s[1][4]), "copies of one recording, all used: emulated/k4 of emulated/k3"),
     "all one recording": (lambda s: of(s, [s[1][0]] * 8), "all repetitions are one and the same movement"),
+    "a bone the other way": (
+        lambda s: other_way(s, "left_shoulder", "chest"),
+        "the bone to left_shoulder points opposite to the mean direction in emulated/k3 at",
+    ),
     "no knee": (lambda s: without(s, "left_knee"), "bones breathe, most the one to left_ankle"),
 }
 
@@ -164,3 +189,51 @@ def test_a_bad_file_among_good_ones_is_named_before_any_fit(lifts, tmp_path):
     said = " ".join(complaint.split())
     assert code == 2 and "one.npz: found 1 repetition" in said and "short.npz: positions: found" in said
     assert "aligning" not in complaint and not (tmp_path / "lib.npz").exists()
+
+
+KINECT = {
+    "pelvis": "hipcentre", "neck": "shouldercentre", "left_wrist": "wristleft", "left_toe": "FootLeft",
+    "right_toe": "FootRight",
+}  # fmt: skip
+
+
+def renamed(lifts, names):
+    arrays = of(lifts, lifts[1])
+    return arrays | {"names": np.array([names.get(name, name) for name in arrays["names"].tolist()])}
+
+
+def test_the_names_of_a_kinect_are_known_in_an_npz_too(lifts, tmp_path):
+    code, shown, complaint = fit(tmp_path, renamed(lifts, KINECT))
+    assert code == 0, complaint
+    assert "joints: 21 kept" in " ".join(shown.split())
+    assert MotionEmulator.load(tmp_path / "lib.npz").skeleton.names == tuple(lifts[0]["names"].tolist())
+
+
+@pytest.mark.parametrize("words", [("fit",), ("import",), ("fit", "--cyclic")], ids=" ".join)
+def test_names_that_are_not_known_are_given_by_a_mapping_file(lifts, tmp_path, words):
+    np.savez(tmp_path / "bad.npz", **renamed(lifts, {"left_knee": "Gelenk 7"}))
+    (tmp_path / "names.csv").write_text("Gelenk 7: left_knee\n")
+    call = ("motion", words[0], tmp_path / "bad.npz", *words[1:], "-o", tmp_path / "out.npz")
+    code, _, complaint = opsim(*call)
+    assert code == 2
+    assert "joint 'Gelenk 7' is not known" in " ".join(complaint.split())
+    assert "name it with --map" in " ".join(complaint.split())
+    code, _, complaint = opsim(*call, "--map", tmp_path / "names.csv")
+    assert "Gelenk" not in complaint
+    assert (code == 0) == (tmp_path / "out.npz").exists() == (len(words) == 1), complaint
+
+
+def test_mistakes_of_a_mapping_file_are_told_with_their_line_and_a_missing_file_by_name(lifts, tmp_path):
+    (tmp_path / "names.csv").write_text("left_nee: left_knee\n")
+    code, _, complaint = fit(tmp_path, of(lifts, lifts[1]), "--map", tmp_path / "names.csv")
+    assert code == 2
+    assert "names.csv:1: no joint 'left_nee' in the recording; did you mean 'left_knee'?" in " ".join(complaint.split())
+    code, _, complaint = fit(tmp_path, of(lifts, lifts[1]), "--map", tmp_path / "no.csv")
+    assert code == 2
+    assert "no.csv': no such file" in " ".join(complaint.split())
+
+
+def test_a_joint_named_twice_is_told_with_both_places(lifts, tmp_path):
+    code, _, complaint = fit(tmp_path, renamed(lifts, {"right_knee": "left_knee"}))
+    assert code == 2
+    assert "names: found 'left_knee' 2 times, as joint 14 and 18; give each" in " ".join(complaint.split())

@@ -133,7 +133,7 @@ def test_the_motion_commands_of_the_readme_work_one_after_the_other(tmp_path, mo
     monkeypatch.chdir(tmp_path)
     opsim("motion", "sample", "public_movements", "deep_squat", "-n", 8, "-o", "reach.npz")
     changed("deep_squat.npz", cov_correct=np.ones(8, int))
-    assert len(lines) == 9
+    assert len(lines) == 10
     verbs = ("fit", "sample", "show")  # judging takes a minute: see test_motion_judge, test_motion_people
     for line in (line for line in lines if line.split()[2] in verbs):
         code, _, complaint = opsim(*line.replace('"', "").split()[1:])

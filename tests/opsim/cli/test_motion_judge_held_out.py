@@ -87,6 +87,24 @@ def test_a_folder_gets_the_csv_and_the_same_seed_the_same_bytes(reach, small, tm
     assert made.read_bytes() != first
 
 
+def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(reach, small, tmp_path):
+    page = tmp_path / "new" / "judged.html"
+    code, shown, progress = opsim("motion", "judge", reach, "--splits", 1, "--page", page)
+    assert code == 0 and f"page: {page}" in shown and "real time: reach" in progress
+    assert "reach: movements in real time, against the unseen half" in shown and "slide cm   way of" in shown
+    assert "draws are" in shown and "a classifier" in shown
+    written = page.read_text(encoding="utf-8")
+    assert written.count("<svg") == 5 and "recorded 1" in written and "drawn 1" in written
+    assert "default-src 'none'" in written and "http://" not in written.replace("http://www.w3.org/", "")
+
+
+def test_json_has_the_figures_in_real_time(reach, small):
+    code, shown, _ = opsim("motion", "judge", reach, "--splits", 1, "--json")
+    (found,) = json.loads(shown)["tasks"]["reach"]["real_time"]
+    assert code == 0 and found["scheme"] == USUAL[0] and found["people"] == [] and "draws are" in found["sentence"]
+    assert found["drawn"]["jerk_ratio"] > 0 and found["recorded"]["too_fast"] <= 1
+
+
 def test_schemes_are_judged_in_the_order_given_each_once(reach, small):
     asked = ["--scheme", "PWI/shared", "--scheme", "SIEM/JointPCA/MVG", "--scheme", "PWI/shared"]
     code, shown, _ = opsim("motion", "judge", reach, "--splits", 1, *asked, "--json")
@@ -100,7 +118,7 @@ def test_a_scheme_that_explodes_has_dashes_and_a_note(reach, small):
     name = "SIEM/SpatialPCA/VAR-pooled"
     code, shown, _ = opsim("motion", "judge", reach, "--splits", 1, "--scheme", name)
     assert code == 0
-    row = next(line for line in shown.splitlines() if name in line)
+    row = next(line for line in shown.splitlines() if name[:-2] in line and "missing" not in line)
     assert row.split()[1:6] == ["-"] * 5
     assert f"{name}: missing: VAR(" in shown and "companion modulus is" in shown
 
@@ -133,6 +151,8 @@ def test_a_file_that_cannot_be_judged_takes_nothing_from_the_others(reach, tmp_p
         (["-o", "plain/judged.csv"], ["cannot be written: plain is, or lies in, a file"]),
         (["--where", "trial == k1"], ["found 1 repetitions, expected 12 or more"]),
         (["--where", "trail == k1"], ["trail"]),
+        (["--page", "judged.txt"], ["judged.txt: expected a .html file for --page"]),
+        (["--paper", "--page", "judged.html"], ["--page: does not go with --paper"]),
         (["--splits", "0"], ["--splits", "1<=x<=100"]),
         (["--paper"], ["--paper: expected a folder to write into, -o FOLDER"]),
         (["--paper", "--scheme", "PWI", "--splits", 3], ["--scheme: does not go with", "--splits: does not go with"]),

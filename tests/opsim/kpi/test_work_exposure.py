@@ -146,7 +146,8 @@ def test_least_is_never_more_than_most_and_saying_more_makes_the_way_between_sho
     open_, said = exposure_of(log), exposure_of(log, handling={"bend": SAID})
     for level in ("rula_from_5", "rula_from_7", "reba_from_8", "owas_from_3"):
         low, high = (said.minutes(level, at_most=at_most) for at_most in (False, True))
-        assert open_.minutes(level) <= low <= high <= open_.minutes(level, at_most=True)
+        least, most = open_.minutes(level) - 1e-12, open_.minutes(level, at_most=True) + 1e-12
+        assert least <= low <= high + 1e-12 <= most + 1e-12
 
 
 def test_a_log_pieces_in_any_order_a_file_and_another_process_say_the_same(tmp_path):

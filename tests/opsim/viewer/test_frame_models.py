@@ -1,11 +1,23 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from opsim.libraries import load_library
+from opsim.shipped import shipped_folder
 from opsim.viewer.columns import Columns, unpacked_columns
-from opsim.viewer.frame_models import between, frames_of, pack_frames, second_differences
+from opsim.viewer.frame_models import (
+    between,
+    chosen,
+    control_points,
+    folded,
+    frames_of,
+    pack_frames,
+    second_differences,
+)
 from opsim.viewer.played import rows_of
 from opsim.viewer.scene import Drawn
 
@@ -41,10 +53,37 @@ def test_long_jumps_take_longer_steps():
     assert np.abs(values).max() <= 32_767 and np.cumsum(np.cumsum(values))[1] * scale[0] == pytest.approx(900, rel=1e-3)
 
 
-def test_frames_are_met_and_ends_are_held():
-    frames = np.random.default_rng(0).normal(size=(6, 2))
-    assert between(frames, np.arange(6.0)) == pytest.approx(frames)
-    assert between(frames, np.array([-1.0, 9.0])) == pytest.approx(frames[[0, -1]])
+def test_splines_meet_the_frames_of_each_performance_and_ends_are_held():
+    frames = np.random.default_rng(0).normal(size=(12, 2))
+    first = np.array([0, 6, 7, 9, 12])
+    control = control_points(frames, first)
+    for begin, end in pairwise(first.tolist()):
+        own = control[begin:end]
+        assert between(own, np.arange(float(end - begin))) == pytest.approx(frames[begin:end])
+        assert between(own, np.array([-1.0, 99.0])) == pytest.approx(frames[[begin, end - 1]])
+
+
+def test_a_swing_is_met_far_better_than_by_straight_lines():
+    at = np.arange(0.0, 12.01, 0.4)
+    frames, asked = np.sin(at)[:, None], np.linspace(3, 27, 500)
+    assert between(control_points(frames, np.array([0, at.size])), asked)[:, 0] == pytest.approx(
+        np.sin(0.4 * asked), abs=2e-4
+    )
+
+
+def test_whole_numbers_are_folded_small_ones_first():
+    assert folded(np.array([0, -1, 1, -2, 2])).tolist() == [0, 1, 2, 3, 4]
+    assert folded(np.array([-32_767, 32_767])).max() == 65_534
+
+
+def test_rate_and_components_are_tried_on_people_all_over_the_run():
+    """Blocks are many people of a workforce, and of one block two performances told too little: 5 mm at a hand."""
+    model = load_library(shipped_folder() / "libraries" / "bench_work.npz")["stoop"]
+    some = model.sample(60, np.random.default_rng(0))
+    one, two = (Drawn("stoop", some.skeleton, blocks, first) for blocks, first in (
+        ((some,), (0, 60)), ((some[:1], some[1:]), (0, 1, 60)),
+    ))  # fmt: skip
+    assert chosen(one) == chosen(two)
 
 
 def test_bodies_of_another_emulator_are_packed_by_their_joints_alone():

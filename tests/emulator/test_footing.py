@@ -1,0 +1,139 @@
+"""Feet on the floor: when they stand, and bodies that stand like that."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from emulator.footing import Footing, Legs, bend, on_its_feet, prints, standing, stood
+from emulator.model import MotionEmulator
+from emulator.skeleton import Skeleton
+from tests import naive_footing
+from tests.emulator.fitted import made, recorded
+
+RATE_HZ = 60.0
+
+
+def a_step(slip_m=0.0):
+    """(joints, legs, stands): a left foot that stands half a second, lifts for half a second, and stands again."""
+    skeleton, at = made("walk")[0].skeleton, np.arange(91)
+    joints = np.zeros((91, skeleton.n_joints, 3))
+    swing = np.clip((at - 30) / 30, 0, 1)
+    legs = Legs.of(skeleton)
+    for joint in legs.feet[0]:
+        joints[:, joint, 0] = 0.7 * swing**2 * (3 - 2 * swing) + slip_m * np.clip(at / 30, 0, 1)
+        joints[:, joint, 2] = 0.15 * np.sin(np.pi * swing)
+    joints[:, legs.feet[1], 2] = 1.0 + 0.3 * np.sin(at / 3)[:, None]
+    return joints, legs, standing(joints, RATE_HZ, legs)
+
+
+def test_a_foot_stands_before_and_after_its_step_and_one_in_the_air_never_does():
+    _, _, stands = a_step()
+    assert stands[0, :25].all() and not stands[0, 38:52].any() and stands[0, 66:].all()
+    assert not stands[1].any()
+
+
+def test_prints_are_the_slip_about_the_place_of_the_stance_and_the_height():
+    joints, legs, stands = a_step(slip_m=0.03)
+    own = prints(joints, np.zeros(91), stands, legs)
+    assert np.ptp(own[0, :25, 0]) == pytest.approx(0.025, abs=0.003)
+    assert np.abs(np.median(own[0, stands[0], 0])) < 0.02 and not own[0, ~stands[0]].any() and not own[1].any()
+
+
+def test_a_skeleton_without_toes_has_no_legs_to_stand_on_and_one_without_knees_only_feet():
+    assert Legs.of(Skeleton(("pelvis", "chest"), (-1, 0))) is None
+    feet = ("left_ankle", "left_toe", "right_ankle", "right_toe")
+    assert Legs.of(Skeleton(("pelvis", *feet), (-1, 0, 1, 0, 3))).bones is None
+
+
+def of_lift(worker=0):
+    """What ``stood`` takes of drawn lifts, with stances of the nearest recordings."""
+    emulator = made("lift")[2]
+    some = emulator.sample(4, np.random.default_rng(worker))
+    clock = np.tile(np.arange(float(emulator.n_times)), (4, 1))
+    aligned = emulator.decoder.directions(emulator.scale.raw(some.scores, "posture"), clock)
+    root, yaw = emulator.channel.inverse(emulator.root_channel(some.scores), aligned, some.bone_length_m)
+    near = emulator.footing.nearest(emulator.scale.raw(some.scores, "posture"))
+    leg_m = emulator.channel.leg_m(some.bone_length_m)
+    time_s = emulator.warps(some.scores) * emulator.moving_s(some.scores)[:, None]
+    prints_m = emulator.footing.prints[near] * leg_m[:, None, None, None]
+    path = np.concatenate([root, yaw[..., None]], axis=-1)
+    path = path + 0.02 * np.sin(clock / 9)[..., None]  # feet that would slide and sink
+    return emulator, aligned, some.bone_length_m, path, emulator.footing.stands[near], prints_m, time_s
+
+
+def test_the_compiled_footing_is_the_naive_one():
+    emulator, aligned, lengths, path, stands, prints_m, time_s = of_lift()
+    ours, bends, _ = stood(emulator.skeleton, emulator.legs, aligned, lengths, path, stands, prints_m, time_s, -0.001)
+    for i in range(4):
+        one = aligned[i], lengths[i], path[i], stands[i], prints_m[i], time_s[i]
+        want, naive_bends = naive_footing.stood(emulator.skeleton, emulator.legs, *one, -0.001)
+        assert np.abs(ours[i] - want).max() < 1e-9 and np.abs(bends[i] - naive_bends).max() < 1e-9
+
+
+def test_the_compiled_bend_is_the_naive_one_and_bones_keep_their_lengths():
+    emulator, aligned, lengths, *_ = of_lift()
+    bends = np.broadcast_to(np.array([0.03, -0.02, 0.04]), (4, 2, emulator.n_times, 3)).copy()
+    place = np.tile(np.arange(float(emulator.n_times)), (4, 1))
+    ours = aligned.copy()
+    bend(ours, lengths, emulator.legs, place, bends)
+    assert np.abs(np.linalg.norm(ours, axis=-1) - 1).max() < 1e-9
+    for i, t, (upper, lower) in ((0, 3, emulator.legs.bones[0]), (2, 60, emulator.legs.bones[1])):
+        thigh, shank = (lengths[i, b] * aligned[i, t, b] for b in (upper, lower))
+        want = naive_footing.bent(thigh, shank, np.array([0.03, -0.02, 0.04]))
+        for bone, vector in zip((upper, lower), want):
+            assert np.abs(lengths[i, bone] * ours[i, t, bone] - vector).max() < 1e-9
+
+
+def test_planted_feet_of_draws_stray_no_farther_than_recorded_ones():
+    motions, _, emulator = made("walk")
+    drawn, slips = emulator.sample(12, np.random.default_rng(0)), []
+    for joints, seconds in (
+        *((m.positions_m(), m.duration_s) for m in motions.motions[:12]),
+        *zip(drawn.positions_m(n_times=200), drawn.duration_s),
+    ):
+        stands = standing(joints, (len(joints) - 1) / seconds, emulator.legs)
+        slips.append(np.abs(prints(joints, np.zeros(len(joints)), stands, emulator.legs)[..., :2]).max())
+    assert np.median(slips[12:]) < 1.5 * np.median(slips[:12]) + 0.005
+
+
+def test_nothing_changes_for_recordings_whose_bones_do_not_breathe():
+    motion = made("lift")[0].motions[0]
+    still = replace(motion, stretch=None)
+    assert on_its_feet(still) is still
+
+
+def test_recorded_feet_are_kept_when_breathing_bones_are_made_rigid():
+    motion = recorded("deep_squat").motions[0]
+    legs = Legs.of(motion.skeleton)
+    seen, rigid, ours = motion.positions_m(rigid=False), motion.positions_m(), on_its_feet(motion).positions_m()
+    stands = standing(seen, 50.0, legs)
+    off = [np.abs(p[:, legs.feet[0]] - seen[:, legs.feet[0]])[stands[0]][..., 2].mean() for p in (rigid, ours)]
+    assert off[1] < 0.5 * off[0]
+
+
+def test_a_saved_footing_is_the_fitted_one(tmp_path):
+    emulator = made("walk")[2]
+    emulator.save(tmp_path / "walk.npz")
+    again = MotionEmulator.load(tmp_path / "walk.npz")
+    for name in ("postures", "stands", "prints"):
+        assert np.array_equal(getattr(again.footing, name), getattr(emulator.footing, name))
+    assert again.footing.floor == emulator.footing.floor and not again.rides
+
+
+def test_the_nearest_recording_is_the_nearest():
+    footing = Footing(np.array([[0.0, 0], [3, 0], [0, 4]]), np.zeros((3, 2, 5), bool), np.zeros((3, 2, 5, 3)), 0.0)
+    assert footing.nearest(np.array([[0.4, 0.1], [2.0, 0.5], [0.0, 9.0]])).tolist() == [0, 1, 2]
+
+
+def test_a_draw_faster_than_a_body_is_drawn_in_and_counted_and_its_times_stay():
+    _, _, emulator = made("lift")
+    calm = emulator.sample(6, np.random.default_rng(0))
+    wild = calm.scores.copy()
+    block = emulator.scale.block("posture")
+    wild[3, block] += 12.0 * np.random.default_rng(1).normal(size=block.stop - block.start)
+    drawn = emulator.performances(wild)
+    assert not calm.damped.any()
+    assert drawn.damped[3] > 0 and not np.delete(drawn.damped, 3).any()
+    assert np.array_equal(drawn.duration_s, calm.duration_s) and np.array_equal(drawn.mark_s, calm.mark_s)
+    assert drawn._ground.fastest_m_per_s[3] <= emulator.most_m_per_s or drawn.damped[3] == 1.0
