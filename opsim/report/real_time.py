@@ -15,7 +15,7 @@ from opsim.report.strips import draw_strips
 from opsim.report.view import Strip
 from opsim.whole import write_text
 
-RECORDED, DRAWN = "#5b6570", "#D55E00"
+RECORDED, DRAWN = "#5b6570", "#B85000"
 N_STRIPS, N_PATHS = 3, 12
 BAND = (0.1, 0.5, 0.9)
 RATES = {1: ("Speed of the fastest joint, m/s", "speed"), 3: ("Jerk of the jerkiest joint, m/s³", "jerk")}
