@@ -13,7 +13,7 @@ import numpy as np
 
 from emulator.density import compressed
 from emulator.margin import within_worker
-from emulator.smoothed import SmoothedScores, partners, room
+from emulator.smoothed import SmoothedScores, less_told, partners, room
 
 QUARTILES = (0.25, 0.5, 0.75)
 NEARER = 0.875
@@ -23,6 +23,10 @@ STIFF = 16.0
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 12, 2.0, 3, 2.0
 MOST_NOISE = 0.5
 """Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
+MOST_DRAWN_OUT = 1.25
+"""Of the variance of deviations from a mean of few: beyond it the fine detail of curves gets rough."""
+PENALTIES = np.geomspace(1e-4, 1e4, 33)
+"""Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +60,9 @@ def smoothed(
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
     nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
     curves, at, size, mixed = (posture, *others), posture.at, posture.size, partners(owner, other)
-    whole = SmoothedScores(z, owner, _reach(nearest), _noise(z, owner, curves), spread, np.ones(z.shape[1]), mixed)
+    tells = told_by_curves(within_worker(z, owner), curves, _n_free(owner))
+    noise = _noise(z, owner, curves, tells)
+    whole = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), mixed, tells)
     recorded = z[:, at] * size
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
 
@@ -75,22 +81,75 @@ def _blurred(whole: SmoothedScores, h: float, curves: tuple[Curves, ...]) -> Smo
     """With bandwidth h along curves, though no coordinate varies more than it is to vary; beside them by the rule.
 
     What deviations are drawn in by, to leave room for the noise, is one factor for each curve: a factor for each
-    coordinate parts the large ones from the fine detail that belongs to them, and draws get rough. All other
-    coordinates take about as much noise, because what one takes from the recording and another from the noise they
-    do not share: with h for the duration too, which nothing held back, it was all noise, and its correlation with made
-    postures 0.26-0.55 within workers where 0.60 was recorded; by the rule it is 0.48-0.56.
+    coordinate parts the large ones from the fine detail that belongs to them, and draws get rough. They are drawn out
+    by no more than deviations from a mean of few lack of the variance (Davison & Hinkley 1997, eq. 6.9), and no more
+    than ``MOST_DRAWN_OUT``: of few repetitions a drawn body would be wilder in its fine detail than any. All other
+    coordinates go with the curves, as drawn, as far as these tell of them, and what is left takes noise by the rule:
+    with noise of their own for all of them a duration kept 0.48 of its correlation with made postures, where 0.60
+    was recorded.
     """
     noise = whole.noise.spread * np.sqrt(np.mean(whole.reach**2))
-    wanted = whole.spread * np.sqrt(_noise_share(whole.owner))
-    for curve in curves:
-        wanted[curve.at] = np.minimum(h * noise, np.sqrt(MOST_NOISE) * whole.spread)[curve.at]
     variance = np.mean(within_worker(whole.scores, whole.owner) ** 2, axis=0)
-    drawn_in = room(whole.spread**2 - wanted**2, variance)
+    lacking = len(whole.owner) / _n_free(whole.owner)
+    wanted, drawn_in, most = noise.copy(), np.ones(len(noise)), min(lacking, MOST_DRAWN_OUT)
     for curve in curves:
         here, weight = curve.at, curve.size**2
+        wanted[here] = np.minimum(h * noise, np.sqrt(MOST_NOISE) * whole.spread)[here]
         left = np.maximum(whole.spread[here] ** 2 - wanted[here] ** 2, 0.0)
-        drawn_in[here] = room(np.sum(left * weight), np.sum(variance[here] * weight))
-    return replace(whole, factor=whole.factor * wanted / np.maximum(noise, 1e-12), drawn_in=drawn_in)
+        drawn_in[here] = room(np.sum(left * weight), np.sum(variance[here] * weight), most)
+    factor = whole.factor * wanted / np.maximum(noise, 1e-12)
+    return _beside_curves(replace(whole, factor=factor, drawn_in=drawn_in))
+
+
+def _beside_curves(blurred: SmoothedScores) -> SmoothedScores:
+    """With the noise that all but curves takes: what these tell of it, and of the rest a share by the rule.
+
+    Where curves are drawn larger than recorded they tell less; the rest is drawn in, or out, until the variance is
+    whole.
+    """
+    own, n = within_worker(blurred.scores, blurred.owner), len(blurred.tells)
+    n_free, square = _n_free(blurred.owner), np.mean(blurred.reach**2)
+    told, noise = blurred.sources[1][:, :n] @ blurred.tells, blurred.factor[:, :n] @ blurred.tells
+    recorded = np.sum((own[:, :n] @ blurred.tells) ** 2, axis=0) / n_free
+    less = room(recorded, np.mean(told**2, axis=0) + square * np.sum(noise**2, axis=0))
+    blurred = replace(blurred, tells=blurred.tells * less, factor=blurred.factor.copy())
+    rest, wild = less_told(own, blurred.tells)[:, n:], np.linalg.norm(blurred.factor[:, n:], axis=0)
+    wanted = np.sqrt(_noise_share(blurred.owner) * np.sum(rest**2, axis=0) / n_free / square)
+    blurred.factor[:, n:] = blurred.factor[:, n:] * wanted / np.maximum(wild, 1e-12) + noise * less
+    told, rest = told * less, blurred.sources[1][:, n:] - told * less
+    left = blurred.spread[n:] ** 2 - square * np.sum(blurred.factor[:, n:] ** 2, axis=0) - np.mean(told**2, axis=0)
+    factor = _root(np.mean(rest**2, axis=0), np.mean(rest * told, axis=0), left)
+    return replace(blurred, drawn_in=np.append(blurred.drawn_in[:n], factor))
+
+
+def _n_free(owner: np.ndarray) -> int:
+    """Degrees of freedom of deviations from workers' means."""
+    return max(len(owner) - len(np.unique(owner)), 1)
+
+
+def _root(square: np.ndarray, half: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """The x >= 0 at which square x^2 + 2 half x = left, or the nearest to it."""
+    inside = np.sqrt(np.maximum(half**2 + square * left, 0.0))
+    return np.maximum(inside - half, 0.0) / np.maximum(square, 1e-18)
+
+
+def told_by_curves(own: np.ndarray, curves: tuple[Curves, ...], n_free: int) -> np.ndarray:
+    """(C, K - C) regression of all else on the C coordinates of curves, from deviations (N, K) from workers' means.
+
+    A ridge on the curves' raw scores, for each coordinate with the penalty of least generalised cross-validation
+    (Golub, Heath & Wahba 1979); a coordinate that curves do not foretell gets next to nothing.
+    """
+    size = np.concatenate([curve.size for curve in curves])
+    n = len(size)
+    u, d, vt = np.linalg.svd(own[:, :n] * size, full_matrices=False)
+    y = u.T @ own[:, n:]
+    outside = np.sum(own[:, n:] ** 2, axis=0) - np.sum(y**2, axis=0)
+    kept = d**2 / (d**2 + PENALTIES[:, None] * max(np.mean(d**2), 1e-300))
+    missed = outside + (1.0 - kept) ** 2 @ y**2
+    free = np.maximum(n_free - kept.sum(axis=1), 1e-9)
+    best = (missed / free[:, None] ** 2).argmin(axis=0)
+    slopes = np.where(d > 1e-9 * d.max(initial=0.0), 1.0 / np.maximum(d, 1e-300), 0.0) * kept[best]
+    return np.asarray(size[:, None] * (vt.T @ (slopes.T * y)))
 
 
 def _noise_share(owner: np.ndarray) -> float:
@@ -134,18 +193,19 @@ def _reach(nearest: np.ndarray) -> np.ndarray:
     return reach / np.sqrt(np.mean(reach**2))
 
 
-def _noise(z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...]) -> np.ndarray:
+def _noise(z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray) -> np.ndarray:
     """(N, K) rows of the within-worker covariance, strange repetitions drawn in to the median size (Huber 1964).
 
     Curves are smoothed by (I + (lambda bend)^2)^-1, so that noise moves a recording without making it rough (after
-    Silverman 1996, smoothed principal components); lambda is STIFF times the variance over the bending of the rows.
+    Silverman 1996, smoothed principal components); lambda is STIFF times the variance over the bending of the rows. Of
+    all else the rows are what curves do not tell.
     """
-    rows = within_worker(z, owner)
+    rows = less_told(within_worker(z, owner), tells)
     length = np.linalg.norm(rows[:, curves[0].at] * curves[0].size, axis=1)
     rows = rows * np.minimum(1.0, np.median(length) / np.maximum(length, 1e-12))[:, None]
     for curve in curves:
         rows[:, curve.at] = stiff(rows[:, curve.at], curve)
-    return rows / np.sqrt(max(len(z) - len(np.unique(owner)), 1))
+    return rows / np.sqrt(_n_free(owner))
 
 
 def stiff(rows: np.ndarray, curve: Curves) -> np.ndarray:

@@ -17,14 +17,16 @@ from emulator.margin import Margin, fit_margin, within_worker
 from emulator.marks import clock_to_coordinates
 from emulator.motion import MotionSet
 from emulator.reduce import JointPCA
-from emulator.registered import Registered
+from emulator.registered import LARGEST_PACE, Registered
 from emulator.root import RootChannel
 from emulator.storage import bits, on_grid
 from emulator.warp import clr, from_clr
 
-ROOT_SHARE, PACE_SHARE, BONE_SHARE, FINE_RAD = 0.9999, 0.98, 0.98, 0.002
-LARGEST_POSTURE, LARGEST_ROOT, LARGEST_PACE = 120, 60, 10
+BONE_SHARE, FINE_RAD, FINE_ROOT = 0.98, 0.002, 0.0001
+LARGEST_POSTURE, LARGEST_ROOT = 120, 120
 DURATION_KNOTS, MARK_KNOTS = 12, 60
+ALL = 1.0 - 1e-6
+"""Of the pace nothing is left out but rounding: registration did already."""
 LARGEST_ICC_FOR_SCORES = 0.3
 
 
@@ -57,9 +59,9 @@ def parts_of(made: Registered, settings: FitSettings) -> Parts:
     log_bones = _log_bones(made.moving)
     bones = JointPCA.fit(log_bones, BONE_SHARE)
     channel = made.channels()
-    root = stored(JointPCA.fit(channel, ROOT_SHARE, LARGEST_ROOT), n_times)
+    root = stored(_finely(channel, FINE_ROOT, LARGEST_ROOT), n_times)
     slopes = clr(made.warps, settings.n_knots)
-    pace = JointPCA.fit(slopes, PACE_SHARE, LARGEST_PACE)
+    pace = JointPCA.fit(slopes, ALL, LARGEST_PACE)
     marks = clock_to_coordinates(made.mark_clock(from_clr(pace.inverse(pace.forward(slopes)), n_times)))
     mark_margins = tuple(fit_margin(column, column, MARK_KNOTS, 0.05) for column in marks.T)
     log_duration = np.log(made.moving.duration_s)
@@ -99,10 +101,18 @@ def duration_margin(log_duration: np.ndarray, worker_index: np.ndarray) -> Margi
 def _posture_components(flat: np.ndarray, n_components: int | float | None) -> JointPCA:
     """As many as asked for, or all that say more than ``FINE_RAD`` a bone, which no recording knows better."""
     if n_components is None:
-        total = np.sum((flat - flat.mean(axis=0)) ** 2)
-        fine = FINE_RAD**2 * flat.size / 2
-        return JointPCA.fit(flat, float(np.clip(1.0 - fine / max(total, 1e-300), 0.5, 1.0 - 1e-9)), LARGEST_POSTURE)
+        return _finely(flat, FINE_RAD / np.sqrt(2.0), LARGEST_POSTURE)
     return JointPCA.fit(flat, n_components)
+
+
+def _finely(rows: np.ndarray, fine: float, largest: int) -> JointPCA:
+    """As many components, at most ``largest``, as leave no more than ``fine`` of a value of rows (N, P) in the mean.
+
+    A share of the variance would not do: where bodies walk metres, or a trembling camera moves pelvis and trunk alike,
+    what is cut off one block is missed in another.
+    """
+    total = np.sum((rows - rows.mean(axis=0)) ** 2)
+    return JointPCA.fit(rows, float(np.clip(1.0 - fine**2 * rows.size / max(total, 1e-300), 0.5, 1.0 - 1e-9)), largest)
 
 
 def _log_bones(motions: MotionSet) -> np.ndarray:

@@ -16,7 +16,7 @@ from emulator.storage import bits, encode
 PCA = ("posture", "root", "pace", "bones")
 DWELLS = ("clock", "zero_share", "mark_share")
 POPULATION = ("rows", "drawn_in")
-SMOOTHED = ("scores", "owner", "reach", "factor", "spread", "drawn_in", "partner")
+SMOOTHED = ("scores", "owner", "reach", "factor", "spread", "drawn_in", "partner", "tells")
 
 
 def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:

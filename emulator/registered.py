@@ -15,6 +15,7 @@ from emulator.fit_settings import CLOCK, FitSettings, Progress
 from emulator.footing import on_its_feet
 from emulator.holds import Hold, cut
 from emulator.motion import Motion, MotionSet
+from emulator.reduce import JointPCA
 from emulator.repair import repaired
 from emulator.root import RootChannel
 from emulator.warp import clr, from_clr
@@ -22,7 +23,8 @@ from emulator.warp import clr, from_clr
 PENALTIES = (1.0, 3.0, 10.0, 30.0, 100.0)
 """Weights to choose from, in order: a tenth does nothing, at a hundred hardly anything is aligned."""
 HARDLY_MORE, N_PARTNERS, STILL_M_PER_S2 = 1.1, 5, 0.01
-N_ALIGNED, RATE_HZ = 101, 30.0
+N_ALIGNED, MOST_RATE_HZ = 101, 60.0
+PACE_SHARE, LARGEST_PACE = 0.98, 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +71,20 @@ def registered(motions: MotionSet, settings: FitSettings, progress: Progress) ->
     moving, holds = moving_of(whole)
     n_times = settings.n_times or clock_size(moving)
     penalty, warps = penalised(moving, settings, progress)
-    warps = from_clr(clr(warps, settings.n_knots), n_times)  # what the pace coordinates can say exactly
+    slopes = clr(warps, settings.n_knots)
+    warps = from_clr(said_by(pace_components(slopes), slopes), n_times)
     directions = np.stack([postures_at(m.directions, gamma) for m, gamma in zip(moving.motions, warps)])
     return Registered(whole, moving, holds, warps, directions, penalty)
+
+
+def pace_components(slopes: np.ndarray) -> JointPCA:
+    """What the log slopes (N, K) of warps vary by."""
+    return JointPCA.fit(slopes, PACE_SHARE, LARGEST_PACE)
+
+
+def said_by(pace: JointPCA, slopes: np.ndarray) -> np.ndarray:
+    """What of log slopes (N, K) the pace can say: postures on a finer clock would not find the way back."""
+    return pace.inverse(pace.forward(slopes))
 
 
 def moving_of(whole: MotionSet) -> tuple[MotionSet, tuple[tuple[Hold, ...], ...]]:
@@ -81,9 +94,12 @@ def moving_of(whole: MotionSet) -> tuple[MotionSet, tuple[tuple[Hold, ...], ...]
 
 
 def clock_size(motions: MotionSet) -> int:
-    """Points of the common clock: as many as a recording of the mean duration has frames at up to ``RATE_HZ``."""
+    """Points of the common clock: as many as a recording of the mean duration has frames at up to ``MOST_RATE_HZ``.
+
+    With fewer, what trembles between them would be read as slow.
+    """
     rates_hz = [(len(m.time_s) - 1) / m.duration_s for m in motions.motions]
-    return int(np.clip(np.ceil(motions.duration_s.mean() * min(np.median(rates_hz), RATE_HZ)) + 1, *CLOCK))
+    return int(np.clip(np.ceil(motions.duration_s.mean() * min(np.median(rates_hz), MOST_RATE_HZ)) + 1, *CLOCK))
 
 
 def penalised(motions: MotionSet, settings: FitSettings, progress: Progress = None) -> tuple[float, np.ndarray]:

@@ -30,7 +30,9 @@ class SmoothedScores:
     factor : (R, K) noise is reach * xi @ factor, xi (R,) standard normal
     spread : (K,) within-worker standard deviations that draws are to have
     partner : (N, P) recordings that each is mixed with, itself for none; P = 0: nothing is mixed
-    drawn_in : (K,) what deviations from a worker's mean are multiplied by, at most 1, to leave room for the noise
+    drawn_in : (K,) what deviations from a worker's mean are multiplied by, to leave room for the noise; of coordinates
+               that curves tell of, what is left of them
+    tells    : (C, K - C) what the first C coordinates, curves, tell of all others: their regression within workers
     """
 
     scores: np.ndarray
@@ -40,6 +42,7 @@ class SmoothedScores:
     spread: np.ndarray
     drawn_in: np.ndarray
     partner: np.ndarray
+    tells: np.ndarray
 
     @cached_property
     def noise(self) -> LowRankNormal:
@@ -55,11 +58,14 @@ class SmoothedScores:
     def sources(self) -> tuple[np.ndarray, np.ndarray]:
         """(M,) the recording that each component goes by, and (M, K) its deviation from the worker's mean, drawn in.
 
-        Never drawn out: coordinates without noise are fine detail, which would get rough. Each is a mixture of a
-        recording with one that is near it, mostly of the first, at its length: on common clocks that goes farther from
-        both than smooth noise does, no rougher than they are, and stays within a kind of execution.
+        Each is a mixture of a recording with one that is near it, mostly of the first, at its length: on common clocks
+        that goes farther from both than smooth noise does, no rougher than they are, and stays within a kind of
+        execution. What its curves tell of all else is told by the mixture, as drawn in.
         """
-        own = within_worker(self.scores, self.owner) * self.drawn_in
+        first, deviation = self._mixed(less_told(within_worker(self.scores, self.owner), self.tells) * self.drawn_in)
+        return first, with_told(deviation, self.tells)
+
+    def _mixed(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         n, n_partners = self.partner.shape
         if n_partners == 0:
             return np.arange(n), own
@@ -117,9 +123,21 @@ class SmoothedScores:
         return Law(weight, mean, np.append(self.reach[first[own]], self.reach[first]), self.noise, shrunk_mean)
 
 
-def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
-    """The factor, at most 1, by which deviations of this variance leave no more than ``left`` of it."""
-    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), 1.0))
+def less_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
+    """Rows (R, K) of which only that is left beside the first C coordinates which these do not tell."""
+    n = len(tells)
+    return np.concatenate([rows[:, :n], rows[:, n:] - rows[:, :n] @ tells], axis=1)
+
+
+def with_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
+    """The way back from ``less_told``."""
+    n = len(tells)
+    return np.concatenate([rows[:, :n], rows[:, n:] + rows[:, :n] @ tells], axis=1)
+
+
+def room(left: np.ndarray, variance: np.ndarray, at_most: float = 1.0) -> np.ndarray:
+    """The factor by which deviations of this variance leave no more than ``left`` of it; its square ``at_most``."""
+    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), at_most))
 
 
 def partners(owner: np.ndarray, apart: np.ndarray) -> np.ndarray:

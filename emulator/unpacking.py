@@ -27,7 +27,7 @@ from emulator.storage import decode
 from emulator.told import Told
 from emulator.workforce import Workforce
 
-NEW = ("drawn_in", "partner")
+NEW = ("drawn_in", "partner", "tells")
 """Of smoothed scores, what libraries of before do not have."""
 
 
@@ -209,8 +209,10 @@ class _Parts:
         return LowRankNormal(self.array(f"{name}_mean", self.k), factor, spread, rho)
 
     def _smoothed(self, n_workers: int) -> SmoothedScores:
-        n = len(self.array("smoothed_scores", -1, self.k))
-        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,), (self.k,), (n, -1))))
+        n, size = len(self.array("smoothed_scores", -1, self.k)), dict(zip(BLOCKS, self.sizes))
+        n_curves = sum(size[name] for name in CURVES)
+        told = (n_curves, self.k - n_curves)
+        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,), (self.k,), (n, -1), told)))
         there = f"{self.task}/smoothed_drawn_in" in self.arrays
         parts = {
             name: self.array(f"smoothed_{name}", *shape) for name, shape in shapes.items() if name not in NEW or there
@@ -218,7 +220,7 @@ class _Parts:
         if not there:  # a library of before: coordinate by coordinate
             noise, reach = np.sum(parts["factor"] ** 2, axis=0), np.mean(parts["reach"] ** 2)
             variance = np.mean(within_worker(parts["scores"], parts["owner"]) ** 2, axis=0)
-            parts["partner"] = np.zeros((n, 0), int)
+            parts["partner"], parts["tells"] = np.zeros((n, 0), int), np.zeros(told)
             parts["drawn_in"] = room(parts["spread"] ** 2 - reach * noise, variance)
         found = SmoothedScores(**parts)
         if found.owner.dtype.kind != "i" or set(found.owner.tolist()) != set(range(n_workers)):
@@ -226,7 +228,7 @@ class _Parts:
         partner = found.partner
         if partner.dtype.kind != "i" or np.any((partner < 0) | (partner >= n)):
             raise ValueError(f"{self.task}/smoothed_partner: expected numbers of the {n} recordings")
-        if np.any(found.reach < 0) or np.any(found.spread < 0) or np.any((found.drawn_in < 0) | (found.drawn_in > 1)):
+        if any(np.any(part < 0) for part in (found.reach, found.spread, found.drawn_in)):
             raise ValueError(f"{self.task}: a reach, a spread or a share of the smoothed scores makes no sense")
         return found
 

@@ -11,7 +11,8 @@ from emulator.fit_settings import FitSettings
 from emulator.held_out import split_within_workers
 from emulator.model import SCHEME
 from emulator.motion import MotionSet
-from emulator.registered import N_ALIGNED, moving_of, penalised, postures_at
+from emulator.reduce import JointPCA
+from emulator.registered import N_ALIGNED, moving_of, pace_components, penalised, postures_at, said_by
 from emulator.repair import repaired
 from emulator.warp import clr, from_clr
 
@@ -48,7 +49,9 @@ def in_halves(motions: MotionSet, split: int, n_times: int = N_TIMES) -> Halves:
     found = align([m.directions for m in first.motions], n_times=grid, penalty=penalty, n_threads=1)
     theirs = [m.directions for m in second.motions]
     warps, _ = align_to(theirs, found.template, found.reference, penalty=penalty, n_threads=1)
-    return Halves(split, fitted, held, _aligned(first, found.warps, n_times), _aligned(second, warps, n_times))
+    pace = pace_components(clr(found.warps, N_KNOTS))
+    a, b = (_aligned(half, gamma, pace, n_times) for half, gamma in ((first, found.warps), (second, warps)))
+    return Halves(split, fitted, held, a, b)
 
 
 def too_few(motions: MotionSet) -> list[str]:
@@ -61,7 +64,7 @@ def too_few(motions: MotionSet) -> list[str]:
     return [f"{motions.task}: {people}; expected {FEWEST_HELD} or more to judge by"]
 
 
-def _aligned(motions: MotionSet, warps: np.ndarray, n_times: int) -> np.ndarray:
+def _aligned(motions: MotionSet, warps: np.ndarray, pace: JointPCA, n_times: int) -> np.ndarray:
     """Postures along the warps that the model's pace coordinates can say."""
-    smooth = from_clr(clr(warps, N_KNOTS), n_times)
+    smooth = from_clr(said_by(pace, clr(warps, N_KNOTS)), n_times)
     return np.stack([postures_at(m.directions, gamma) for m, gamma in zip(motions.motions, smooth)])

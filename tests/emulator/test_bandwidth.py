@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.bandwidth import NEARER, Curves, smoothed
+from emulator.bandwidth import NEARER, Curves, smoothed, told_by_curves
+from emulator.margin import within_worker
+from emulator.smoothed import less_told
 
 OWNERS = 5
 
@@ -23,8 +25,15 @@ def made(n_each=8, kinds=0.0, k=6, seed=0, bend=None):
 
 
 def alone(blurred):
-    """(N, K) deviations of the recordings themselves, drawn in, before any two are mixed."""
-    return (blurred.scores - blurred.means[blurred.owner]) * blurred.drawn_in
+    """(N, C) deviations of the recordings' curves themselves, drawn in, before any two are mixed."""
+    return ((blurred.scores - blurred.means[blurred.owner]) * blurred.drawn_in)[:, : len(blurred.tells)]
+
+
+def covariance(blurred):
+    """(K, K) that somebody's draws have: mixtures' and the noise's."""
+    _, deviation = blurred.sources
+    noise = np.mean(blurred.reach**2) * blurred.factor.T @ blurred.factor
+    return deviation.T @ deviation / len(deviation) + noise
 
 
 def nearest(draws, recorded):
@@ -34,9 +43,9 @@ def nearest(draws, recorded):
 def drawn_alike(blurred, size, n=4000):
     rng = np.random.default_rng(5)
     at = rng.integers(len(blurred.scores), size=n)
-    centre = blurred.means[blurred.owner] + alone(blurred)
-    z = centre[at] + blurred.reach[at, None] * blurred.noise.sample(n, rng)
-    return z[:, : len(size)] * size
+    centre = blurred.means[blurred.owner][:, : len(size)] + alone(blurred)
+    z = centre[at] + (blurred.reach[at, None] * blurred.noise.sample(n, rng))[:, : len(size)]
+    return z * size
 
 
 @pytest.mark.parametrize("kinds", [0.0, 8.0])
@@ -84,19 +93,19 @@ def test_the_same_recordings_give_the_same_bytes():
     assert made()[0].factor.tobytes() == made()[0].factor.tobytes()
 
 
-def test_what_stands_beside_the_posture_takes_noise_by_the_rule_and_keeps_its_variance():
+def test_what_curves_do_not_tell_takes_noise_by_the_rule():
     """Silverman's h for 8 repetitions a worker is (4 / 24)^(1/5) = 0.70: a third of the variance is noise."""
     blurred, _, _ = made(n_each=8)
-    noise = blurred.noise.spread[-1] ** 2 * np.mean(blurred.reach**2)
-    assert noise / blurred.spread[-1] ** 2 == pytest.approx(0.70**2 / (1 + 0.70**2), abs=0.005)
-    assert noise + np.mean(alone(blurred)[:, -1] ** 2) == pytest.approx(blurred.spread[-1] ** 2, rel=1e-9)
+    rest = less_told(within_worker(blurred.scores, blurred.owner), blurred.tells)[:, -1]
+    noise = np.sum(less_told(blurred.factor, blurred.tells)[:, -1] ** 2) * np.mean(blurred.reach**2)
+    assert noise / (np.sum(rest**2) / (len(rest) - OWNERS)) == pytest.approx(0.70**2 / (1 + 0.70**2), abs=0.005)
 
 
-@pytest.mark.parametrize("each", [2, 3, 30])
-def test_the_variance_is_whole_however_few_repetitions_a_worker_has(each):
+@pytest.mark.parametrize("each, off", [(2, 0.01), (3, 1e-9), (8, 1e-9), (30, 1e-9)])
+def test_the_variance_beside_curves_is_whole_however_few_repetitions_a_worker_has(each, off):
+    """Of two repetitions half is noise, and beside what curves tell there may be nothing left to draw in."""
     blurred, _, _ = made(n_each=each)
-    noise = blurred.noise.spread[-1] ** 2 * np.mean(blurred.reach**2)
-    assert noise + np.mean(alone(blurred)[:, -1] ** 2) == pytest.approx(blurred.spread[-1] ** 2, rel=1e-9)
+    assert covariance(blurred)[-1, -1] == pytest.approx(blurred.spread[-1] ** 2, rel=off)
 
 
 @pytest.mark.parametrize("kinds", [0.0, 8.0])
@@ -105,9 +114,18 @@ def test_duration_goes_with_the_posture_as_it_does_in_the_recordings(kinds):
     the covariance."""
     blurred, _, size = made(n_each=12, kinds=kinds, bend=np.diag([5.0, 1.0, 0.1, 0.1, 0.1, 0.1]))
     deviation = blurred.scores - blurred.means[blurred.owner]
-    recorded = deviation.T @ deviation / (len(deviation) - OWNERS)
-    drawn = alone(blurred).T @ alone(blurred) / len(deviation)
-    drawn = drawn + np.mean(blurred.reach**2) * blurred.factor.T @ blurred.factor
-    with_duration = recorded[:6, -1] * size
-    kept = (drawn[:6, -1] * size) @ with_duration / (with_duration @ with_duration)
-    assert 0.75 < kept < 1.1
+    recorded = (deviation.T @ deviation / (len(deviation) - OWNERS))[:6, -1] * size
+    kept = (covariance(blurred)[:6, -1] * size) @ recorded / (recorded @ recorded)
+    assert 0.8 < kept < 1.1
+
+
+def test_curves_tell_what_they_foretell_and_nothing_else():
+    """Of a duration that the first score sets to 0.8 of its variance, and of one that has nothing to do with it."""
+    rng = np.random.default_rng(3)
+    owner, size = np.repeat(np.arange(OWNERS), 20), np.array([3.0, 2.0, 1.0, 0.5])
+    z = rng.normal(size=(len(owner), 6))
+    z[:, 4] = 0.8**0.5 * z[:, 0] + 0.2**0.5 * z[:, 4]
+    own = within_worker(z, owner)
+    tells = told_by_curves(own, (Curves(slice(0, 4), size, np.zeros((4, 4))),), len(z) - OWNERS)
+    left = np.mean(less_told(own, tells)[:, 4:] ** 2, axis=0) / np.mean(own[:, 4:] ** 2, axis=0)
+    assert tells.shape == (4, 2) and left[0] == pytest.approx(0.2, abs=0.06) and left[1] > 0.9

@@ -54,7 +54,8 @@ def test_decoding_is_its_definition_in_numpy(drawn):
 
     How feet are put on the floor has its own twin: tests/naive_footing.py.
     """
-    model, own, clock = replace(drawn.model, footing=None), np.linspace(0, 1, 41), np.arange(101.0)
+    model, own = replace(drawn.model, footing=None), np.linspace(0, 1, 41)
+    clock = np.arange(float(model.n_times))
     drawn = model.performances(drawn.scores)
     place = np.stack([np.interp(own, warp, clock) for warp in model.warps(drawn.scores)])
     between = directions_numpy(model.posture, model.flatten, model.scale.raw(drawn.scores, "posture"), place)

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from emulator.smoothed import SmoothedScores, partners, room
+from emulator.smoothed import SmoothedScores, less_told, partners, room
 from emulator.workforce import WorkerEffect, Workforce
 
 K = 4
@@ -19,10 +19,11 @@ def smoothed(n_workers=5, n_each=8, h=0.4, seed=0):
 
 
 def rest(scores, owner, factor, spread):
-    """What deviations are drawn in by, coordinate by coordinate, and the nearest recordings to mix with."""
+    """What deviations are drawn in by, the nearest recordings to mix with, and nothing that curves tell."""
     variance = np.mean((scores - np.stack([scores[owner == w].mean(0) for w in owner])) ** 2, axis=0)
     apart = np.linalg.norm(scores[:, None] - scores[None], axis=-1)
-    return room(spread**2 - np.sum(factor**2, axis=0), variance), partners(owner, apart)
+    drawn_in = room(spread**2 - np.sum(factor**2, axis=0), variance)
+    return drawn_in, partners(owner, apart), np.zeros((K - 1, 1))
 
 
 def variance(law):
@@ -46,6 +47,15 @@ def test_each_component_is_a_mixture_with_a_near_repetition_of_the_same_worker_m
     assert all(np.allclose(deviation[blurred.owner[first] == w].mean(axis=0), 0.0) for w in range(5))
     alike = np.sum(deviation * own[first], axis=1), np.sum(deviation * own[blurred.partner.ravel()], axis=1)
     assert np.mean(alike[0] > alike[1]) > 0.75
+
+
+def test_a_mixture_tells_the_rest_what_its_curves_do():
+    blurred = smoothed()
+    tells = np.array([[0.5], [0.0], [-1.0]])
+    (_, plain), (_, told) = blurred.sources, replace(blurred, tells=tells).sources
+    assert np.allclose(told[:, :3], plain[:, :3])
+    rest = replace(blurred, scores=less_told(blurred.scores, tells)).sources[1][:, 3:]
+    assert np.allclose(told[:, 3:], rest + plain[:, :3] @ tells)
 
 
 def test_a_repetition_is_mixed_with_the_nearest_of_its_worker_and_alone_with_itself():

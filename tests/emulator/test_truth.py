@@ -118,7 +118,9 @@ class TestOfNineCrews:
             learned = anova(np.log(motions.duration_s)[:, None], motions.worker_index)
             many, worker = truths.people(emulator)
             drawn = anova(np.log(many.duration_s)[:, None], worker)
-            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.06), crew
+            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.08), (
+                crew
+            )  # 4 % of error: of 20 kinds
             of_new = learned.between[0] * of_twenty(emulator)
             assert drawn.between[0] == pytest.approx(of_new, rel=0.35), crew  # 300 people: 8 % of error
             assert emulator.mean_duration_s() == pytest.approx(motions.duration_s.mean(), rel=0.02)
@@ -154,8 +156,7 @@ class TestOfNineCrews:
             within.append(truths.within_correlation(posture, log_s, worker))
             first.append(truths.first_and_rest(many) - truths.first_and_rest(truths.fresh(crew)))
         print(scheme, *(np.round([np.mean(x), *x], 2) for x in (whole, within, first)))
-        # NOTE: 0.12 off with mixed repetitions (0.1 was the bound before); why is not known yet
-        assert abs(np.mean(whole) - 0.6) < 0.15 and abs(np.mean(within) - 0.6) < 0.15
+        assert abs(np.mean(whole) - 0.6) < 0.1 and abs(np.mean(within) - 0.6) < 0.1
         assert min(whole) > 0.3
         assert abs(np.mean(first)) < 0.07 and np.abs(first).max() < 0.25
 
