@@ -1,4 +1,4 @@
-# make demo | test | test-fast | test-slow | lint | page | known-answers | motion-evidence | real-time-evidence | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | test-fast | test-slow | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -10,7 +10,7 @@ BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
 PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test tests test-fast test-slow lint page page-packages known-answers motion-evidence real-time-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests test-fast test-slow lint page page-packages golden-logs known-answers motion-evidence real-time-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -70,6 +70,9 @@ page-packages: $(PAGE)/node_modules/.package-lock.json
 
 page: page-packages
 	cd $(PAGE) && node build.mjs
+
+golden-logs: $(READY)
+	$(RUN) tests/golden_logs.py $(if $(RENEW),--renew)
 
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show
