@@ -18,12 +18,10 @@ from emulator.smoothed import SmoothedScores, less_told, partners, room
 QUARTILES = (0.25, 0.5, 0.75)
 NEARER = 0.875
 """Draws may be an eighth nearer to a recording than a left-out repetition is: noise is paid for in roughness."""
-STIFF = 16.0
-"""How much smoother than the recordings the noise is."""
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 12, 2.0, 3, 2.0
 MOST_NOISE = 0.5
 """Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
-MOST_DRAWN_OUT = 1.25
+MOST_DRAWN_OUT = 1.0
 """Of the variance of deviations from a mean of few: beyond it the fine detail of curves gets rough."""
 PENALTIES = np.geomspace(1e-4, 1e4, 33)
 """Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
@@ -49,19 +47,21 @@ def smoothed(
     posture: Curves,
     others: tuple[Curves, ...],
     gram: np.ndarray,
+    stiffness: float,
 ) -> SmoothedScores:
     """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
 
     spread  : (K,) within-worker standard deviations that draws are to have
     posture : decides the bandwidth; others : are blurred like it, as stiffly
     gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
+    stiffness : how much smoother than the recordings the noise is
     """
     square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
     nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
     curves, at, size, mixed = (posture, *others), posture.at, posture.size, partners(owner, other)
     tells = told_by_curves(within_worker(z, owner), curves, _n_free(owner))
-    noise = _noise(z, owner, curves, tells)
+    noise = _noise(z, owner, curves, tells, stiffness)
     whole = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), mixed, tells)
     recorded = z[:, at] * size
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
@@ -193,27 +193,28 @@ def _reach(nearest: np.ndarray) -> np.ndarray:
     return reach / np.sqrt(np.mean(reach**2))
 
 
-def _noise(z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray) -> np.ndarray:
+def _noise(
+    z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray, stiffness: float
+) -> np.ndarray:
     """(N, K) rows of the within-worker covariance, strange repetitions drawn in to the median size (Huber 1964).
 
     Curves are smoothed by (I + (lambda bend)^2)^-1, so that noise moves a recording without making it rough (after
-    Silverman 1996, smoothed principal components); lambda is STIFF times the variance over the bending of the rows. Of
-    all else the rows are what curves do not tell.
+    Silverman 1996, smoothed principal components), see ``stiff``. Of all else the rows are what curves do not tell.
     """
     rows = less_told(within_worker(z, owner), tells)
     length = np.linalg.norm(rows[:, curves[0].at] * curves[0].size, axis=1)
     rows = rows * np.minimum(1.0, np.median(length) / np.maximum(length, 1e-12))[:, None]
     for curve in curves:
-        rows[:, curve.at] = stiff(rows[:, curve.at], curve)
+        rows[:, curve.at] = stiff(rows[:, curve.at], curve, stiffness)
     return rows / np.sqrt(_n_free(owner))
 
 
-def stiff(rows: np.ndarray, curve: Curves) -> np.ndarray:
+def stiff(rows: np.ndarray, curve: Curves, stiffness: float) -> np.ndarray:
     """Rows (R, P) of a block of curves, smoothed by (I + (lambda bend)^2)^-1.
 
-    lambda is ``STIFF`` times the rows' median variance over their bending.
+    lambda is ``stiffness`` times the rows' median variance over their bending.
     """
     raw = rows * curve.size
     bending = np.sum((raw @ curve.bend) * raw, axis=1)
-    weight = STIFF * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
+    weight = stiffness * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
     return np.linalg.solve(np.eye(len(curve.size)) + weight**2 * curve.bend @ curve.bend, raw.T).T / curve.size

@@ -23,7 +23,7 @@ from emulator.storage import bits, on_grid
 from emulator.warp import clr, from_clr
 
 BONE_SHARE, FINE_RAD, FINE_ROOT = 0.98, 0.002, 0.0001
-LARGEST_POSTURE, LARGEST_ROOT = 120, 120
+LARGEST_POSTURE, LARGEST_ROOT = 200, 200
 DURATION_KNOTS, MARK_KNOTS = 12, 60
 ALL = 1.0 - 1e-6
 """Of the pace nothing is left out but rounding: registration did already."""

@@ -99,6 +99,7 @@ def summary(
         command=settings.command,
         methods=_methods(made, parts, workforce, settings) | _told(covariates),
         notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole)),
+        fastest_m_per_s=fastest_m_per_s(made.moving.motions),
     )
 
 
@@ -125,7 +126,6 @@ def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> Fi
         roughness_new_ratio=rough_new,
         novelty_ratio=new_to_recorded,
         disco_p=p,
-        fastest_m_per_s=fastest_m_per_s(made.moving.motions),
         times=_times(many, made),
         notes=model.report.notes
         + twins

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.bandwidth import Curves, smoothed, stiff
+from emulator.bandwidth import Curves, smoothed
 from emulator.covariates.table import table_of
 from emulator.fit_choice import choose
 from emulator.fit_parts import Parts, parts_of
@@ -17,10 +17,10 @@ from emulator.fit_summary import judged, summary
 from emulator.joint import CURVES
 from emulator.model import SCHEME, MotionEmulator
 from emulator.motion import MotionSet
-from emulator.population import Population
 from emulator.reduce import JointPCA
 from emulator.registered import Registered, registered
 from emulator.sound import refuse_unsound
+from emulator.widest import STIFFNESSES, naturally, with_population
 from emulator.workforce import Workforce, shrinkages
 
 FEWEST = 3
@@ -56,8 +56,9 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     motions = made.whole
     parts = parts_of(made, settings)
     covariates = covariates_of(parts, made.moving)
-    workforce = _workforce(parts, made.moving, settings, covariates)
-    return MotionEmulator(
+    curves = _curves(parts)
+    crew = _crew(parts, made.moving, settings, covariates)
+    model = MotionEmulator(
         motions.task,
         motions.skeleton,
         motions.mark_names,
@@ -70,33 +71,44 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         parts.margin,
         parts.mark_margins,
         parts.scale,
-        workforce,
-        summary(made, parts, workforce, settings, covariates.lines),
+        crew,
+        summary(made, parts, crew, settings, covariates.lines),
         parts.dwells,
         parts.footing,
     )
+    if _is_gaussian(parts, crew, settings):
+        return model
+    crews = (_blurred(crew, parts, made.moving, covariates, curves, stiffness) for stiffness in STIFFNESSES)
+    model = naturally((replace(model, workforce=blurred) for blurred in crews), motions)
+    model = replace(model, report=summary(made, parts, model.workforce, settings, covariates.lines))
+    return with_population(model, curves, motions)
 
 
-def _workforce(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: Covariates) -> Workforce:
+def _crew(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: Covariates) -> Workforce:
+    """Who performs, by plain Gaussians."""
     index, n_workers, z = motions.worker_index, len(motions.workers), parts.z - covariates.within
     crew = Workforce.fit(z, index, motions.workers, *shrinkages(len(z), n_workers), covariates.told)
-    crew = replace(crew, group=motions.source)
-    if settings.scheme != SCHEME or len(z) == n_workers or parts.posture.n_components == 0:
-        return crew
-    centred = parts.flat - parts.posture.mean
-    curves = _curves(parts)
-    blurred = smoothed(z, index, crew.within.spread, curves[0], curves[1:], centred @ centred.T)
-    return replace(crew, smoothed=blurred, population=_population(crew, parts, curves))
+    return replace(crew, group=motions.source)
 
 
-def _population(crew: Workforce, parts: Parts, curves: tuple[Curves, ...]) -> Population | None:
-    if not crew.has_worker_effect:
-        return None
-    between = crew.apart() / np.sqrt(len(crew.names))
-    smooth, bones = between.copy(), parts.scale.block("bones")
-    for curve in curves:
-        smooth[:, curve.at] = stiff(between[:, curve.at], curve)
-    return Population.fit(between, smooth, parts.scale.spread, tuple(curve.at for curve in curves), bones)
+def _is_gaussian(parts: Parts, crew: Workforce, settings: FitSettings) -> bool:
+    """Whether Gaussians were asked for, or nothing varies within workers."""
+    return settings.scheme != SCHEME or len(parts.z) == len(crew.names) or parts.posture.n_components == 0
+
+
+def _blurred(
+    crew: Workforce,
+    parts: Parts,
+    motions: MotionSet,
+    covariates: Covariates,
+    curves: tuple[Curves, ...],
+    stiffness: float,
+) -> Workforce:
+    """Who performs, by recorded repetitions with noise about them."""
+    centred, z = parts.flat - parts.posture.mean, parts.z - covariates.within
+    gram, spread = centred @ centred.T, crew.within.spread
+    scores = smoothed(z, motions.worker_index, spread, curves[0], curves[1:], gram, stiffness)
+    return replace(crew, smoothed=scores)
 
 
 def _curves(parts: Parts) -> tuple[Curves, ...]:

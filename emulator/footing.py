@@ -24,9 +24,11 @@ SLOW_M_PER_S, HELD_M_PER_S = 0.25, 0.5
 LOW_M, HELD_LOW_M = 0.05, 0.08
 """A foot comes to stand where its ankle or toe is slow and low, and stands until it is no longer slow or low enough."""
 SHORTEST_S = 0.1
-FLOOR_SHARE = 0.02
-PRINT = 1e-4
-"""What prints are rounded to, in leg lengths: a tenth of a millimetre."""
+FLOOR_SHARE, DEEP_SHARE = 0.02, 0.1
+NO_FLOOR_M = -1e9
+PRINT, FIRST_PRINT = 2e-5, 1e-4
+"""What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a tenth of a
+millimetre are seen where feet do not move at all."""
 BREATHES = 1e-3
 """Bones whose length changes less than this share of it are taken as rigid."""
 
@@ -128,6 +130,7 @@ def on_its_feet(motion: Motion) -> Motion:
         own[None],
         motion.time_s[None],
         min(0.0, float(recorded[..., 2].min())),
+        np.full((1, 2, 2), NO_FLOOR_M),
     )
     directions = motion.directions[None].copy()
     bend(directions, motion.bone_length_m[None], legs, np.arange(float(len(path)))[None], bends)
@@ -152,6 +155,7 @@ def stood(
     prints_m: np.ndarray,
     time_s: np.ndarray,
     floor_m: float,
+    foot_floor_m: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The path (n, T, 4) of roots and headings moved until the feet stand, and what the legs must bend (n, 2, T, 3).
 
@@ -159,6 +163,7 @@ def stood(
 
     directions (n, T, B, 3) without heading, length_m (n, B); stands (n, 2, T), prints_m (n, 2, T, 3) of ``prints``
     time_s : (n, T) when the points come; floor_m : no joint gets below this height
+    foot_floor_m : (n, 2, 2) heights below which ankle and toe do not get, by side
     """
     from emulator.kernels.footing import footed
 
@@ -168,7 +173,9 @@ def stood(
     flat = np.ascontiguousarray(directions, dtype=float).reshape(n, n_times, -1)
     length_m = np.ascontiguousarray(length_m, dtype=float)
     time_s = np.ascontiguousarray(time_s, dtype=float)
-    footed(flat, length_m, skeleton.chain, feet, stands, prints_m, time_s, floor_m, out, bends, fastest)
+    foot_floor_m = np.ascontiguousarray(foot_floor_m, dtype=float)
+    chain = skeleton.chain
+    footed(flat, length_m, chain, feet, stands, prints_m, time_s, floor_m, foot_floor_m, out, bends, fastest)
     return out, bends, fastest
 
 
@@ -193,12 +200,14 @@ class Footing:
     stands   : (N, 2, T) whether the left and the right foot stands
     prints   : (N, 2, T, 3) see ``prints``, in leg lengths
     floor    : the height of the lowest joint of all in leg lengths, at most 0: how far recordings are below the floor
+    foot_floor : (2, 2) the same of ankle and toe of each side; they may lie above 0
     """
 
     postures: np.ndarray
     stands: np.ndarray
     prints: np.ndarray
     floor: float
+    foot_floor: np.ndarray
 
     @classmethod
     def fit(
@@ -208,7 +217,7 @@ class Footing:
         legs = Legs.of(motions[0].skeleton)
         if legs is None:
             return None
-        stands, places, lowest = [], [], []
+        stands, places, lowest, foot_lowest = [], [], [], []
         for motion, gamma, leg in zip(motions, warps, leg_m):
             joints, rate_hz = motion.positions_m(), (len(motion.time_s) - 1) / motion.duration_s
             own = standing(joints, rate_hz, legs)
@@ -222,8 +231,10 @@ class Footing:
             stands.append(own[:, nearest])
             places.append(prints(feet, yaw, stands[-1], there) / leg)
             lowest.append(joints[..., 2].min() / leg)
+            foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
         whole = np.clip(np.rint(np.array(places) / PRINT), -32767, 32767)
-        return cls(postures, np.array(stands), whole * PRINT, min(0.0, float(np.quantile(lowest, 0.1))))
+        floor, foot_floor = (np.quantile(heights, DEEP_SHARE, axis=0) for heights in (lowest, foot_lowest))
+        return cls(postures, np.array(stands), whole * PRINT, min(0.0, float(floor)), foot_floor)
 
     def nearest(self, postures: np.ndarray) -> np.ndarray:
         """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""

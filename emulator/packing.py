@@ -71,7 +71,8 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     if model.workforce.population is not None:
         arrays |= {f"population_{name}": getattr(model.workforce.population, name) for name in POPULATION}
     if model.footing is not None:
-        plain["floor"] = model.footing.floor
+        plain |= {"floor": model.footing.floor, "print": PRINT}
+        arrays["footing_floor"] = model.footing.foot_floor
         arrays["footing_postures"] = model.footing.postures
         arrays["footing_stands"] = np.packbits(model.footing.stands, axis=-1)
         arrays["footing_prints"] = np.rint(model.footing.prints / PRINT).astype(np.int16)

@@ -183,8 +183,9 @@ class MotionPerformances:
             stands, prints_m = model.footing.stands[near], model.footing.prints[near] * leg_m[:, None, None, None]
             time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
             floor_m = model.footing.floor * float(leg_m.mean())
+            foot_floor_m = model.footing.foot_floor * leg_m[:, None, None]
             path, bends, fastest = stood(
-                self.skeleton, model.legs, aligned, lengths, path, stands, prints_m, time_s, floor_m
+                self.skeleton, model.legs, aligned, lengths, path, stands, prints_m, time_s, floor_m, foot_floor_m
             )
             path[..., :2] -= path[:, :1, :2]
         return Ground(decode.control_points(path), bends, posture, kept.copy(), fastest)

@@ -4,7 +4,8 @@ A Gaussian over people in all coordinates gives new people movements that nobody
 people added up, some of them with a minus. And with few people the spread between them is known badly: the next person
 of I lies within intervals of a t with I - 1 degrees of freedom, not of a normal. So a new person deviates from the mean
 like one recorded person, drawn in, and beside that by smooth noise between people (a smoothed bootstrap of people:
-Silverman & Young 1987), whose size is that of the t: a normal over the root of a chi-square, in equal steps.
+Silverman & Young 1987). What is large of the deviation, and the noise, have the size of the t: a normal over the root
+of a chi-square, in equal steps.
 """
 
 from __future__ import annotations
@@ -23,17 +24,19 @@ BODY_SHARE = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Population:
-    """What a new person's mean is made of: mean + size * drawn_in * deviation of one of W people + size * xi @ rows.
+    """What a new person's mean is made of: mean + drawn_in * deviation of one of W people, sized, + size * xi @ rows.
 
     rows     : (W, K) noise between people, xi (W,) standard normal
     drawn_in : (K,) at most 1, what leaves room for the noise
-    as_is    : (K,) coordinates whose deviations are of size 1: curves over time, since nobody's fine detail is to be
-               made larger, and bones
+    curves   : (K,) coordinates that say curves over time: only the smooth part of a deviation is of the size, since
+               nobody's fine detail is to be made larger
+    bones    : (K,) coordinates whose deviations are of size 1
     """
 
     rows: np.ndarray
     drawn_in: np.ndarray
-    as_is: np.ndarray
+    curves: np.ndarray
+    bones: np.ndarray
 
     @classmethod
     def fit(
@@ -44,27 +47,32 @@ class Population:
         size : (K,) raw standard deviations; curves, bones : where these blocks lie
         """
         share = noise_share(len(between))
-        as_is = np.zeros(between.shape[1], bool)
+        at_curves, at_bones = np.zeros((2, between.shape[1]), bool)
         rows = np.sqrt(share) * smooth
         variance = np.sum(between**2, axis=0)
         drawn_in = np.full(between.shape[1], np.sqrt(1.0 - share))
         for at in curves:
-            as_is[at] = True
+            at_curves[at] = True
             weight = size[at] ** 2
             left = np.sum((variance[at] - np.sum(rows[:, at] ** 2, axis=0)) * weight)
             drawn_in[at] = room(left, np.sum(variance[at] * weight))
-        as_is[bones], drawn_in[bones] = True, np.sqrt(1.0 - BODY_SHARE)
+        at_bones[bones], drawn_in[bones] = True, np.sqrt(1.0 - BODY_SHARE)
         rows[:, bones] = np.sqrt(BODY_SHARE) * between[:, bones]
-        return cls(rows, drawn_in, as_is)
+        return cls(rows, drawn_in, at_curves, at_bones)
 
     @property
     def sizes(self) -> np.ndarray:
         """(A,) equally likely sizes."""
         return predictive_sizes(len(self.rows))
 
-    def factors(self) -> np.ndarray:
-        """(A, K) what a person's deviation is multiplied by at each size."""
-        return np.where(self.as_is, 1.0, self.sizes[:, None]) * self.drawn_in
+    def deviations(self, own: np.ndarray, left: np.ndarray | float = 1.0) -> np.ndarray:
+        """(A, W, K) deviations of people like each of the recorded ones, from theirs, own (W, K), at each size.
+
+        left : (K,) what a known body leaves of spreads
+        """
+        smooth = self.rows * left * np.sqrt(len(own) / noise_share(len(own)))
+        sized = np.where(self.curves, smooth, np.where(self.bones, 0.0, own))
+        return np.asarray((own + (self.sizes[:, None, None] - 1.0) * sized) * self.drawn_in)
 
 
 def noise_share(n_people: int) -> float:

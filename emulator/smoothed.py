@@ -18,7 +18,7 @@ from emulator.law import Law
 from emulator.margin import within_worker
 
 BASE = 1.0
-FEWEST_OWN, N_MIXED, MOST_MIXED = 5, 3, 0.4
+FEWEST_OWN, N_MIXED, MOST_MIXED = 5, 3, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,21 +85,22 @@ class SmoothedScores:
         weight = np.full(len(rows), 1.0 / len(rows))
         return Law(weight, deviation[rows], self.reach[first[rows]], self.noise, mean)
 
-    def population(self, people: LowRankNormal, own: np.ndarray, factors: np.ndarray, sizes: np.ndarray) -> Law:
+    def population(self, people: LowRankNormal, own: np.ndarray, sizes: np.ndarray) -> Law:
         """The law of one performance of a new person each time: who he is like, of which size, and what he does.
 
-        people : noise between people, with their mean; own (W, K) deviations of the recorded people, by ``factors``
-        (A, K) at ``sizes`` (A,)
+        people : noise between people, with their mean; own (A, W, K) how people like the recorded ones deviate, at
+        ``sizes`` (A,)
         """
         first, every = self.sources
         parts = []
-        for worker, deviation in enumerate(own):
+        n_workers, n_coordinates = own.shape[1:]
+        for worker in range(n_workers):
             rows = self.rows_of(worker)
-            mean = (factors * deviation)[:, None] + every[rows]
+            mean = own[:, worker, None] + every[rows]
             reach = np.broadcast_to(self.reach[first[rows]], mean.shape[:2])
             size = np.broadcast_to(sizes[:, None], mean.shape[:2])
-            weight = np.full(mean.shape[:2], 1.0 / (len(own) * reach.size))
-            parts.append((weight.ravel(), mean.reshape(-1, own.shape[1]), reach.ravel(), size.ravel()))
+            weight = np.full(mean.shape[:2], 1.0 / (n_workers * reach.size))
+            parts.append((weight.ravel(), mean.reshape(-1, n_coordinates), reach.ravel(), size.ravel()))
         weight, mean, reach, size = (np.concatenate(part) for part in zip(*parts))
         return Law(weight, mean, reach, self.noise, people.mean, people, size)
 

@@ -14,7 +14,7 @@ from emulator.density import LowRankNormal
 from emulator.dwells import NONE, Dwells
 from emulator.fit_report import FitReport
 from emulator.flatten import SIEM
-from emulator.footing import PRINT, Footing
+from emulator.footing import FIRST_PRINT, NO_FLOOR_M, Footing
 from emulator.joint import BLOCKS, CURVES, JointScale
 from emulator.margin import Margin, within_worker
 from emulator.model import MotionEmulator
@@ -152,11 +152,13 @@ class _Parts:
         postures = self.array("footing_postures", -1, n_posture)
         packed = self.array("footing_stands", len(postures), 2, -(-self.n_times // 8))
         whole = self.array("footing_prints", len(postures), 2, self.n_times, 3)
-        floor = _number(self.plain["floor"])
+        floor, step = _number(self.plain["floor"]), _number(self.plain.get("print", FIRST_PRINT))
         if len(postures) == 0 or packed.dtype != np.uint8 or whole.dtype != np.int16 or floor > 0:
             raise ValueError(f"{self.task}: its footing makes no sense")
         stands = np.unpackbits(packed, axis=-1, count=self.n_times).astype(bool)
-        return Footing(postures, stands, whole * PRINT, floor)
+        at = f"{self.task}/footing_floor"
+        foot_floor = self.array("footing_floor", 2, 2) if at in self.arrays else np.full((2, 2), NO_FLOOR_M)
+        return Footing(postures, stands, whole * step, floor, foot_floor)
 
     def workforce(self) -> Workforce:
         names = tuple(str(name) for name in self.plain["workers"])
@@ -194,9 +196,11 @@ class _Parts:
         if f"{self.task}/population_rows" not in self.arrays:
             return None
         sizes = dict(zip(BLOCKS, self.sizes))
-        as_is = np.concatenate([np.full(sizes[name], name in (*CURVES, "bones")) for name in BLOCKS])
+        curves, bones = (
+            np.concatenate([np.full(sizes[name], name in names) for name in BLOCKS]) for names in (CURVES, ("bones",))
+        )
         drawn_in = self._shares("population_drawn_in", self.k)
-        return Population(self.array("population_rows", n_workers, self.k), drawn_in, as_is)
+        return Population(self.array("population_rows", n_workers, self.k), drawn_in, curves, bones)
 
     def _normal(self, name: str) -> LowRankNormal:
         factor, spread = self.array(f"{name}_factor", -1, self.k), self.array(f"{name}_spread", self.k)

@@ -125,7 +125,7 @@ class Workforce:
             return None
         rows, sizes = self.population.rows, self.population.sizes
         people = LowRankNormal(self.between.mean, rows, np.linalg.norm(rows, axis=0), 0.0)
-        return self.smoothed.population(people, self.apart(), self.population.factors(), sizes)
+        return self.smoothed.population(people, self.population.deviations(self.apart()), sizes)
 
     def apart(self, body: Body | None = None) -> np.ndarray:
         """(W, K) how recorded people deviate, with the variance between people: less what a body tells, if heard of.
@@ -148,17 +148,18 @@ class Workforce:
         if self.population is None or self.smoothed is None:
             return self._by_gaussian(law, rng, numbers), ""
         heard = law is not self.between
-        rows = self.population.rows
+        rows, left = self.population.rows, np.ones(1)
         if heard:
             assert self.told is not None
-            rows = np.concatenate([rows * self.told.left, self.told.unsure_rows(body)])
+            left = self.told.left
+            rows = np.concatenate([rows * left, self.told.unsure_rows(body)])
         at = int(rng.integers(self.population.sizes.size))
         like = int(rng.integers(len(self.names)))
         xi = rng.standard_normal(len(rows))
         if numbers is not None:
             like = int(np.abs(numbers).argmax())
             xi[: len(numbers)] = numbers
-        own = self.population.factors()[at] * self.apart(body)[like]
+        own = self.population.deviations(self.apart(body), left)[at, like]
         return law.mean + own + self.population.sizes[at] * (xi @ rows), self.names[like]
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:

@@ -34,22 +34,30 @@ def moves_of(middle, stands, print_m):
     return moves
 
 
-def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, floor_m):
+def raised(lacking, sigma):
+    """(T,) what is added to something that lacks these heights (T,): the most that lacks nearby, blurred."""
+    reach = int(4 * sigma) + 1
+    lacking = np.maximum(lacking, 0.0)
+    nearby = np.array([lacking[max(t - reach, 0) : t + reach + 1].max() for t in range(len(lacking))])
+    return blurred(nearby, sigma)
+
+
+def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, floor_m, foot_floor_m):
     """One body: its path (T, 4) moved until the feet stand, and what the legs bend (2, T, 3)."""
     joints = skeleton.positions(turn(directions, path[:, 3:]), length_m, path[:, :3])
     step = time_s[-1] / (len(time_s) - 1)
     wide, narrow = 0.08 / step, 0.06 / step
     moves, weight = [], []
     for f, foot in enumerate(legs.feet):
-        moves.append(moves_of(joints[:, foot].mean(axis=1), stands[f], turn(prints_m[f], path[:, 3])))
+        move = moves_of(joints[:, foot].mean(axis=1), stands[f], turn(prints_m[f], path[:, 3]))
+        sunk = (foot_floor_m[f] - joints[:, foot, 2]).max(axis=1) - move[:, 2]
+        move[:, 2] += raised(sunk, narrow) * stands[f].any()
+        moves.append(move)
         weight.append(blurred(stands[f] + 1e-3, wide) * stands[f].any())
     total = sum(weight)
     mean = sum(w[:, None] * m for w, m in zip(weight, moves)) / np.maximum(total, 1e-300)[:, None]
     shift = np.stack([blurred(column, narrow) for column in mean.T], axis=1)
-    lacks = np.maximum(floor_m - joints[..., 2].min(axis=1) - shift[:, 2], 0.0)
-    reach = int(4 * narrow) + 1
-    nearby = np.array([lacks[max(t - reach, 0) : t + reach + 1].max() for t in range(len(lacks))])
-    shift[:, 2] += blurred(nearby, narrow)
+    shift[:, 2] += raised(floor_m - joints[..., 2].min(axis=1) - shift[:, 2], narrow)
     bends = []
     for f in range(2):
         bend = moves[f] - shift

@@ -40,6 +40,18 @@ def smooth(values, sigma, reach, out):
 
 
 @compiled(error_model="numpy", nogil=True)
+def raised(lacking, sigma, reach, out):
+    """By how much, out (T,), something is raised that lacks heights (T,): by the most that lacks nearby, smoothly."""
+    n = lacking.size
+    nearby = np.empty(n)
+    for t in range(n):
+        nearby[t] = 0.0
+        for k in range(max(t - reach, 0), min(t + reach + 1, n)):
+            nearby[t] = max(nearby[t], lacking[k])
+    smooth(nearby, sigma, reach, out)
+
+
+@compiled(error_model="numpy", nogil=True)
 def foot_moves(middle, standing, print_m, moves):
     """What brings a foot (T, 3) to where it belongs, into moves (T, 3); returns how many points it stands at all.
 
@@ -95,17 +107,19 @@ def fastest_joint(bodies, time_s):
 
 
 @compiled(error_model="numpy", nogil=True)
-def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m, path, bends, fastest):
+def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m, foot_floor_m, path, bends, fastest):
     """Moves the root of path (n, T, 4) until feet stand; what legs must bend beyond that into bends (n, 2, T, 3).
 
     directions (n, T, 3B), length_m (n, B); feet (2, 2) : ankle and toe of each side
     standing (n, 2, T), prints (n, 2, T, 3) : as for ``foot_moves``, in the frame of the heading
-    time_s (n, T) : when the points come; no joint below floor_m; bends are without heading, as ``directions``
+    time_s (n, T) : when the points come; no joint below floor_m, none of the feet below foot_floor_m (n, 2, 2)
+    bends are without heading, as ``directions``
     fastest (n,) : the greatest speed of a joint over ``FRAME_S`` or the next longer time between points, written here
     """
     n_times = path.shape[1]
     bodies = np.empty((n_times, chain.shape[0] + 1, 3))
     middle, print_m, lowest = np.empty((2, n_times, 3)), np.empty((n_times, 3)), np.empty(n_times)
+    sunk = np.empty((2, n_times))
     moves, weight = np.empty((2, n_times, 3)), np.empty((2, n_times))
     raw, shift, lift, less_of = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(2)
     for i in range(path.shape[0]):
@@ -121,8 +135,12 @@ def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m,
             for f in range(2):
                 for c in range(3):
                     middle[f, t, c] = 0.5 * (joints[feet[f, 0], c] + joints[feet[f, 1], c])
+                sunk[f, t] = -np.inf
+                for k in range(2):
+                    sunk[f, t] = max(sunk[f, t], foot_floor_m[i, f, k] - joints[feet[f, k], 2])
         point_s = time_s[i, n_times - 1] / (n_times - 1)
         wide, narrow = max(0.08 / point_s, 0.3), max(0.06 / point_s, 0.3)
+        reach = int(4 * narrow) + 1
         n_standing = 0
         for f in range(2):
             for t in range(n_times):
@@ -133,6 +151,11 @@ def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m,
                 raw[t] = (1.0 if standing[i, f, t] else 0.0) + 1e-3
             own = foot_moves(middle[f], standing[i, f], print_m, moves[f])
             n_standing += own
+            if own > 0:
+                for t in range(n_times):
+                    sunk[f, t] -= moves[f, t, 2]
+                raised(sunk[f], narrow, reach, lift)
+                moves[f, :, 2] += lift
             smooth(raw, wide, int(4 * wide) + 1, weight[f])
             if own == 0:
                 weight[f] = 0.0
@@ -142,13 +165,9 @@ def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m,
                 mean = weight[0, t] * moves[0, t, c] + weight[1, t] * moves[1, t, c]
                 raw[t] = mean / total if n_standing > 0 else 0.0
             smooth(raw, narrow, int(4 * narrow) + 1, shift[:, c])
-        reach = int(4 * narrow) + 1
-        for t in range(n_times):  # nothing below the floor: raised by the most that lacks nearby, smoothly
-            lacks = 0.0
-            for k in range(max(t - reach, 0), min(t + reach + 1, n_times)):
-                lacks = max(lacks, floor_m - lowest[k] - shift[k, 2])
-            raw[t] = lacks
-        smooth(raw, narrow, int(4 * narrow) + 1, lift)
+        for t in range(n_times):
+            lowest[t] = floor_m - lowest[t] - shift[t, 2]
+        raised(lowest, narrow, reach, lift)
         for t in range(n_times):
             shift[t, 2] += lift[t]
             cosine, sine = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])

@@ -21,7 +21,7 @@ def made(n_each=8, kinds=0.0, k=6, seed=0, bend=None):
     spread = np.sqrt(np.sum((z - means) ** 2, axis=0) / (len(z) - OWNERS))
     centred = raw - raw.mean(0)
     bend = np.zeros((k, k)) if bend is None else bend
-    return smoothed(z, owner, spread, Curves(slice(0, k), size, bend), (), centred @ centred.T), centred, size
+    return smoothed(z, owner, spread, Curves(slice(0, k), size, bend), (), centred @ centred.T, 16.0), centred, size
 
 
 def alone(blurred):
@@ -63,7 +63,7 @@ def test_twins_get_no_noise_along_the_posture():
     z = np.repeat(blurred.scores, 2, axis=0)
     raw = z[:, :6]
     posture = Curves(slice(0, 6), np.ones(6), np.zeros((6, 6)))
-    twins = smoothed(z, np.repeat(blurred.owner, 2), blurred.spread, posture, (), raw @ raw.T)
+    twins = smoothed(z, np.repeat(blurred.owner, 2), blurred.spread, posture, (), raw @ raw.T, 16.0)
     assert np.abs(twins.factor[:, :6]).max(initial=0.0) < 1e-2
 
 
@@ -83,7 +83,7 @@ def test_a_strange_repetition_does_not_set_the_noise():
         raw = (z[:, :6]) * size
         owner = blurred.owner
         posture = Curves(slice(0, 6), size, np.zeros((6, 6)))
-        return smoothed(z, owner, blurred.spread, posture, (), raw @ raw.T).factor
+        return smoothed(z, owner, blurred.spread, posture, (), raw @ raw.T, 16.0).factor
 
     plain, shaken = (np.linalg.norm(noise(s)[:, 5]) / np.linalg.norm(noise(s)[:, 0]) for s in (0, 20))
     assert shaken < 10 * plain

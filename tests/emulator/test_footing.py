@@ -64,10 +64,12 @@ def of_lift(worker=0):
 
 def test_the_compiled_footing_is_the_naive_one():
     emulator, aligned, lengths, path, stands, prints_m, time_s = of_lift()
-    ours, bends, _ = stood(emulator.skeleton, emulator.legs, aligned, lengths, path, stands, prints_m, time_s, -0.001)
+    floors_m = np.broadcast_to(np.array([[0.09, 0.03], [-1.0, 0.05]]), (4, 2, 2))
+    rest = aligned, lengths, path, stands, prints_m, time_s, -0.001, floors_m
+    ours, bends, _ = stood(emulator.skeleton, emulator.legs, *rest)
     for i in range(4):
         one = aligned[i], lengths[i], path[i], stands[i], prints_m[i], time_s[i]
-        want, naive_bends = naive_footing.stood(emulator.skeleton, emulator.legs, *one, -0.001)
+        want, naive_bends = naive_footing.stood(emulator.skeleton, emulator.legs, *one, -0.001, floors_m[i])
         assert np.abs(ours[i] - want).max() < 1e-9 and np.abs(bends[i] - naive_bends).max() < 1e-9
 
 
@@ -116,13 +118,14 @@ def test_a_saved_footing_is_the_fitted_one(tmp_path):
     emulator = made("walk")[2]
     emulator.save(tmp_path / "walk.npz")
     again = MotionEmulator.load(tmp_path / "walk.npz")
-    for name in ("postures", "stands", "prints"):
+    for name in ("postures", "stands", "prints", "foot_floor"):
         assert np.array_equal(getattr(again.footing, name), getattr(emulator.footing, name))
     assert again.footing.floor == emulator.footing.floor and not again.rides
 
 
 def test_the_nearest_recording_is_the_nearest():
-    footing = Footing(np.array([[0.0, 0], [3, 0], [0, 4]]), np.zeros((3, 2, 5), bool), np.zeros((3, 2, 5, 3)), 0.0)
+    postures = np.array([[0.0, 0], [3, 0], [0, 4]])
+    footing = Footing(postures, np.zeros((3, 2, 5), bool), np.zeros((3, 2, 5, 3)), 0.0, np.zeros((2, 2)))
     assert footing.nearest(np.array([[0.4, 0.1], [2.0, 0.5], [0.0, 9.0]])).tolist() == [0, 1, 2]
 
 

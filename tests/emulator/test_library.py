@@ -51,7 +51,9 @@ def test_a_loaded_model_draws_what_the_saved_one_draws(library, saved):
         one, two = (m.sample(20, np.random.default_rng(3)) for m in (emulator, library[task]))
         assert one.duration_s.tobytes() == two.duration_s.tobytes()
         assert one.mark_s.tobytes() == two.mark_s.tobytes()
-        assert one.positions_m(n_times=9).tobytes() == two.positions_m(n_times=9).tobytes()
+        assert (
+            np.abs(one.positions_m(n_times=9) - two.positions_m(n_times=9)).max() < 1e-12
+        )  # BLAS: by where arrays lie
         assert emulator.report == library[task].report
         assert emulator.workers == library[task].workers
 

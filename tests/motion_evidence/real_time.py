@@ -205,7 +205,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--splits", type=int, default=20, help="halves of the recordings")
     parser.add_argument("--posture-splits", type=int, default=5, help="halves judged on the common clock")
     parser.add_argument("--draws", type=int, default=400, help="draws of known and of new people each")
-    parser.add_argument("--each", type=int, default=10, help="draws for each left-out recording")
+    parser.add_argument("--each", type=int, default=30, help="draws for each left-out recording")
     parser.add_argument("-o", "--out", type=Path, help="a JSON file for the figures")
     parser.add_argument("--before", type=Path, help="figures of an earlier run, than which novelty must not be worse")
     options = parser.parse_args(arguments)
