@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import count
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,11 +13,15 @@ import simpy
 from opsim.streams import BLOCK, stream
 
 TICKS_PER_S = 2**20
-Draw = Callable[[np.random.Generator], np.ndarray]
+Draw = Callable[[np.random.Generator, bool], np.ndarray]
+"""A block of times, in whole seconds (and then geometric, of the same mean) or not."""
 
 
 class Row(NamedTuple):
-    """What the twins say of a row of the event log: names as text, "" for none; -1 where the log has no number."""
+    """What the twins say of a row of the event log: names as text, "" for none; -1 where the log has no number.
+
+    Left out are source, operation, number of the performance and shift of pace: the other columns tell them here.
+    """
 
     end_s: float
     start_s: float
@@ -35,11 +40,15 @@ class Row(NamedTuple):
 
 
 def exponential(mean_s: float) -> Draw:
-    return lambda rng: rng.exponential(mean_s, BLOCK)
+    return lambda rng, whole: geometric(rng, mean_s) if whole else rng.exponential(mean_s, BLOCK)
 
 
 def uniform(low_s: float, high_s: float) -> Draw:
-    return lambda rng: rng.uniform(low_s, high_s, BLOCK)
+    return lambda rng, whole: geometric(rng, (low_s + high_s) / 2) if whole else rng.uniform(low_s, high_s, BLOCK)
+
+
+def geometric(rng: np.random.Generator, mean_s: float) -> np.ndarray:
+    return 1.0 * rng.geometric(1.0 / mean_s, BLOCK)
 
 
 def on_grid(delay_s: float) -> float:
@@ -48,26 +57,33 @@ def on_grid(delay_s: float) -> float:
 
 
 class EndOfInstant(simpy.Event):
-    """Comes after all other events of this instant: SimPy's own priorities are 0 (urgent) and 1 (normal)."""
+    """Comes after all other events of this instant, whose priorities are 0 and 1 in SimPy; the smaller order first.
 
-    def __init__(self, env: simpy.Environment):
+    So jobs that come at one instant are let in by number, and who is free is sent when all have come.
+    """
+
+    def __init__(self, env: simpy.Environment, order: float = inf):
         super().__init__(env)
         self._ok, self._value = True, None
-        env.schedule(self, priority=2)
+        env.schedule(self, priority=2 + order)
 
 
 class Floor:
-    """An environment, the random streams of a replication, and rows. subjects : all who are in some state"""
+    """An environment, the random streams of a replication, and rows.
 
-    def __init__(self, seed: int, replication: int):
+    whole    : whether all times are whole seconds, so that much happens at one instant
+    subjects : all who are in some state
+    """
+
+    def __init__(self, seed: int, replication: int, whole: bool = False):
         self.env = simpy.Environment()
-        self.seed, self.replication = seed, replication
+        self.seed, self.replication, self.whole = seed, replication, whole
         self.rows: list[Row] = []
         self.subjects: list[Subject] = []
 
     def times(self, draw: Draw, *name: str, rating: float = 1.0) -> Iterator[tuple[int, float]]:
         """(k, seconds) of a stream for k = 0, 1, 2, ..., each rounded to the grid."""
-        blocks = (draw(stream(self.seed, self.replication, *name, block)) for block in count())
+        blocks = (draw(stream(self.seed, self.replication, *name, block), self.whole) for block in count())
         return enumerate(on_grid(time_s / rating) for times_s in blocks for time_s in times_s.tolist())
 
     def chance(self, item: int, *name: str | int) -> float:
@@ -75,15 +91,15 @@ class Floor:
         block, row = divmod(item, BLOCK)
         return stream(self.seed, self.replication, *name, block).random(BLOCK)[row]
 
-    def poisson(self, mean_s: float, arrive: Callable[[int], Any], source: str = "release") -> None:
-        """``arrive(n)`` is a process for each n = 0, 1, 2, ..., begun after gaps of the source's stream."""
+    def poisson(self, mean_s: float, job: Callable[..., Any], source: str = "release", **about: Any) -> None:
+        """``job(n)`` is a process for each n = 0, 1, 2, ..., begun after gaps of the source's stream."""
 
-        def source_of_jobs():
+        def arrivals():
             for n, gap_s in self.times(exponential(mean_s), "interarrival", source):
                 yield self.env.timeout(gap_s)
-                self.env.process(arrive(n))
+                self.env.process(job(n, **about))
 
-        self.env.process(source_of_jobs())
+        self.env.process(arrivals())
 
     def run(self, until_s: float) -> list[Row]:
         """All rows; states that last until the end are closed there."""
@@ -132,7 +148,7 @@ class Job(Subject):
 
     def __init__(self, floor: Floor, number: int, product: str):
         super().__init__(floor, job=number, product=product)
-        self.product = product
+        self.number, self.product = number, product
         self.at_once("create")
 
     def works(self, lasts_s: float, k: int, done: float = 0.0, **about: Any) -> simpy.Timeout:

@@ -3,7 +3,7 @@
 from itertools import repeat
 
 import simpy
-from simpy_twins.floor import Floor, Job, Worker, exponential, uniform
+from simpy_twins.floor import EndOfInstant, Floor, Job, Worker, exponential, uniform
 
 QUEUE = """
 opsim: 1
@@ -32,6 +32,7 @@ def queue(floor: Floor) -> None:
         job.now("queue", station="counter")
         with servers.request() as server:
             yield server
+            yield EndOfInstant(floor.env, n)  # all who come free at this instant are free
             worker = yield free.get()
             k, lasts_s = next(times[worker.name])
             yield worker.performs(job, lasts_s, k, station="counter", task="serve")
@@ -177,6 +178,7 @@ def rework(floor: Floor) -> None:
 
     def at(station, job):
         job.now("queue", station=station)
+        yield EndOfInstant(floor.env, job.number)  # of two that come at one instant, the first one made
         with servers[station].request() as server:
             yield server
             k, lasts_s = next(times[station])

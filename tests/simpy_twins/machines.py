@@ -28,7 +28,7 @@ class Machine(Subject):
 
     def __init__(self, floor: Floor, number: int, place: str, crew: simpy.Resource):
         super().__init__(floor, station=f"m{number}", task=f"m{number}: jam")
-        self.name, self.task = f"m{number}", f"t{number}"
+        self.number, self.name, self.task = number, f"m{number}", f"t{number}"
         self.server, self.worker = simpy.Resource(floor.env, 1), Worker(floor, f"w{number}", place)
         self.times = floor.times(uniform(20.0, 60.0), "duration", self.task, self.worker.name)
         self.up, self.at_work = floor.env.event().succeed(), None
@@ -44,6 +44,7 @@ class Machine(Subject):
             if self.at_work is not None:
                 self.at_work.interrupt()
             self.now("down", k=k, cause="breakdown")
+            yield EndOfInstant(self.env, self.number)  # of two that break down at once, the first is seen to first
             with crew.request() as someone:
                 yield someone
                 self.now("repair", k=k, cause="breakdown")
@@ -177,13 +178,13 @@ def transporter(floor: Floor) -> None:
     packs = floor.times(exponential(15.0), "automatic", "pack", "packer")
     truck = Subject(floor, k=0)
 
-    def takes(seconds, place_from, place_to, cause=""):
+    def spends(seconds, place_from, place_to, cause=""):
         truck.now("transport", place_from=place_from, place_to=place_to, cause=cause)
         yield env.timeout(seconds)
         truck.close(env.now)
 
     def drives(place, to, cause=""):
-        yield from takes(drive_s[place][to], place, to, cause)
+        yield from spends(drive_s[place][to], place, to, cause)
 
     def life():
         place = "dock"
@@ -192,17 +193,18 @@ def transporter(floor: Floor) -> None:
             yield from drives(place, "a", "pickup")
             aboard = []
             while call is not None:
-                yield from takes(3.0, "a", "a")
+                yield from spends(3.0, "a", "a")
                 loaded, _ = call
                 loaded.succeed()
                 aboard.append(call)
-                yield EndOfInstant(env)
+                yield EndOfInstant(env)  # all who call at this instant have called
                 call = (yield calls.get()) if calls.items and len(aboard) < 2 else None
             yield from drives("a", "b")
             for _, unloaded in aboard:
-                yield from takes(2.0, "b", "b")
+                yield from spends(2.0, "b", "b")
                 unloaded.succeed()
             place = "b"
+            yield EndOfInstant(env)
             if not calls.items:
                 yield from drives("b", "dock", "idle")
                 place = "dock"
@@ -216,6 +218,7 @@ def transporter(floor: Floor) -> None:
             yield job.works(lasts_s, k, station="saw", task="cut")
             job.now("held", station="saw", cause="pickup")
             loaded, unloaded = env.event(), env.event()
+            yield EndOfInstant(env, n)
             calls.put((loaded, unloaded))
             yield loaded
         job.now("transport", station="packer")
@@ -251,12 +254,14 @@ def preemption(floor: Floor) -> None:
     env, saw = floor.env, simpy.PreemptiveResource(floor.env, 1)
     times = floor.times(uniform(10.0, 40.0), "automatic", "cut", "saw")
 
-    def part(number, product, rank):
-        job = Job(floor, number, product)
+    def part(n, product, rank):
+        job = Job(floor, 3 * n + 2 - rank, product)
         k, rest_s, done = None, 0.0, 0.0
         job.now("queue", station="saw")
+        yield EndOfInstant(env, rank)
         while done < 1.0:
-            with saw.request(priority=rank - (k is not None) / 2, preempt=k is None) as server:
+            before_equals = 0.0 if k is None else 0.5
+            with saw.request(priority=rank - before_equals, preempt=k is None) as server:
                 yield server
                 if k is None:
                     k, rest_s = next(times)
@@ -268,9 +273,6 @@ def preemption(floor: Floor) -> None:
                     job.now("queue", station="saw", cause="preempted")
         job.leaves()
 
-    for source, (product, every_s) in enumerate((("low", 80.0), ("mid", 100.0), ("top", 120.0))):
-        floor.poisson(
-            every_s,
-            lambda n, source=source, product=product: part(3 * n + source, product, 2 - source),
-            f"s{source + 1}",
-        )
+    floor.poisson(80.0, part, "s1", product="low", rank=2)
+    floor.poisson(100.0, part, "s2", product="mid", rank=1)
+    floor.poisson(120.0, part, "s3", product="top", rank=0)

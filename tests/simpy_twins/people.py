@@ -1,9 +1,19 @@
 """Twins of floors where people decide: shifts, teams, skills, ways."""
 
 from itertools import count
+from typing import NamedTuple
 
 import simpy
 from simpy_twins.floor import EndOfInstant, Floor, Job, Worker, exponential, on_grid, uniform
+
+
+class Call(NamedTuple):
+    """A job on the server of a station that waits for a worker, and the event that ends its wait."""
+
+    job: Job
+    station: str
+    answer: simpy.Event
+
 
 SHIFTS = """
 opsim: 1
@@ -35,6 +45,7 @@ def shifts(floor: Floor) -> None:
             worker.waits()
             there.put(worker)
             yield env.timeout(SHIFT_S)
+            yield EndOfInstant(env, 0)  # what is done at this instant is done
             if worker in there.items:
                 there.items.remove(worker)
             else:
@@ -47,6 +58,7 @@ def shifts(floor: Floor) -> None:
             yield server
             while done < 1.0:
                 job.now("held", station="bench", cause="worker")
+                yield EndOfInstant(env)  # who has to go has gone
                 worker = yield there.get()
                 at_work[worker.name] = env.active_process
                 k, whole_s = next(times[worker.name])
@@ -125,13 +137,15 @@ def team(floor: Floor) -> None:
         with pack.request() as server:
             yield server
             job.now("held", station="s2", cause="worker")
+            yield EndOfInstant(env)  # who calls both at this instant comes first
             with w2_free.request(priority=1) as alone:
                 yield alone
                 yield from goes_to("b", station="s2", **job.who)
                 k, lasts_s = next(times["pack", w2])
                 yield w2.performs(job, lasts_s, k, station="s2", task="pack")
                 w2.waits()
-        job.leaves()
+                job.leaves()
+                yield EndOfInstant(env)  # and so he does when w2 comes free
 
     floor.poisson(60.0, part)
 
@@ -152,20 +166,28 @@ allocation: {rule: oldest_job}
 
 def skills(floor: Floor) -> None:
     """Ana can do both, Ben one of them and better: the oldest call first, and of who is free the better one goes."""
-    env, free = floor.env, simpy.FilterStore(floor.env)
+    env, free, calls = floor.env, [], []
     servers = {station: simpy.Resource(env, 2) for station in ("s1", "s2")}
     tasks = {"s1": ("drill", exponential(15.0)), "s2": ("glue", exponential(10.0))}
     rating = {"ana": {"s1": 1.0, "s2": 0.7}, "ben": {"s2": 1.0}}
     times = {}
     for name, stations in rating.items():
-        free.put(Worker(floor, name, "hall"))
+        free.append(Worker(floor, name, "hall"))
         for station, of in stations.items():
             task, draw = tasks[station]
             times[name, station] = floor.times(draw, "duration", task, name, rating=of)
 
-    def best(station):
-        able = [worker for worker in free.items if station in rating[worker.name]]
-        return max(able, key=lambda worker: rating[worker.name][station], default=None)
+    def key(pair):
+        call, worker = pair
+        return call.job.since_s, -rating[worker.name][call.station], call.station, call.job.number
+
+    def send():
+        yield EndOfInstant(env)
+        while pairs := [(call, worker) for call in calls for worker in free if call.station in rating[worker.name]]:
+            call, worker = min(pairs, key=key)
+            calls.remove(call)
+            free.remove(worker)
+            call.answer.succeed(worker)
 
     def part(n):
         made = "a" if floor.chance(n, "mix", "release") < 0.4 else "b"
@@ -174,12 +196,15 @@ def skills(floor: Floor) -> None:
         with servers[station].request() as server:
             yield server
             job.now("held", station=station, cause="worker")
-            worker = yield free.get(lambda one: one is best(station))
+            calls.append(Call(job, station, env.event()))
+            env.process(send())
+            worker = yield calls[-1].answer
             k, lasts_s = next(times[worker.name, station])
             yield worker.performs(job, lasts_s, k, station=station, task=tasks[station][0])
             worker.waits()
-            free.put(worker)
+            free.append(worker)
         job.leaves()
+        env.process(send())
 
     floor.poisson(9.0, part)
 
@@ -211,7 +236,7 @@ def walks(floor: Floor) -> None:
         return (abs(x - u) + abs(y - v)) / 1.2
 
     def nearest(call):
-        return call is min(calls.items, key=lambda one: (walk_s(places[one[1]]), one[0].since_s))
+        return call is min(calls.items, key=lambda one: (walk_s(places[one.station]), one.job.since_s))
 
     def part(n):
         drawn = floor.chance(n, "mix", "release")
@@ -222,7 +247,7 @@ def walks(floor: Floor) -> None:
             yield server
             job.now("held", station=station, cause="worker")
             done = env.event()
-            calls.put((job, station, done))
+            calls.put(Call(job, station, done))
             yield done
         job.leaves()
 
