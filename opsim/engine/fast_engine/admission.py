@@ -5,9 +5,8 @@ from __future__ import annotations
 from opsim.engine.fast_engine.machine import NOTHING, ask_3, here, inlined, step, tell_2
 from opsim.engine.fast_engine.material import create, depart_for, leave_floor
 from opsim.engine.fast_engine.parts.claims import is_before, take_claim
-from opsim.engine.fast_engine.parts.clock import INF
 from opsim.engine.fast_engine.parts.gates import be_still, has_room, keeps_place, next_claim
-from opsim.engine.fast_engine.parts.keys import is_better, keep_best, put
+from opsim.engine.fast_engine.parts.keys import begin_key, is_better, keep_best, put
 from opsim.engine.fast_engine.parts.records import Source
 from opsim.engine.fast_engine.parts.state import Floor, Gate, Job, Station
 from opsim.engine.fast_engine.parts.ways import first_step, product_of
@@ -140,19 +139,19 @@ def _keep_place(floor: Floor, job: Job, gate: Gate) -> None:
 def _chosen(floor: Floor, gate: Gate, job: Job) -> Station:
     """Which of several stations with room a job takes: by the gate's own rule, or where fewest jobs a server are."""
     found = gate.stations[0]
-    floor.best_key[0] = INF
+    is_first = True
     for i in range(gate.n_stations):
         station = gate.stations[i]
         if station.n_inside < station.capacity or (station is job.station and keeps_place(job)):
-            floor.key_n = 0
+            begin_key(floor)
             if gate.choose:
                 ask_3(gate.choose.line, floor, gate.choose.subject, station, job)
             else:
                 key = _shortest_queue(float(station.n_inside), float(station.servers), float(station.rank))
                 put(floor, key[0])
                 put(floor, key[1])
-            if floor.best_key[0] == INF or is_better(floor):
-                found = station
+            if is_first or is_better(floor):
+                found, is_first = station, False
                 keep_best(floor)
     return found
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import drop_at, here, inlined, step, tell_2
-from opsim.engine.fast_engine.parts.bits import clear_bit, lowest_bit, may_serve
+from opsim.engine.fast_engine.parts.bits import clear_bit, may_serve
 from opsim.engine.fast_engine.parts.claims import take_claim
+from opsim.engine.fast_engine.parts.clock import lowest_bit
 from opsim.engine.fast_engine.parts.keys import is_better, keep_best, pair_key, pair_numbers
 from opsim.engine.fast_engine.parts.rounds import on_round
 from opsim.engine.fast_engine.parts.rows import log_worker

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import step
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.performing import begin, drawn_run_s
 from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
+from opsim.engine.fast_engine.parts.stretches import stretch
 
 
 @step

@@ -19,12 +19,11 @@ from opsim.engine.fast_engine.machine import (
     push,
     step,
 )
-from opsim.engine.fast_engine.machine.memory import take_bytes
-from opsim.engine.fast_engine.machine.structs import array_at
 from opsim.engine.fast_engine.material import ask_after
 from opsim.engine.fast_engine.parts.clock import INF
 from opsim.engine.fast_engine.parts.events import alarm, stir
 from opsim.engine.fast_engine.parts.ovens import Oven
+from opsim.engine.fast_engine.parts.queue_keys import comes_before, keep_key
 from opsim.engine.fast_engine.parts.records import Event, Seat
 from opsim.engine.fast_engine.parts.rows import job_now
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station
@@ -34,10 +33,8 @@ from opsim.log import BATCH, HELD, QUEUE
 
 ORDER = 0
 """Among what is asked when an operation is done."""
-KEY = 6
-"""Numbers in the key of a queue at most, and how many these are."""
 _batch_begins = inlined(batch.batch_begins)
-_as_oven, _as_floats, _new_seat = cast(Oven), array_at("float"), fresh(Seat)
+_as_oven, _new_seat = cast(Oven), fresh(Seat)
 
 
 @step
@@ -126,31 +123,10 @@ def _line_up(floor: Floor, oven: Oven) -> None:
         at = len(line)
         if station.order:
             ask_2(station.order.line, floor, station, job)
-            _keep_key(floor, job)
-            while at > 0 and _is_before(job, line[at - 1]):
+            keep_key(floor, job)
+            while at > 0 and comes_before(job, line[at - 1]):
                 at -= 1
         insert(floor, line, at, job)
-
-
-@inlined
-def _keep_key(floor: Floor, job: Job) -> None:
-    """The key of the job is the one that was put just now."""
-    block = job.block
-    if not block.queue_key:
-        block.queue_key = _as_floats(take_bytes(floor.memory, 8 * KEY))
-    block.queue_key[KEY - 1] = float(floor.key_n)
-    for i in range(floor.key_n):
-        block.queue_key[i] = floor.key[i]
-
-
-@inlined
-def _is_before(one: Job, other: Job) -> bool:
-    """Whether one job of the queue is served before another, by their keys."""
-    key, other_key = one.block.queue_key, other.block.queue_key
-    for i in range(int(key[KEY - 1])):
-        if key[i] != other_key[i]:
-            return key[i] < other_key[i]
-    return False
 
 
 @step

@@ -53,6 +53,18 @@ class Bodies:
         self._orders.clear()
         self._burdens = Burdens(self.plan, self._workforce or 0)
 
+    def heaviness_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.heaviness[worker].ctypes.data)
+
+    def rates_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.rates[worker].ctypes.data)
+
+    def courses_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.courses[worker].ctypes.data)
+
     def asks(self, answer: Callable[[int, int], None]) -> int:
         """The address of a function of two numbers that the engine can call."""
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from math import nan
 from typing import Any
 
-from opsim.engine.fast_engine import blocks, columns, completion, material, release, settle
-from opsim.engine.fast_engine.limits import refuse_too_many
+from opsim.engine.fast_engine import blocks, completion, loop, material, release, settle
 from opsim.engine.fast_engine.machine import Arena, Handle, line_of, step_of
 from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.parts import structs_of_blocks
-from opsim.engine.fast_engine.parts.keys import ALLOCATION, MOST
+from opsim.engine.fast_engine.parts.keys import have_room, use_rule
 from opsim.engine.fast_engine.parts.state import FIRST_ROTATION
 from opsim.engine.fast_engine.release import BY_FLOOR, BY_ORDER, BY_TIME
 from opsim.engine.rules.duty import INTERRUPTION_RULES
@@ -21,7 +20,7 @@ from opsim.plan.release import POISSON, RENEWAL, SATURATED, SCHEDULE
 
 WHEN_IDLE = ("stay", "home", "patrol")
 ALWAYS = (
-    *(settle.run_on, settle.start, settle.close, settle.report, columns.flush_rows),
+    *(settle.start, settle.close, settle.report),
     *(completion.stretch_done, completion.automatic_done, material.operation_done, release.arrived, release.ordered),
 )
 """Steps that every floor needs, by way of its lines."""
@@ -34,7 +33,6 @@ class Build:
     """
 
     def __init__(self, plan: Plan):
-        refuse_too_many(plan)
         self.plan, self.arena = plan, Arena()
         self.steps: dict[int, Step] = {}
         self.floor = self.arena.new("Floor")
@@ -55,8 +53,9 @@ class Build:
         self._put("Source", "sources", self.sources)
         self._put("Worker", "workers", self.workers)
         self._put("Gate", "gates", list(self.gates.values()))
-        self.floor.saturated.fill(source for source in self.sources if plan.sources[source.rank].kind == SATURATED)
-        self.floor.free.fill(self.workers)
+        self.floor.saturated.extend(source for source in self.sources if plan.sources[source.rank].kind == SATURATED)
+        self.floor.free.extend(self.workers)
+        loop.prepare(self)
         for call in ALWAYS:
             self.line(call)
         blocks.install_all(self)
@@ -114,8 +113,9 @@ class Build:
         floor.distance_m = self.floats(metres for row in plan.distance_m for metres in row)
         floor.n_words = -(-len(plan.stations) // 64)
         floor.calls = self.ints([0] * floor.n_words)
-        floor.key, floor.best_key = self.floats([0.0] * MOST), self.floats([0.0] * MOST)
-        floor.rule, floor.idle = ALLOCATION.index(plan.rule), WHEN_IDLE.index(plan.idle)
+        have_room(self)
+        use_rule(floor, plan.rule)
+        floor.idle = WHEN_IDLE.index(plan.idle)
         floor.serves_one = plan.serve == "one"
         floor.held_when_blocked = plan.when_blocked == "held"
         floor.losing = any(source.when_full == "lose" for source in plan.sources)
@@ -124,7 +124,6 @@ class Build:
         floor.start_s = plan.start_s
         floor.stretch_line, floor.automatic_line = line_of(completion.stretch_done), line_of(completion.automatic_done)
         floor.operation_line, floor.report_line = line_of(material.operation_done), line_of(settle.report)
-        floor.flush_line = line_of(columns.flush_rows)
 
     def _outside(self) -> Handle:
         made = self.arena.new("Station")

@@ -69,7 +69,7 @@ def install(build: Any) -> None:
         needs = {want: found for want in wants if (found := _needed(plan.cards, made, want))}
         if needs:
             guard_of(build, gate, needs, wants)
-            for loop in {loop.address: loop for found in needs.values() for loop in found}.values():
+            for loop in {loop: None for found in needs.values() for loop in found}:
                 loop.gates.append(gate)
     loops = build.arena.new("Loops")
     loops.n, loops.loops = len(made), build.arena.array("Loop", made)

@@ -23,10 +23,10 @@ from opsim.engine.fast_engine.machine import (
     tell_1,
 )
 from opsim.engine.fast_engine.parts.claims import claim_at, give_up_claims
-from opsim.engine.fast_engine.parts.events import wake
 from opsim.engine.fast_engine.parts.grips import Crib, Grip, JobTools, Want, grip_at, is_free, is_known, tools_of
 from opsim.engine.fast_engine.parts.rows import job_now
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station
+from opsim.engine.fast_engine.parts.stretches import wake
 from opsim.engine.fast_engine.station import quiet
 from opsim.log import HELD, NO_TOOL
 

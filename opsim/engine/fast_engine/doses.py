@@ -24,7 +24,7 @@ def install(build: Any) -> None:
     ask_rate, ask_order = bodies.asks(bodies.answer_rate), bodies.asks(bodies.answer_order)
     for worker in build.workers:
         dose = worker.dose = build.arena.new("Dose")
-        dose.rates = bodies.rates[worker.rank].ctypes.data
+        dose.rates = bodies.rates_of(worker.rank)
         dose.ask_rate, dose.ask_order = ask_rate, ask_order
     if not build.floor.has_humans:
         hang(build)

@@ -8,7 +8,7 @@ from opsim.engine.fast_engine.failing import RESTARTS, RESUMES, SCRAPPED, fall_d
 from opsim.engine.fast_engine.machine import NOTHING, Handle, cast, clear, push, step
 from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.failing import Shop, Stop
-from opsim.engine.fast_engine.parts.luck import REPAIR, UPTIME
+from opsim.engine.fast_engine.parts.luck import REPAIR, UPTIME, planned
 from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.state import Floor
 from opsim.engine.fast_engine.parts.wear import Countdown
@@ -134,7 +134,7 @@ def _stop(build: Any, failing: Handle, rank: int, plan: BreakdownPlan | Maintena
     made = build.arena.new("Stop")
     made.rank, made.station, made.failing, made.task = rank, failing.station, failing, plan.task
     made.n, made.kind = -1, DOWN
-    made.repairs, made.over_line = _stream(build, REPAIR, rank), build.line(station_repaired)
+    made.repairs, made.over_line = planned(build, REPAIR, rank), build.line(station_repaired)
     if isinstance(plan, MaintenancePlan):
         made.cause, made.becomes, made.after_job = MAINTENANCE, RESUMES, plan.after_job
         made.next_s, made.every_s, made.due_line = plan.first_s, plan.every_s, build.line(maintenance_due)
@@ -147,18 +147,12 @@ def _stop(build: Any, failing: Handle, rank: int, plan: BreakdownPlan | Maintena
 def _count(build: Any, wear: Handle, stop: Handle, by: str) -> None:
     """What counts towards the next breakdown is on the station's meter."""
     made = build.arena.new("Cycles" if by == CYCLES else "Countdown")
-    made.stop, made.gaps = stop, _stream(build, UPTIME, stop.rank)
+    made.stop, made.gaps = stop, planned(build, UPTIME, stop.rank)
     if by == CYCLES:
         wear.cycles.append(made)
     else:
         made.line = build.line(worn_out)
         (wear.clock if by == CLOCK else wear.busy).append(made)
-
-
-def _stream(build: Any, purpose: int, rank: int) -> Handle:
-    made = build.arena.new("Stream")
-    made.id = purpose << 48 | rank << 32
-    return made
 
 
 def _open(build: Any, failing: Handle) -> None:

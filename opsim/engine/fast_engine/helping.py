@@ -8,10 +8,10 @@ from opsim.engine.fast_engine.interruption import release_team
 from opsim.engine.fast_engine.machine import clear, fresh, inlined, push, step
 from opsim.engine.fast_engine.parts.clock import on_grid
 from opsim.engine.fast_engine.parts.effects import stop, works
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.rows import log_job, progress
 from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
 from opsim.engine.fast_engine.parts.stints import Stint
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.engine.fast_engine.station import drawn_s
 from opsim.engine.rules import lines
 from opsim.log import WORK

@@ -17,13 +17,12 @@ from opsim.engine.fast_engine.machine import (
 from opsim.engine.fast_engine.parts.clock import on_grid, on_grid_from_0
 from opsim.engine.fast_engine.parts.doings import Doing
 from opsim.engine.fast_engine.parts.effects import human_drawn, stops
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.grips import Want
-from opsim.engine.fast_engine.parts.luck import HOLD, HOLD_RUN, more_numbers, stream_of
+from opsim.engine.fast_engine.parts.luck import HOLD, HOLD_RUN, next_held, stream_of
 from opsim.engine.fast_engine.parts.performing import begin
-from opsim.engine.fast_engine.parts.records import Stream
 from opsim.engine.fast_engine.parts.rows import progress
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.engine.fast_engine.station import stand_still
 from opsim.engine.fast_engine.worker import set_free, wait_by
 from opsim.log import CLOSED, NO_TOOL, WAIT, WORK
@@ -225,7 +224,7 @@ def _draw(floor: Floor, job: Job, worker: Worker) -> None:
         at = station.rank * n_tasks + task
         if not floor.holds.of_stations[at]:
             floor.holds.of_stations[at] = stream_of(floor, HOLD_RUN, station.rank, task, 0)
-        doing.drawn_s = _next_held(floor, floor.holds.of_stations[at])
+        doing.drawn_s = next_held(floor, floor.holds.of_stations[at])
         doing.k = station.next_k[task]
         station.next_k[task] = doing.k + 1
         worker.pace_shift = 0.0
@@ -233,23 +232,12 @@ def _draw(floor: Floor, job: Job, worker: Worker) -> None:
         at = worker.rank * n_tasks + task
         if not floor.holds.of_workers[at]:
             floor.holds.of_workers[at] = stream_of(floor, HOLD, worker.rank, task, 0)
-        doing.drawn_s = _next_held(floor, floor.holds.of_workers[at])
+        doing.drawn_s = next_held(floor, floor.holds.of_workers[at])
         doing.k = worker.next_k[task]
         worker.next_k[task] = doing.k + 1
     doing.drawn_start, doing.drawn_end = floor.holds.start, floor.holds.end
     job.block.doing = doing
     _time(floor, job, doing)
-
-
-@inlined
-def _next_held(floor: Floor, stream: Stream) -> float:
-    """The next duration of a stream; the shares between which the tool is held are in ``floor.holds``."""
-    if stream.next == stream.end:
-        more_numbers(floor, stream, stream.next)
-    at = stream.next - stream.first
-    stream.next += 1
-    floor.holds.start, floor.holds.end = stream.data_2[at], stream.data_3[at]
-    return stream.data[at]
 
 
 @inlined

@@ -7,7 +7,7 @@ from typing import Any
 
 from opsim.engine.fast_engine.human_memory import begins
 from opsim.engine.fast_engine.machine import step
-from opsim.engine.fast_engine.parts.curves import CURVES, multiplier_of
+from opsim.engine.fast_engine.parts.curves import multiplier_of
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 from opsim.human.memory import experience_of, first_times
 
@@ -17,7 +17,6 @@ def install(build: Any, effects: Any) -> None:
     plan, n_tasks = build.plan.human, len(build.tasks)
     if plan.learning is None:
         return
-    effects.learning.kind = CURVES.index(type(plan.learning))
     for worker in build.workers:
         worker.human.units = build.floats(experience_of(build.plan, worker.rank) or [0.0] * n_tasks)
     if plan.forgetting is None:

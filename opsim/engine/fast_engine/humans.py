@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from math import exp
 from typing import Any
 
@@ -15,12 +14,11 @@ from opsim.engine.fast_engine import (
     human_rest,
 )
 from opsim.engine.fast_engine.machine import step, tell_2
-from opsim.engine.fast_engine.machine.layouts import LAYOUTS
 from opsim.engine.fast_engine.parts.doses import dose_so_far, rate_of
 from opsim.engine.fast_engine.parts.memories import memory_stops, memory_works
+from opsim.engine.fast_engine.parts.models import model_of, refuse_strangers
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 from opsim.engine.fast_engine.parts.tiring import note_that_he_works, stops_tiring, tires
-from opsim.human.catalogue import catalogue
 from opsim.plan.human import EFFECTS
 
 INSTALL = (
@@ -83,7 +81,7 @@ def install(build: Any) -> None:
     plan = build.plan.human
     if not plan.any:
         return
-    _refuse_strangers(plan)
+    refuse_strangers(plan)
     effects = hang(build)
     effects.on_posture = plan.acts_on == "posture"
     for effect in EFFECTS:
@@ -91,15 +89,6 @@ def install(build: Any) -> None:
             setattr(effects, effect, model_of(build, getattr(plan, effect)))
     for install_effect in INSTALL:
         install_effect(build, effects)
-
-
-def _refuse_strangers(plan: Any) -> None:
-    """NotImplementedError names models of which no formula is compiled here."""
-    known = {one.cls for one in catalogue()}
-    classes = [type(model) for model in (getattr(plan, effect) for effect in EFFECTS) if model is not None]
-    names = [f"the human effect {cls.__module__}.{cls.__qualname__}" for cls in classes if cls not in known]
-    if names:
-        raise NotImplementedError(", ".join(names))
 
 
 def hang(build: Any) -> Any:
@@ -111,12 +100,3 @@ def hang(build: Any) -> Any:
     floor.has_humans, floor.drawn_line = 1, build.line(drawn)
     floor.works_line, floor.stops_line = build.line(works), build.line(stops)
     return effects
-
-
-def model_of(build: Any, model: Any) -> Any:
-    """Its parameters where compiled methods find them."""
-    made = build.arena.new("Model")
-    for one in fields(model):
-        if one.name in LAYOUTS["Model"].fields:
-            setattr(made, one.name, getattr(model, one.name))
-    return made

@@ -8,12 +8,13 @@ from opsim.clock import STEP_S
 from opsim.engine.fast_engine.machine import Handle, cast, drop, drop_at, inlined, line_of, push, step
 from opsim.engine.fast_engine.parts.clock import on_grid
 from opsim.engine.fast_engine.parts.effects import stop
-from opsim.engine.fast_engine.parts.events import alarm, stretch
+from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.line_clocks import job_m
 from opsim.engine.fast_engine.parts.lines import Along, Line
 from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_worker
 from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.engine.fast_engine.worker import set_free
 from opsim.engine.rules import COMPLETION, lines
 from opsim.engine.simpy_engine.line_walks import ORDER

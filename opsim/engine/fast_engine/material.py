@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import (
     NOTHING,
-    address_of,
     ask_2,
     drop,
     fresh,
     give_back,
+    give_ints_back,
     give_items_back,
     here,
     inlined,
@@ -18,7 +18,6 @@ from opsim.engine.fast_engine.machine import (
     tell_2,
     tell_3,
 )
-from opsim.engine.fast_engine.machine.memory import give_bytes_back
 from opsim.engine.fast_engine.parts.claims import give_up_claims, put_claim
 from opsim.engine.fast_engine.parts.events import stir, stir_gate
 from opsim.engine.fast_engine.parts.gates import goes_in_next, want_in
@@ -277,7 +276,7 @@ def leave_floor(floor: Floor, job: Job, kind: int, cause: int, station: int, oth
 def forget_job(floor: Floor, job: Job) -> None:
     """Nobody refers to the job any more: its memory is free."""
     if job.visits:
-        give_bytes_back(floor.memory, address_of(job.visits), 16 * ((job.plan.n_steps + 1) >> 1))
+        give_ints_back(floor, job.visits, job.plan.n_steps)
     give_items_back(floor, job.passes)
     give_items_back(floor, job.reworks)
     _forget_job(floor, job)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import Array, fresh, inlined, push, step
-from opsim.engine.fast_engine.machine.memory import take_bytes
-from opsim.engine.fast_engine.machine.structs import array_at
+from opsim.engine.fast_engine.machine import Array, fresh, inlined, new_ints, push, step
 from opsim.engine.fast_engine.parts.bits import has_bit, set_bit
 from opsim.engine.fast_engine.parts.people import Known, Needs
 from opsim.engine.fast_engine.parts.records import Product
@@ -15,7 +13,7 @@ EMPTY, ALL_LAST, OTHERS = range(3)
 """What is inside a station: nothing, only runs that last, or something else as well."""
 MOST_KNOWN = 64
 """Answers that are kept."""
-_new_known, _as_ints = fresh(Known), array_at("int")
+_new_known = fresh(Known)
 
 
 @inlined
@@ -58,7 +56,7 @@ def find_reached(floor: Floor, needs: Needs) -> None:
     if len(needs.known) < MOST_KNOWN:
         known = _new_known(floor)
         known.wanted, known.passed = _copy(floor, needs.lacking), _copy(floor, needs.passed)
-        known.comes = _as_ints(take_bytes(floor.memory, 16 * ((needs.n_steps + 1) >> 1)))
+        known.comes = new_ints(floor, needs.n_steps)
         push(floor, needs.known, known)
         needs.comes = known.comes
     else:
@@ -104,7 +102,7 @@ def _are_same(floor: Floor, one: Array[int], other: Array[int]) -> bool:
 
 @inlined
 def _copy(floor: Floor, bits: Array[int]) -> Array[int]:
-    made = _as_ints(take_bytes(floor.memory, 16 * ((floor.n_words + 1) >> 1)))
+    made = new_ints(floor, floor.n_words)
     for word in range(floor.n_words):
         made[word] = bits[word]
     return made

@@ -4,32 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.fast_engine.machine import Handle, address_of, cast, clear, inlined, line_of, pop_first, push, step
-from opsim.engine.fast_engine.machine.memory import words_at
+from opsim.engine.fast_engine.machine import Handle, cast, clear, inlined, line_of, part_of, pop_first, push, step
 from opsim.engine.fast_engine.parts.bits import leave_all, leave_those
 from opsim.engine.fast_engine.parts.doses import dose_so_far, heaviest_first
 from opsim.engine.fast_engine.parts.events import alarm
 from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rotating import Counted, Rotation
+from opsim.engine.fast_engine.parts.rotation_rules import WIDTH, set_key, use_rule
 from opsim.engine.fast_engine.parts.state import FIRST_ROTATION, Floor, Job, Worker
 from opsim.engine.fast_engine.posts import one_each
-from opsim.engine.rules import CALENDAR, allocation, rotation
-from opsim.engine.rules.rotation import ROTATION_RULES
+from opsim.engine.rules import CALENDAR
 from opsim.engine.simpy_engine.rotations import COUNT
 from opsim.log import ABSENT, OFF
-from opsim.plan.evenness import LEAST_EXPOSED
 from opsim.posts import turns_away
 
-RULES = tuple(ROTATION_RULES)
-"""Rules of rotation by their numbers."""
-IN_TURN, LEAST_TIME, BY_DOSE = range(3)
-WIDTH = 3
-"""Numbers in a key."""
 FIRST = -1000
 """Each rotation looks who is there before anybody is sent."""
-_in_turn, _least_time = inlined(rotation.in_turn), inlined(rotation.least_time)
-_least_exposed = inlined(rotation.least_exposed)
-_less_gone_through, _turns_away = inlined(allocation.less_gone_through), inlined(turns_away)
+_turns_away = inlined(turns_away)
 _as_rotation = cast(Rotation)
 
 
@@ -88,7 +79,7 @@ def _give_out(floor: Floor, rotation: Rotation) -> None:
             if post < 0:
                 leave_all(floor, rotation.members[member], rotation.limit)
             else:
-                leaves = words_at(address_of(rotation.leaves) + 8 * post * floor.n_words)
+                leaves = part_of(rotation.leaves, post * floor.n_words)
                 leave_those(floor, rotation.members[member], rotation.limit, leaves)
             rotation.at[member] = post
 
@@ -141,7 +132,7 @@ def _can_be_somewhere(rotation: Rotation, member: int) -> bool:
 @inlined
 def _see_doses(floor: Floor, rotation: Rotation) -> None:
     """The heaviest post comes first, where that is the rule; and how much each body has gone through so far."""
-    if rotation.rule != BY_DOSE:
+    if not rotation.by_dose:
         return
     if not rotation.is_known:
         heaviest_first(floor, rotation.members[0], rotation.rank, rotation.heaviest)
@@ -164,16 +155,7 @@ def _set_keys(floor: Floor, rotation: Rotation, first: int) -> None:
         for i in range(len(posts.left)):
             member = posts.left[i]
             away = _turns_away(rotation.position[member], rotation.turn, first + post, n_slots)
-            at, pair = (number * rotation.n_members + member) * WIDTH, member * rotation.n_posts + post
-            time_s, here_s = rotation.time_s[pair], rotation.here_s[pair]
-            if rotation.rule == LEAST_TIME:
-                key = _least_time(float(away), time_s, here_s, float(member))
-                posts.keys[at], posts.keys[at + 1], posts.keys[at + 2] = key
-            elif rotation.rule == IN_TURN:
-                posts.keys[at], posts.keys[at + 1] = _in_turn(float(away), time_s, here_s, float(member))
-            else:
-                posts.keys[at] = _less_gone_through(rotation.dose[member])[0]
-                posts.keys[at + 1], posts.keys[at + 2] = _least_exposed(float(away), time_s, here_s, float(member))
+            set_key(rotation, number, member, post, away)
 
 
 @step
@@ -220,7 +202,8 @@ def install(build: Any) -> None:
 
 def _rotation(build: Any, plan: Any, rank: int) -> Handle:
     n_posts, n_members, made = len(plan.posts), len(plan.workers), build.arena.new("Rotation")
-    made.rank, made.limit, made.rule = rank, FIRST_ROTATION + rank, RULES.index(plan.rule)
+    made.rank, made.limit = rank, FIRST_ROTATION + rank
+    use_rule(made, plan.rule)
     made.every_s, made.after = plan.every_s or 0.0, plan.after or 0
     made.n_members, made.n_posts = n_members, n_posts
     made.members = build.arena.array("Worker", [build.workers[worker] for worker in plan.workers])
@@ -258,6 +241,3 @@ def _count_at(build: Any, station: Handle, plan: Any, rotation: Handle) -> None:
         made = build.arena.new("Counted")
         made.rotation, made.n, made.posts = rotation, len(posts), build.ints(posts)
         build.hang(station.afters, count, made, COUNT)
-
-
-assert (RULES[IN_TURN], RULES[LEAST_TIME], RULES[BY_DOSE]) == ("in_turn", "least_time", LEAST_EXPOSED), RULES

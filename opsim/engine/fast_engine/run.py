@@ -8,11 +8,12 @@ from threading import local
 from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
-from opsim.engine.fast_engine.limits import refuse_plug_ins
+from opsim.engine.fast_engine.limits import refuse_plug_ins, refuse_too_many
+from opsim.engine.fast_engine.loop import DONE, FAILED
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.room import Columns
-from opsim.engine.fast_engine.settle import DONE, FAILED, MOST_ROUNDS
+from opsim.engine.fast_engine.settle import MOST_ROUNDS
 from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
@@ -27,6 +28,7 @@ class Machine:
 
     def __init__(self, plan: Plan, told: Callable[[int, int], None] | None = None):
         refuse_plug_ins(plan)
+        refuse_too_many(plan)
         self.plan, self.build = plan, Build(plan)
         self.floor = self.build.floor
         complete(needed(self.build.steps.values()), told)

@@ -1,4 +1,4 @@
-"""The loop of a run: events in their order, and one settle step an instant that does everything else."""
+"""What happens to events, and one settle step an instant that does everything else."""
 
 from __future__ import annotations
 
@@ -6,38 +6,21 @@ from opsim.engine.fast_engine.admission import admit, release_saturated, turn_aw
 from opsim.engine.fast_engine.allocation import send_workers
 from opsim.engine.fast_engine.columns import flush_all
 from opsim.engine.fast_engine.machine import ask_1, clear, here, inlined, push, step, tell_1
-from opsim.engine.fast_engine.parts.events import NOBODYS, wake
-from opsim.engine.fast_engine.parts.heap import forget_event, pop_event
+from opsim.engine.fast_engine.parts.heap import forget_event, is_last_of_instant
 from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import log_job, log_worker
 from opsim.engine.fast_engine.parts.state import Floor
+from opsim.engine.fast_engine.parts.stretches import NOBODYS, wake
 from opsim.engine.fast_engine.release import open_source, source_happens
 from opsim.engine.rules import ARRIVAL
 
 MOST_ROUNDS = 10_000
 ENDLESS, NO_LUCK = 1, 2
 """Why a run has to end: a loop of zero delays; numbers that could not be drawn."""
-DONE, MORE, FAILED = range(3)
 
 
 @step
-def run_on(floor: Floor, most: int) -> int:
-    """Everything that happens before the horizon, but so many events at most: DONE, MORE to come, or FAILED."""
-    for _ in range(most):
-        if floor.settle_pending and (floor.heap_n == 0 or floor.heap_time[0] > floor.env_now):
-            settle(floor)
-        elif floor.heap_n == 0 or floor.heap_time[0] >= floor.horizon_s:
-            return DONE
-        else:
-            floor.env_now = floor.heap_time[0]
-            _happens(floor, pop_event(floor))
-        if floor.error:
-            return FAILED
-    return MORE
-
-
-@step
-def _happen(floor: Floor, event: Event) -> None:
+def happen(floor: Floor, event: Event) -> None:
     """Something has come to its time: a report, where it still means something."""
     if event.line == NOBODYS or not event.alive:
         forget_event(floor, event)
@@ -58,7 +41,7 @@ def _happen(floor: Floor, event: Event) -> None:
 @step
 def report(floor: Floor, event: Event) -> None:
     """Something happened now. It is applied in settle, in the order of (kind, natural rank, job number)."""
-    if not floor.settle_pending and (floor.heap_n == 0 or floor.heap_time[0] > floor.env_now):
+    if not floor.settle_pending and is_last_of_instant(floor):
         floor.now = floor.env_now  # the instant has no other event, so this is its end already
         floor.alone = 1
         tell_1(event.line, floor, event)
@@ -149,7 +132,5 @@ def close(floor: Floor) -> None:
     flush_all(floor)
 
 
-_happens, _report, _admit, _send_workers = here(_happen), here(report), here(admit), here(send_workers)
-
-
+_report, _admit, _send_workers = here(report), here(admit), here(send_workers)
 _source_happens, _dispatch = here(source_happens), here(dispatch)

@@ -105,5 +105,5 @@ def install(build: Any) -> None:
         servers.n_classes, servers.class_of = len(plan.task), build.ints(plan.class_of)
         servers.task = build.ints(task for row in plan.task for task in row)
         servers.mean_s = build.floats(mean_s for row in plan.mean_s for mean_s in row)
-        servers.free.fill([plan.first] * station.servers)
+        servers.free.extend([plan.first] * station.servers)
         build.hang(station.stages, set_up, None, SETTING_UP_COMES)

@@ -18,13 +18,13 @@ from opsim.engine.fast_engine.parts.bits import clear_bit, has_bit, set_bit
 from opsim.engine.fast_engine.parts.claims import give_up_claims, put_claim
 from opsim.engine.fast_engine.parts.clock import on_grid
 from opsim.engine.fast_engine.parts.effects import human_drawn
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.heap import new_event, push_event
 from opsim.engine.fast_engine.parts.keys import is_better, keep_best
 from opsim.engine.fast_engine.parts.performing import begin, drawn_run_s, is_ready, own_next_s, task_of
 from opsim.engine.fast_engine.parts.records import Event
 from opsim.engine.fast_engine.parts.rows import job_now
 from opsim.engine.fast_engine.parts.state import GOES_ON, Floor, Job, Station, Worker
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.engine.fast_engine.worker import set_free
 from opsim.engine.rules import COMPLETION
 from opsim.log import HELD, NO_WORKER

@@ -20,13 +20,13 @@ from opsim.engine.fast_engine.members import all_may_stay, choose, comes_again, 
 from opsim.engine.fast_engine.parts.claims import give_up_claims, put_claim, take_claim
 from opsim.engine.fast_engine.parts.clock import on_grid
 from opsim.engine.fast_engine.parts.effects import works
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.grips import Want, grip_at, is_free
 from opsim.engine.fast_engine.parts.performing import begin, drawn_run_s, ended, task_done
 from opsim.engine.fast_engine.parts.records import Claim
 from opsim.engine.fast_engine.parts.rows import job_now, log_worker
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
 from opsim.engine.fast_engine.parts.stints import Stint
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.engine.fast_engine.station import drawn_s, perform, stand_still
 from opsim.engine.fast_engine.worker import be_busy, set_free, wait_by, walk
 from opsim.log import HELD, NO_WORKER, TEAM, WORK

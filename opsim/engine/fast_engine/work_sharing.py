@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.fast_engine.completion import operation_over
-from opsim.engine.fast_engine.machine import inlined, step
-from opsim.engine.fast_engine.machine.memory import take_bytes
-from opsim.engine.fast_engine.machine.structs import array_at
+from opsim.engine.fast_engine.machine import inlined, new_ints, step
 from opsim.engine.fast_engine.material import operation_done
 from opsim.engine.fast_engine.parts.sharing import Shared
 from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
@@ -17,7 +15,6 @@ from opsim.log import WALK
 FIRST = 0
 """Among what is asked before each task, and when an operation is done: a task is looked at when it is to be done."""
 _keeps_shared = inlined(work_sharing.keeps_shared)
-_as_ints = array_at("int")
 
 
 @inlined
@@ -37,7 +34,7 @@ def _keeps(shared: Shared) -> bool:
 def _note(floor: Floor, shared: Shared, job: Job, done: int) -> None:
     """So much of the shared work is done."""
     if not job.block.shared:
-        job.block.shared = _as_ints(take_bytes(floor.memory, 16 * ((shared.n_shares + 1) >> 1)))
+        job.block.shared = new_ints(floor, shared.n_shares)
     job.block.shared[shared.number] = 1 + done
 
 

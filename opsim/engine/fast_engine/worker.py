@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import NOTHING, drop, push, step
 from opsim.engine.fast_engine.parts.clock import on_grid
-from opsim.engine.fast_engine.parts.events import stretch
 from opsim.engine.fast_engine.parts.rows import log_worker
 from opsim.engine.fast_engine.parts.state import Floor, Job, Worker
+from opsim.engine.fast_engine.parts.stretches import stretch
 from opsim.log import IDLE, JOB_BLOCKED, SETUP, WAIT, WALK, WORK
 
 

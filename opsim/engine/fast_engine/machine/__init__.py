@@ -5,6 +5,10 @@ The engine is plain Python functions over such structs, compiled one by one. Not
 
 from opsim.engine.fast_engine.machine.arena import Arena as Arena
 from opsim.engine.fast_engine.machine.arena import Handle as Handle
+from opsim.engine.fast_engine.machine.arrays import give_ints_back as give_ints_back
+from opsim.engine.fast_engine.machine.arrays import new_floats as new_floats
+from opsim.engine.fast_engine.machine.arrays import new_ints as new_ints
+from opsim.engine.fast_engine.machine.arrays import part_of as part_of
 from opsim.engine.fast_engine.machine.compiling import inlined as inlined
 from opsim.engine.fast_engine.machine.lists import clear as clear
 from opsim.engine.fast_engine.machine.lists import drop as drop

@@ -2,24 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from llvmlite import ir
-from numba.core import types
-
 from opsim.engine.fast_engine.machine import Array, inlined
-from opsim.engine.fast_engine.machine.compiling import intrinsic
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
-
-
-@intrinsic
-def lowest_bit(_typingctx: Any, bits: Any) -> Any:
-    """The number of the lowest bit that is set; of 0: 64."""
-
-    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        return builder.cttz(args[0], ir.Constant(ir.IntType(1), 0))
-
-    return types.int64(types.int64), codegen
 
 
 @inlined

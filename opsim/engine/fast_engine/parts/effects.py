@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from opsim.engine.fast_engine.machine import inlined, tell_1, tell_2
-from opsim.engine.fast_engine.parts.events import end_stretch
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
+from opsim.engine.fast_engine.parts.stretches import end_stretch
 
 
 @inlined

@@ -32,7 +32,9 @@ class Posts:
 
 @struct
 class Rotation:
-    """See ``simpy_engine.rotations``. limit : its number among limits; rule : its number in ``ROTATION_RULES``
+    """See ``simpy_engine.rotations``. limit : its number among limits; rule : see ``rotation_rules``
+
+    by_dose : whether the rule evens doses out
 
     can : by post, then member; leaves : by post, n_words of stations as bits
     every_s : 0 where not by the clock; after : operations, 0 where they are not counted
@@ -45,6 +47,7 @@ class Rotation:
     rank: int
     limit: int
     rule: int
+    by_dose: int
     every_s: float
     after: int
     n_members: int

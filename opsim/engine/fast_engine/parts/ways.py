@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.machine import inlined, push
-from opsim.engine.fast_engine.machine.memory import take_bytes
-from opsim.engine.fast_engine.machine.structs import array_at
+from opsim.engine.fast_engine.machine import inlined, new_ints, push
 from opsim.engine.fast_engine.parts.luck import MIX, ROUTING, START, number_at, stream_of
 from opsim.engine.fast_engine.parts.records import Product, Source, Way
 from opsim.engine.fast_engine.parts.state import Floor, Job
-
-_as_ints = array_at("int")
 
 
 @inlined
@@ -41,7 +37,7 @@ def step_after(floor: Floor, job: Job) -> int:
     if way.n == 1:
         return way.to[0]
     if not job.visits:
-        job.visits = _as_ints(take_bytes(floor.memory, 16 * ((job.plan.n_steps + 1) >> 1)))
+        job.visits = new_ints(floor, job.plan.n_steps)
     visit = job.visits[job.step]
     job.visits[job.step] = visit + 1
     which = visit * floor.n_sources + job.source
