@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from threading import local
 
+from opsim.engine.endless import endless_instant
 from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
@@ -13,8 +14,6 @@ from opsim.engine.fast_engine.loop import DONE, FAILED
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.room import Columns
-from opsim.engine.fast_engine.settle import MOST_ROUNDS
-from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
@@ -63,7 +62,7 @@ class Machine:
             waiting.handle()
         self._raise_what_failed()
         if state == FAILED:
-            self._refuse()
+            raise endless_instant(self.plan, self.floor)
         close_floor(at)
         self._raise_what_failed()
         return EventLog(replication, self.plan.horizon_s, self.columns.end(), self._names.copy())
@@ -71,15 +70,6 @@ class Machine:
     def _raise_what_failed(self) -> None:
         if self.numbers.failed is not None:
             raise self.numbers.failed
-
-    def _refuse(self) -> None:
-        stations = {station for gate in self.floor.stirred for station in self._stations_of(gate)}
-        names = ", ".join(sorted(self.plan.stations[station].name for station in stations))
-        where = f"t = {self.floor.now} s: over {MOST_ROUNDS} rounds in one instant"
-        raise EndlessInstant(f"{where}; still moving at: {names}")
-
-    def _stations_of(self, gate) -> list[int]:
-        return [gate.stations[i].rank for i in range(gate.n_stations)]
 
 
 class _Kept(local):

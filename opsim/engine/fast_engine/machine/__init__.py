@@ -24,6 +24,7 @@ from opsim.engine.fast_engine.machine.memory import call_out as call_out
 from opsim.engine.fast_engine.machine.memory import fresh as fresh
 from opsim.engine.fast_engine.machine.memory import give_back as give_back
 from opsim.engine.fast_engine.machine.memory import words_at as words_at
+from opsim.engine.fast_engine.machine.steps import Call as Call
 from opsim.engine.fast_engine.machine.steps import ask_1 as ask_1
 from opsim.engine.fast_engine.machine.steps import ask_2 as ask_2
 from opsim.engine.fast_engine.machine.steps import ask_3 as ask_3

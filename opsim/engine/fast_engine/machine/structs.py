@@ -80,7 +80,7 @@ def type_of(said: str) -> Any:
     """The compiled type that an annotation stands for."""
     if said in SCALARS:
         return SCALARS[said]
-    return types.int64 if said == "bool" else Ref(said)
+    return types.int64 if said in ("bool", "Call") else Ref(said)
 
 
 def _field_type(pointer: Pointer, name: str) -> Any:
