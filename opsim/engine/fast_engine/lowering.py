@@ -6,6 +6,7 @@ What a step may say of lists and hooks, and what becomes of it:
     xs.pop(), xs.pop(0), xs.clear()     pop_last(xs), pop_first(xs), clear(xs)
     del xs[i], x in xs                  drop_at(xs, i), has(xs, x)
     hook.line(floor, a, b)              tell_2(hook.line, floor, a, b), or ask_2 where its answer is taken
+    for x in xs                         a count that goes up to len(xs) as it is then, as Python's does
 
 All else is as it is written, and stands on the lines where it is written: errors and debuggers show these.
 """
@@ -59,10 +60,29 @@ class _Body(ast.NodeTransformer):
     """Of one step."""
 
     def __init__(self, path: str):
-        self.path = path
+        self.path, self.n_loops = path, 0
 
     def statements(self, body: list[Any]) -> list[Any]:
-        return [self.visit(node) for node in body]
+        found = (self.visit(node) for node in body)
+        return [one for node in found for one in (node if isinstance(node, list) else [node])]
+
+    def visit_For(self, node: ast.For) -> Any:
+        self.generic_visit(node)
+        if isinstance(node.iter, ast.Call):  # range
+            return node
+        if node.orelse or not isinstance(node.target, ast.Name):
+            raise self._wrong(node, "'for' takes the items of one list, each by a name, and has no 'else' in a step")
+        self.n_loops += 1
+        items, at, item = f"items__{self.n_loops}", f"at__{self.n_loops}", node.target.id
+        text = f"{items} = 0\n{at} = 0\nwhile {at} < len({items}):\n    {item} = {items}[{at}]\n    {at} += 1"
+        made: list[Any] = ast.parse(text).body
+        made[0].value = node.iter
+        for one in (made[0], made[0].targets[0], made[1], made[2], *made[2].body[:2]):
+            ast.copy_location(one, node)
+        for one in (*ast.walk(made[2].test), *(deep for inner in made[2].body[:2] for deep in ast.walk(inner))):
+            ast.copy_location(one, node)
+        made[2].body += node.body
+        return made
 
     def visit_Expr(self, node: ast.Expr) -> Any:
         if isinstance(node.value, ast.Call) and _is_line(node.value.func):
@@ -87,7 +107,9 @@ class _Body(ast.NodeTransformer):
 
     def visit_Compare(self, node: ast.Compare) -> Any:
         self.generic_visit(node)
-        if not isinstance(node.ops[0], (ast.In, ast.NotIn)) or isinstance(node.comparators[0], ast.Tuple):
+        if not any(isinstance(one, (ast.In, ast.NotIn)) for one in node.ops) or isinstance(
+            node.comparators[0], ast.Tuple
+        ):
             return node
         if len(node.ops) > 1:
             raise self._wrong(node, "'in' stands alone in a step")

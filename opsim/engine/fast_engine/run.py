@@ -85,7 +85,7 @@ MOST_KEPT = 2
 
 
 def run_plan(plan: Plan, replication: int = 0) -> EventLog:
-    """Run a Plan to its horizon (exclusive): the rows of ``simpy_engine.run_plan``, to the last bit.
+    """Run a Plan to its horizon (exclusive): the rows of ``floor.run_plan``, to the last bit.
 
     Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again. Raises
     NotImplementedError for what ``unsupported`` says.

@@ -20,13 +20,13 @@ _shortest_queue, _source_in_turn = inlined(routing.shortest_queue), inlined(rele
 @step
 def admit(floor: Floor) -> None:
     """Let jobs in as long as a claim meets room; the oldest claim first."""
-    while len(floor.stirred):
+    while floor.stirred:
         gate = _first_gate(floor)
         if not gate:
             return
         job = gate.claims[gate.next].job
         take_claim(floor, gate.claims, gate.next)
-        if not len(gate.claims):
+        if not gate.claims:
             be_still(floor, gate)
         if not job.ahead:
             _come_in(floor, job, gate)
@@ -67,8 +67,7 @@ def release_saturated(floor: Floor) -> None:
     """A saturated source makes jobs as long as the first station of the next one has room; of several in turn."""
     while True:
         able: Source = floor.no_source
-        for i in range(len(floor.saturated)):
-            source = floor.saturated[i]
+        for source in floor.saturated:
             if _has_next(floor, source) and (not able or _comes_first(source, able)):
                 able = source
         if not able:
@@ -109,8 +108,8 @@ def turn_away(floor: Floor) -> None:
 
 @inlined
 def _told_entered(floor: Floor, gate: Gate, job: Job) -> None:
-    for i in range(len(gate.entered)):
-        gate.entered[i].line(floor, gate.entered[i].subject, job)
+    for hook in gate.entered:
+        hook.line(floor, hook.subject, job)
 
 
 @step

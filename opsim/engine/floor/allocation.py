@@ -20,9 +20,9 @@ STAY, HOME, PATROL = range(3)
 def send_workers(floor: Floor) -> None:
     """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
     while True:
-        while len(floor.free) and floor.n_calling and not floor.none_fits and _serve_one(floor):
+        while floor.free and floor.n_calling and not floor.none_fits and _serve_one(floor):
             pass
-        if floor.idle == STAY or not len(floor.free):
+        if floor.idle == STAY or not floor.free:
             return
         if floor.idle == HOME:
             _go_home(floor)
@@ -91,7 +91,7 @@ def _serve_best(floor: Floor) -> bool:
                 if n_pairs == 1:
                     best, best_station = worker, station  # most often the only pair, and its key is never asked for
                     continue
-                if len(floor.prefixes):
+                if floor.prefixes:
                     if _is_best(floor, worker, station, best, best_station, n_pairs == 2):
                         best, best_station = worker, station
                     continue
@@ -120,9 +120,9 @@ def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
     log_worker(floor, worker)
     be_busy(floor, worker)
     calls = station.calling
-    if len(calls) and calls[0].job is job:
+    if calls and calls[0].job is job:
         take_claim(floor, calls, 0)
-        if not len(calls):
+        if not calls:
             clear_bit(floor.calls, station.rank)
             floor.n_calling -= 1
     else:
@@ -175,7 +175,7 @@ def _walk_on(floor: Floor) -> bool:
                 walk(floor, worker, station.place, walk_s)
                 break
             worker.place = station.place
-            if len(station.calling) and may_serve(worker, station):
+            if station.calling and may_serve(worker, station):
                 came = True
                 break
     return came

@@ -54,11 +54,11 @@ def _comes_no_more(andon: Andon, number: int) -> None:
 def send_called(floor: Floor, andon: Andon) -> bool:
     """Send who is free to the jobs that have waited longest; True where somebody goes."""
     andon.asked.clear()
-    for i in range(len(andon.waiting)):
-        andon.asked.append(andon.waiting[i].job)
+    for claim in andon.waiting:
+        andon.asked.append(claim.job)
     sent = False
-    for i in range(len(andon.asked)):
-        if _send_to(floor, andon, andon.asked[i]):
+    for one in andon.asked:
+        if _send_to(floor, andon, one):
             sent = True
     return sent
 
@@ -103,8 +103,8 @@ def _others_first(floor: Floor, andon: Andon, job: Job) -> bool:
     """Whether whoever works here all the time is free for the job, and may be sent in this instant."""
     if andon.left_s == floor.now or claim_at(job.station.calling, job) < 0:
         return False
-    for i in range(len(floor.free)):
-        if may_serve(floor.free[i], job.station):
+    for worker in floor.free:
+        if may_serve(worker, job.station):
             andon.left_s = floor.now
             return True
     return False

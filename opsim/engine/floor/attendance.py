@@ -53,7 +53,7 @@ def look(floor: Floor, people: People) -> bool:
     if people.n_asked and send_takers(floor):
         _look_at_all(floor, people)  # who was relieved at once goes, before the idle walk on or home
         changed = True
-    if len(people.left) and send_carriers(floor):
+    if people.left and send_carriers(floor):
         changed = True
     return changed
 
@@ -111,7 +111,7 @@ def pause_over(floor: Floor, event: Event) -> None:
     if one.pause is not _as_pause(event.other):
         return
     end_pause(floor, one)
-    if len(one.owed):
+    if one.owed:
         one.state = LEAVING
         _watch(floor, one)
     else:
@@ -156,7 +156,7 @@ def _set_to_work(floor: Floor, one: Presence) -> bool:
     leave_all(floor, worker, DUTY)
     if go_back(floor, worker) or not one.overtime:
         return True
-    if len(floor.stirred) or need(floor, one):
+    if floor.stirred or need(floor, one):
         return False
     leave(floor, one, True)
     return True
@@ -166,7 +166,7 @@ def _set_to_work(floor: Floor, one: Presence) -> bool:
 def _rests_for_nobody(floor: Floor, one: Presence) -> bool:
     """Who rests by need in overtime goes home instead, where nobody needs him; True where he does."""
     worker = one.worker
-    if worker.kind != BREAK or worker.cause != REST or len(floor.stirred) or need(floor, one):
+    if worker.kind != BREAK or worker.cause != REST or floor.stirred or need(floor, one):
         return False
     leave(floor, one, True)
     return True
@@ -175,7 +175,7 @@ def _rests_for_nobody(floor: Floor, one: Presence) -> bool:
 @step
 def _decide(floor: Floor, one: Presence) -> bool:
     """At the end of his shift: he stays, or has to go; which is seen when all jobs are in that come in now."""
-    if len(floor.stirred):
+    if floor.stirred:
         return False
     one.undecided = 0
     if _stays_on(need(floor, one) == 1, one.duty.overtime_s):

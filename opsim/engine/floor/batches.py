@@ -32,8 +32,7 @@ def serve(floor: Floor, station: Station) -> None:
     while station.free_servers and not station.down and _find_next(floor, oven):
         _begin(floor, oven)
     cause = BATCH if station.free_servers else 0
-    for i in range(len(station.queue)):
-        job = station.queue[i]
+    for job in station.queue:
         if job.cause != cause and job.kind == QUEUE:
             job_now(floor, job, QUEUE, cause)
 
@@ -53,8 +52,7 @@ def serve_overdue(floor: Floor, oven: Oven) -> bool:
 def _welcome(floor: Floor, oven: Oven) -> None:
     """Take note of who has come since."""
     queue = oven.station.queue
-    for i in range(len(queue)):
-        job = queue[i]
+    for job in queue:
         if job.block.oven is not oven:
             job.block.oven, job.block.oven_since_s = oven, floor.now
             if oven.most_wait_s < INF:
@@ -72,20 +70,18 @@ def waited_enough(floor: Floor, event: Event) -> None:
 def _find_next(floor: Floor, oven: Oven) -> bool:
     """Put together the jobs of the next batch in the order of the queue, of the first class that may begin."""
     _line_up(floor, oven)
-    for i in range(len(oven.classes)):
-        oven.n_of[oven.classes[i]] = 0
+    for one in oven.classes:
+        oven.n_of[one] = 0
     oven.classes.clear()
     oven.together.clear()
-    for i in range(len(oven.line)):
-        job = oven.line[i]
+    for job in oven.line:
         of, since_s = oven.class_of[job.product], job.block.oven_since_s
         if not oven.n_of[of]:
             oven.classes.append(of)
             oven.since_s[of] = since_s
         oven.n_of[of] += 1
         oven.since_s[of] = min(oven.since_s[of], since_s)
-    for i in range(len(oven.classes)):
-        of = oven.classes[i]
+    for of in oven.classes:
         if _batch_begins(oven.n_of[of], oven.size, floor.now - oven.since_s[of], oven.most_wait_s):
             _put_together(floor, oven, of)
             return True
@@ -95,9 +91,9 @@ def _find_next(floor: Floor, oven: Oven) -> bool:
 @step
 def _put_together(floor: Floor, oven: Oven, of: int) -> None:
     """The first jobs of a class in line."""
-    for i in range(len(oven.line)):
-        if len(oven.together) < oven.size and oven.class_of[oven.line[i].product] == of:
-            oven.together.append(oven.line[i])
+    for one in oven.line:
+        if len(oven.together) < oven.size and oven.class_of[one.product] == of:
+            oven.together.append(one)
 
 
 @step
@@ -105,8 +101,7 @@ def _line_up(floor: Floor, oven: Oven) -> None:
     """The jobs of the queue in the order in which they are served."""
     station, line = oven.station, oven.line
     line.clear()
-    for i in range(len(station.queue)):
-        job = station.queue[i]
+    for job in station.queue:
         at = len(line)
         if station.order:
             _ = station.order.line(floor, station, job)
@@ -123,15 +118,14 @@ def _begin(floor: Floor, oven: Oven) -> None:
     leader = together[0]
     shared: Seat = _new_seat(floor)
     shared.n_jobs = len(together)
-    for i in range(len(together)):
-        drop(station.queue, together[i])
-        together[i].block.oven = NOTHING
-        together[i].seat = shared
+    for one in together:
+        drop(station.queue, one)
+        one.block.oven = NOTHING
+        one.seat = shared
     leader.members.clear()
     for i in range(1, len(together)):
         leader.members.append(together[i])
-    for i in range(len(leader.members)):
-        job = leader.members[i]
+    for job in leader.members:
         job_now(floor, job, HELD, BATCH)
         job.task_position = job.repeats_done = 0
         if station.has_seated:
@@ -144,7 +138,7 @@ def _begin(floor: Floor, oven: Oven) -> None:
 @step
 def done(floor: Floor, oven: Oven, job: Job) -> bool:
     """What holds for the first of a batch when its operation is done holds for each of them."""
-    while len(job.members):
+    while job.members:
         ask_after(floor, job.members.pop(0))
     return True
 

@@ -1,4 +1,4 @@
-"""The blocks of the station model: what each hangs on a floor before a run, in the order of ``simpy_engine.blocks``."""
+"""The blocks of the station model: what each hangs on a floor before a run."""
 
 from __future__ import annotations
 

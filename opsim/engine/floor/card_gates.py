@@ -21,9 +21,9 @@ def take_back(floor: Floor, loop: Loop, job: Job) -> None:
     drop(job.cards, loop)
     if loop not in job.cards:
         loop.free += 1
-        for i in range(len(loop.gates)):
-            if len(loop.gates[i].claims):
-                stir_gate(floor, loop.gates[i])
+        for one in loop.gates:
+            if one.claims:
+                stir_gate(floor, one)
 
 
 @step
@@ -70,8 +70,8 @@ def _take(floor: Floor, job: Job, loop: Loop) -> None:
 @inlined
 def _count(job: Job, loop: Loop) -> int:
     n = 0
-    for i in range(len(job.cards)):
-        if job.cards[i] is loop:
+    for one in job.cards:
+        if one is loop:
             n += 1
     return n
 
@@ -79,7 +79,7 @@ def _count(job: Job, loop: Loop) -> int:
 @step
 def given_up(floor: Floor, guard: Guard, job: Job) -> None:
     """The place that was kept for the job is given up, and the cards that were taken with it are given back."""
-    while len(job.ahead.cards):
+    while job.ahead.cards:
         take_back(floor, as_loop(job.ahead.cards.pop(0)), job)
 
 
@@ -90,8 +90,7 @@ def pick(floor: Floor, guard: Guard, gate: Gate) -> int:
     find_first(floor, guard)
     for i in range(guard.n_lines):
         guard.lines[i].lacking = 0
-    for i in range(len(guard.asked)):
-        claim = guard.asked[i]
+    for claim in guard.asked:
         job = claim.job
         if job.ahead and job.ahead.station:
             return place_of(gate.claims, claim)
@@ -108,9 +107,9 @@ def pick(floor: Floor, guard: Guard, gate: Gate) -> int:
 @step
 def _mark_new(floor: Floor, guard: Guard) -> None:
     """Mark those who came just now: they stand in lines whose first waits."""
-    for i in range(len(guard.last)):
-        job = guard.last[i].job
-        if is_there(guard.gate.claims, guard.last[i]) and is_outside(job):
+    for one in guard.last:
+        job = one.job
+        if is_there(guard.gate.claims, one) and is_outside(job):
             _mark(floor, job, line_of_job(guard, job).lacking == 1)
 
 

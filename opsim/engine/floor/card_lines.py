@@ -38,9 +38,9 @@ def find_first(floor: Floor, guard: Guard) -> None:
             del inside[at]
     for i in range(guard.n_lines):
         line = guard.lines[i].claims
-        while len(line) and not is_there(claims, line[0]):
+        while line and not is_there(claims, line[0]):
             _forget_claim(floor, line.pop(0))
-        if len(line):
+        if line:
             _put(floor, asked, line[0])
 
 
@@ -49,7 +49,7 @@ def _look(floor: Floor, guard: Guard) -> None:
     """Put claims that were not looked at before where they belong: of each priority, they are the last."""
     claims = guard.gate.claims
     if floor.now != guard.until_s:
-        while len(guard.last):
+        while guard.last:
             _forget_claim(floor, guard.last.pop(0))
     at = len(claims) - 1
     while at >= 0:

@@ -16,7 +16,7 @@ Want = tuple[int, int]
 @step
 def left_station(floor: Floor, loops: Loops, job: Job, station: Station) -> None:
     """Cards that are given back at the leaving of a station, one of each loop."""
-    if not len(job.cards):
+    if not job.cards:
         return
     for i in range(loops.n):
         loop = loops.loops[i]
@@ -27,7 +27,7 @@ def left_station(floor: Floor, loops: Loops, job: Job, station: Station) -> None
 @step
 def left_floor(floor: Floor, loops: Loops, job: Job) -> None:
     """All cards that it has."""
-    while len(job.cards):
+    while job.cards:
         take_back(floor, as_loop(job.cards[0]), job)
     give_items_back(floor, job.cards)
 
@@ -43,9 +43,9 @@ def give_at_start(floor: Floor, loops: Loops) -> bool:
             at -= 1
         standing.insert(at, job)
         job = job.next_on_floor
-    for i in range(len(standing)):
+    for one in standing:
         for j in range(loops.n):
-            _give_at_start(floor, loops.loops[j], standing[i])
+            _give_at_start(floor, loops.loops[j], one)
     give_items_back(floor, standing)
     return True
 

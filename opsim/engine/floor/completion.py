@@ -29,8 +29,8 @@ def stretch_done(floor: Floor, event: Event) -> None:
         perform(floor, job, worker)
     else:
         acteds = job.station.acteds
-        for i in range(len(acteds)):
-            if acteds[i].line(floor, acteds[i].subject, job, worker):
+        for hook in acteds:
+            if hook.line(floor, hook.subject, job, worker):
                 return
         _performed(floor, job, worker)
 

@@ -89,13 +89,12 @@ def _set_turn(floor: Floor, crew: Crew) -> None:
 def _let_on(floor: Floor, crew: Crew) -> bool:
     """Jobs that are done at their station go on, where nobody is in their way any more."""
     crew.going.clear()
-    for i in range(len(crew.done_here)):
-        job = crew.done_here[i]
+    for job in crew.done_here:
         if comer_to(crew, job) < 0 and may_leave(crew, job):
             crew.going.append(job)
-    for i in range(len(crew.going)):
-        drop(crew.done_here, crew.going[i])
-        move_on(floor, crew.going[i])
+    for one in crew.going:
+        drop(crew.done_here, one)
+        move_on(floor, one)
     return len(crew.going) > 0
 
 
@@ -193,6 +192,6 @@ def _to_the_start(floor: Floor, crew: Crew, member: int, worker: Worker) -> None
     first = crew.stations[0]
     wanted = len(first.queue) > 0 or len(floor.saturated) > 0
     for i in range(first.n_wanted_by):
-        if len(first.wanted_by[i].claims):
+        if first.wanted_by[i].claims:
             wanted = True
     waits(floor, worker, BEHIND if wanted and not first.free_servers else IDLE)

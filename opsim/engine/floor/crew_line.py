@@ -40,12 +40,12 @@ def tidy_line(floor: Floor, crew: Crew) -> None:
             crew.carried_now.append(job.number)
         at += 1
     _sort(crew)
-    for i in range(len(crew.carried)):
-        if crew.carried[i] not in crew.carried_now:  # somebody has come: who is behind him may set out
+    for one in crew.carried:
+        if one not in crew.carried_now:  # somebody has come: who is behind him may set out
             _stir_all(floor, crew)
     crew.carried.clear()
-    for i in range(len(crew.carried_now)):
-        crew.carried.append(crew.carried_now[i])
+    for other in crew.carried_now:
+        crew.carried.append(other)
 
 
 @inlined
@@ -74,7 +74,7 @@ def _sort(crew: Crew) -> None:
 @inlined
 def _stir_all(floor: Floor, crew: Crew) -> None:
     for i in range(crew.n_gates):
-        if len(crew.gates[i].claims):
+        if crew.gates[i].claims:
             stir_gate(floor, crew.gates[i])
 
 

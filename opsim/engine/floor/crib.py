@@ -58,12 +58,11 @@ def before(floor: Floor, job: Job) -> None:
     crib, mine = floor.crib, job.block.tools.calling
     _claim(floor, mine)
     crib.found.clear()
-    for i in range(len(crib.calling)):
-        want = crib.calling[i]
+    for want in crib.calling:
         if want is mine or not _is_short(crib, mine, want):
             continue
         calling = want.job.station.calling
-        if len(calling) and calling[0].job is want.job:
+        if calling and calling[0].job is want.job:
             _claim(floor, want)
             if _has_waited_longer(want, mine):
                 _insort(floor, crib.found, want)
@@ -116,7 +115,7 @@ def put_back(floor: Floor, job: Job, purpose: int) -> None:
     for i in range(found.n_needs):
         crib.free[found.needs[2 * i]] += found.needs[2 * i + 1]
     _forget_grip(floor, found)
-    if len(crib.waiting):
+    if crib.waiting:
         _stir(floor)
 
 
@@ -183,7 +182,7 @@ def leave(floor: Floor, subject: Any, job: Job, station: Station) -> None:
         crib.spent.append(mine.calling)
         mine.calling = NOTHING
     job.with_tools = 0
-    while len(mine.grips):
+    while mine.grips:
         put_back(floor, job, mine.grips[0].purpose)
     mine.wanted.clear()
     mine.since_s.clear()
@@ -206,17 +205,16 @@ def pass_on(floor: Floor, job: Job, other: Job) -> None:
 def give_out(floor: Floor, subject: Any) -> bool:
     """What was given back goes to who waits: the first that can have all he wants. True where somebody got it."""
     crib = floor.crib
-    while len(crib.spent):
+    while crib.spent:
         _forget_want(floor, crib.spent.pop())
     if not crib.changed:
         return False
     crib.changed = 0
     given = False
     crib.asked.clear()
-    for i in range(len(crib.waiting)):
-        crib.asked.append(crib.waiting[i])
-    for i in range(len(crib.asked)):
-        want = crib.asked[i]
+    for claim in crib.waiting:
+        crib.asked.append(claim)
+    for want in crib.asked:
         if is_free(crib, want.n_needs, want.needs) and want in crib.waiting:
             _give(floor, want)
             given = True
@@ -238,12 +236,12 @@ def _give(floor: Floor, want: Want) -> None:
 def close_crib(floor: Floor, subject: Any) -> bool:
     """Write what is open at the horizon."""
     waiting, job = floor.crib.waiting, floor.first_job
-    for i in range(len(waiting)):
-        log_wait(floor, waiting[i].job, waiting[i].task)
+    for one in waiting:
+        log_wait(floor, one.job, one.task)
     while job:
         if job.block.tools:
-            for i in range(len(job.block.tools.grips)):
-                log_grip(floor, job, job.block.tools.grips[i])
+            for other in job.block.tools.grips:
+                log_grip(floor, job, other)
         job = job.next_on_floor
     return True
 
@@ -332,11 +330,10 @@ def _shares_a_tool(one: Want, other: Want) -> bool:
 def _first_is_another(floor: Floor, job: Job, want: Want) -> bool:
     """Whether one of these tools goes to somebody who waits, and is to have it in this instant."""
     crib = floor.crib
-    if not len(crib.waiting):
+    if not crib.waiting:
         return False
     _claim(floor, want)
-    for i in range(len(crib.waiting)):
-        other = crib.waiting[i]
+    for other in crib.waiting:
         if not _comes_first(other, want):
             return False
         if is_free(crib, other.n_needs, other.needs) and _shares_a_tool(other, want):

@@ -48,9 +48,9 @@ def fall_due(floor: Floor, stop: Stop) -> None:
 def may_begin(floor: Floor, failing: Failing, job: Job) -> bool:
     """The last preparation of a job: no operation begins where a stop is due, or cycles are used up."""
     wear = failing.wear
-    for i in range(len(wear.cycles)):
-        if wear.cycles[i].left <= 0:
-            fall_due(floor, wear.cycles[i].stop)
+    for one in wear.cycles:
+        if one.left <= 0:
+            fall_due(floor, one.stop)
     if not failing.now and len(failing.due) == 0:
         return True
     _hold(floor, failing, job)
@@ -68,17 +68,17 @@ def strike(floor: Floor, failing: Failing) -> bool:
         return False
     station, in_work = failing.station, failing.in_work
     in_work.clear()
-    for i in range(len(station.seated)):
-        if station.seated[i].kind == WORK:
-            in_work.append(station.seated[i])
+    for job in station.seated:
+        if job.kind == WORK:
+            in_work.append(job)
     stop_station(floor, station)
     clock_stops(floor, failing.wear)
     _take(floor, failing, stop)
-    for i in range(len(in_work)):
+    for one in in_work:
         if stop.becomes == RESTARTS:
-            forget_progress(floor, in_work[i])
+            forget_progress(floor, one)
         elif stop.becomes == SCRAPPED:
-            _scrap(floor, failing, in_work[i])
+            _scrap(floor, failing, one)
     return True
 
 
@@ -112,12 +112,12 @@ def repaired(floor: Floor, failing: Failing) -> None:
 def _next(floor: Floor, failing: Failing) -> Stop:
     """The first stop that is due and may begin: what waits for jobs to be done lets others pass. Nothing: none may."""
     waits, seated = False, failing.station.seated
-    for i in range(len(seated)):
-        if _is_begun(seated[i]) and seated[i] not in failing.held:
+    for one in seated:
+        if _is_begun(one) and one not in failing.held:
             waits = True
-    for i in range(len(failing.due)):
-        if not waits or not failing.due[i].after_job:
-            return failing.due[i]
+    for other in failing.due:
+        if not waits or not other.after_job:
+            return other
     return _as_stop(0)
 
 
@@ -148,10 +148,9 @@ def _call_off(floor: Floor, failing: Failing) -> None:
         return
     asked = failing.in_work
     asked.clear()
-    for i in range(len(station.seated)):
-        asked.append(station.seated[i])
-    for i in range(len(asked)):
-        job = asked[i]
+    for other in station.seated:
+        asked.append(other)
+    for job in asked:
         if job.stage == len(station.stages) and job.setup_task < 0 and not _is_begun(job) and _waited(floor, job):
             _back_to_stage(failing, job)
             _hold(floor, failing, job)
@@ -161,8 +160,8 @@ def _call_off(floor: Floor, failing: Failing) -> None:
 def _waited(floor: Floor, job: Job) -> bool:
     """Whether the job waited for a team or a tool; all are asked."""
     waited = False
-    for i in range(len(floor.call_off)):
-        if floor.call_off[i].line(floor, floor.call_off[i].subject, job):
+    for hook in floor.call_off:
+        if hook.line(floor, hook.subject, job):
             waited = True
     return waited
 
@@ -197,16 +196,14 @@ def _scrap(floor: Floor, failing: Failing, job: Job) -> None:
     """What was in work is lost, with all that was on the same server."""
     station, together = failing.station, failing.together
     together.clear()
-    for i in range(len(station.seated)):
-        one = station.seated[i]
+    for one in station.seated:
         shares = False
         if job.seat:
             shares = one.seat is job.seat
         if one is job or shares:
             together.append(one)
     drop(station.standing, job)
-    for i in range(len(together)):
-        one = together[i]
+    for one in together:
         if one.ahead:
             withdraw(floor, one)
         leave_station(floor, one)

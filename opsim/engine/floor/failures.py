@@ -44,10 +44,10 @@ def see_to_stops(floor: Floor, shop: Shop) -> bool:
     """Stops that are due begin, and teams go where they are waited for; True where something was done."""
     changed, struck = False, shop.struck
     struck.clear()
-    for i in range(len(shop.pending)):
-        struck.append(shop.pending[i])
-    for i in range(len(struck)):
-        if strike(floor, struck[i]):
+    for one in shop.pending:
+        struck.append(one)
+    for other in struck:
+        if strike(floor, other):
             changed = True
     for i in range(shop.n_teams):
         team = shop.teams[i]

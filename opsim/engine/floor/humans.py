@@ -33,11 +33,11 @@ def drawn(floor: Floor, worker: Worker, station: Station) -> None:
     """His own next time as it is now, ``floor.asked_s``; neutral effects leave its bits alone."""
     effects = worker.human.effects
     drawn_s, shift = floor.asked_s, 0.0
-    for i in range(len(effects.shifts)):
-        effects.shifts[i].line(floor, worker, station)
+    for hook in effects.shifts:
+        hook.line(floor, worker, station)
         shift += effects.answer
-    for i in range(len(effects.factors)):
-        effects.factors[i].line(floor, worker, station)
+    for told in effects.factors:
+        told.line(floor, worker, station)
         drawn_s *= effects.answer
     worker.pace_shift = shift if effects.on_posture else 0.0
     floor.asked_s = drawn_s * exp(shift)

@@ -26,18 +26,18 @@ def move_indexed(floor: Floor, line: Line) -> int:
     """
     _find_late(floor, line)
     if line.sends_on:
-        for i in range(len(line.late)):
-            if send_on(floor, line.late[i]):
+        for one in line.late:
+            if send_on(floor, one):
                 line.changed = 1
         _find_late(floor, line)
-    if len(line.late):
+    if line.late:
         return UNFINISHED
     last = line.stations[line.n_stations - 1]
-    if len(last.seated) and not line.leaving:
+    if last.seated and not line.leaving:
         line.leaving = line.changed = 1
         drop(line.done, last.seated[0])
         move_on(floor, last.seated[0])
-    if len(last.seated):
+    if last.seated:
         return FULL
     _index(floor, line)
     line.changed = 1
@@ -51,9 +51,9 @@ def _find_late(floor: Floor, line: Line) -> None:
     for at in range(line.n_stations):
         station = line.stations[at]
         leaves = line.leaving and at == line.n_stations - 1
-        for i in range(len(station.seated)):
-            if not leaves and station.seated[i] not in line.done:
-                line.late.append(station.seated[i])
+        for job in station.seated:
+            if not leaves and job not in line.done:
+                line.late.append(job)
 
 
 @inlined
@@ -62,7 +62,7 @@ def _index(floor: Floor, line: Line) -> None:
     line.done.clear()
     opens(floor, line)
     for at in range(line.n_stations - 2, -1, -1):
-        if len(line.stations[at].seated):
+        if line.stations[at].seated:
             move_on(floor, line.stations[at].seated[0])
     if line.andon:
         call_s = clock_s(line, floor.now) + line.call_s
@@ -75,9 +75,9 @@ def call_for_late(floor: Floor, due: Due) -> None:
     line = due.line
     for at in range(line.n_stations):
         station = line.stations[at]
-        for i in range(len(station.seated)):
-            if station.seated[i] not in line.done:
-                call_for(floor, line.andon, station.seated[i])
+        for job in station.seated:
+            if job not in line.done:
+                call_for(floor, line.andon, job)
 
 
 line_of_call = line_of(call_for_late)
@@ -88,9 +88,9 @@ def indexed_stood(floor: Floor, line: Line) -> None:
     """Jobs that wait for the move wait for the line to run."""
     for at in range(line.n_stations):
         station = line.stations[at]
-        for i in range(len(station.seated)):
-            if station.seated[i] in line.done:
-                job_now(floor, station.seated[i], HELD, TAKT if line.why == NO_CAUSE else LINE_STOP)
+        for job in station.seated:
+            if job in line.done:
+                job_now(floor, job, HELD, TAKT if line.why == NO_CAUSE else LINE_STOP)
 
 
 @step

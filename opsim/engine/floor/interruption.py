@@ -20,8 +20,7 @@ def stop_station(floor: Floor, station: Station) -> None:
     The station needs ``has_seated``: a block that stops stations says so when it is installed.
     """
     shut_station(floor, station)
-    for i in range(len(station.seated)):
-        job = station.seated[i]
+    for job in station.seated:
         if job.kind == WORK or job.kind == SETUP:
             interrupt(floor, job, station.stands_for)
             station.standing.append(job)
@@ -32,9 +31,9 @@ def shut_station(floor: Floor, station: Station) -> None:
     """One reason more to stand still, once what is under way is done: nobody is called, nothing begins."""
     station.down += 1
     floor.n_down += 1
-    for i in range(len(station.calling)):
-        stand_still(floor, station, station.calling[i].job)
-    while len(station.calling):
+    for claim in station.calling:
+        stand_still(floor, station, claim.job)
+    while station.calling:
         take_claim(floor, station.calling, len(station.calling) - 1)
     quiet(floor, station)
 
@@ -87,8 +86,8 @@ def interrupt(floor: Floor, job: Job, cause: int) -> None:
 @step
 def tell_broken_off(floor: Floor, job: Job) -> None:
     """Whoever has to know that a job's performance is broken off."""
-    for i in range(len(floor.broken_off)):
-        floor.broken_off[i].line(floor, floor.broken_off[i].subject, job)
+    for hook in floor.broken_off:
+        hook.line(floor, hook.subject, job)
 
 
 @step
@@ -125,7 +124,7 @@ def forget_progress(floor: Floor, job: Job) -> None:
 def release_team(floor: Floor, job: Job) -> None:
     """Workers who stand by a job, work on it together, or wait for others, are free."""
     job.has_team = 0
-    while len(job.team):
+    while job.team:
         worker = job.team.pop(0)
         if worker.stint:
             log_worker(floor, worker)

@@ -21,8 +21,8 @@ ORDER = 20
 def has_parts(floor: Floor, kits: Kits, job: Job) -> bool:
     """Whether the job, with those of its batch, has its parts, or needs none; else it waits for them."""
     wants = _needs_some(floor, kits, job)
-    for i in range(len(job.members)):
-        wants = wants or _needs_some(floor, kits, job.members[i])
+    for other in job.members:
+        wants = wants or _needs_some(floor, kits, other)
     if not wants:
         return True
     give_up_claims(floor, kits.claims, job)
@@ -48,11 +48,11 @@ def give_out(floor: Floor, kits: Kits) -> bool:
         return False
     kits.changed = floor.stock.changed = 0
     kits.waiting.clear()
-    for i in range(len(kits.claims)):  # those that come to wait meanwhile are looked at in the next round
-        kits.waiting.append(kits.claims[i].job)
+    for claim in kits.claims:  # those that come to wait meanwhile are looked at in the next round
+        kits.waiting.append(claim.job)
     n_given = 0
-    for i in range(len(kits.waiting)):
-        if _give(floor, kits, kits.waiting[i]):
+    for one in kits.waiting:
+        if _give(floor, kits, one):
             n_given += 1
     return n_given > 0
 
@@ -72,8 +72,8 @@ def _give(floor: Floor, kits: Kits, job: Job) -> bool:
     if not waits:  # it was taken off its server meanwhile, and will ask again
         return False
     _take_all(floor, kits, job)
-    for i in range(len(job.members)):
-        _take_all(floor, kits, job.members[i])
+    for other in job.members:
+        _take_all(floor, kits, other)
     proceed(floor, job, floor.no_worker)
     return True
 
@@ -84,8 +84,8 @@ def _want(floor: Floor, kits: Kits, job: Job) -> None:
     for product in range(floor.n_products):
         kits.wanted[product] = 0
     _add(floor, kits, job)
-    for i in range(len(job.members)):
-        _add(floor, kits, job.members[i])
+    for other in job.members:
+        _add(floor, kits, other)
 
 
 @step
@@ -121,20 +121,20 @@ def waited_for(floor: Floor, product: int) -> int:
     if not kits:
         return 0
     total = 0
-    for i in range(len(kits.claims)):
-        total += _wanted_of(floor, kits, kits.claims[i].job, product)
+    for claim in kits.claims:
+        total += _wanted_of(floor, kits, claim.job, product)
     for i in range(kits.n_stations):
         queue = kits.stations[i].queue
-        for j in range(len(queue)):
-            total += _wanted_of(floor, kits, queue[j], product)
+        for one in queue:
+            total += _wanted_of(floor, kits, one, product)
     return total
 
 
 @step
 def _wanted_of(floor: Floor, kits: Kits, job: Job, product: int) -> int:
     total = _wanted_by(floor, kits, job, product)
-    for i in range(len(job.members)):
-        total += _wanted_by(floor, kits, job.members[i], product)
+    for other in job.members:
+        total += _wanted_by(floor, kits, other, product)
     return total
 
 

@@ -44,8 +44,7 @@ def stop_clock(floor: Floor, line: Line) -> None:
     line.shown_s = clock_s(line, floor.now)
     line.runs_since_s = floor.now
     line.runs = 0
-    for i in range(len(line.pending)):
-        due = line.pending[i]
+    for due in line.pending:
         if due.event:
             cancel(due.event)
             due.event = NOTHING
@@ -56,8 +55,8 @@ def start_clock(floor: Floor, line: Line) -> None:
     """It runs again."""
     line.runs_since_s = floor.now
     line.runs = 1
-    for i in range(len(line.pending)):
-        _set(floor, line, line.pending[i])
+    for one in line.pending:
+        _set(floor, line, one)
 
 
 @inlined

@@ -130,8 +130,7 @@ line_of_strolled = line_of(strolled)
 @step
 def line_changed(floor: Floor, line: Line) -> None:
     """The line has come to stand, or to run: whoever walks to a job meets it at another time."""
-    for i in range(len(line.ways)):
-        along = line.ways[i]
+    for along in line.ways:
         here_m = _on_the_way_m(along, floor.now)
         there_m = job_m(line, along.way_job.block.line_began_s, floor.now)
         stop(floor, along.worker)

@@ -61,8 +61,8 @@ def new_job(floor: Floor, source: Source, rank: int, n: int, station: int, other
     source.n_released = n + 1
     _join_floor(floor, job)
     log_instant(floor, CREATE, job, 0, station, other)
-    for i in range(len(floor.created)):
-        floor.created[i].line(floor, floor.created[i].subject, job)
+    for hook in floor.created:
+        hook.line(floor, hook.subject, job)
     return job
 
 
@@ -108,8 +108,7 @@ def operation_done(floor: Floor, job: Job) -> None:
 def ask_after(floor: Floor, job: Job) -> None:
     """What is asked when an operation is done; where nothing else becomes of it, the job moves on."""
     station = job.station
-    for i in range(len(station.afters)):
-        after = station.afters[i]
+    for after in station.afters:
         if not after.line(floor, after.subject, job):
             return
     _move_on(floor, job)
@@ -212,8 +211,7 @@ def leave_station(floor: Floor, job: Job) -> None:
         worker = job.held_by
         job.held_by = NOTHING
         set_free(floor, worker)
-    for i in range(len(floor.left_station)):
-        told = floor.left_station[i]
+    for told in floor.left_station:
         told.line(floor, told.subject, job, station)
     if station.vacate:
         station.vacate.line(floor, station, job)
@@ -222,9 +220,9 @@ def leave_station(floor: Floor, job: Job) -> None:
     else:
         station.free_servers += 1
         if station.serve or station.order:
-            if len(station.queue):
+            if station.queue:
                 fill_servers(floor, station)
-        elif len(station.queue):
+        elif station.queue:
             _seat(floor, station, station.queue.pop(0))
     stir(floor, station)
 
@@ -243,7 +241,7 @@ def leave_server(floor: Floor, station: Station, job: Job) -> None:
         if seat.n_jobs:
             return
     station.free_servers += 1
-    if len(station.queue):
+    if station.queue:
         fill_servers(floor, station)
 
 
@@ -261,8 +259,8 @@ def leave_floor(floor: Floor, job: Job, kind: int, cause: int, station: int, oth
     log_job(floor, job)
     log_instant(floor, kind, job, cause, station, other)
     _part_with_floor(floor, job)
-    for i in range(len(floor.left_floor)):
-        floor.left_floor[i].line(floor, floor.left_floor[i].subject, job)
+    for hook in floor.left_floor:
+        hook.line(floor, hook.subject, job)
     if not floor.keeps_jobs:
         _forgets(floor, job)
 

@@ -20,9 +20,9 @@ def choose(floor: Floor, job: Job, station: Station) -> bool:
     able, team = floor.teams.able, floor.teams.team
     able.clear()
     team.clear()
-    for i in range(len(floor.free)):
-        if _may_work(floor.free[i], job, station):
-            able.append(floor.free[i])
+    for worker in floor.free:
+        if _may_work(worker, job, station):
+            able.append(worker)
     n = floor.tasks[station.tasks[job.task_position]].team
     if len(able) < n:
         return False
@@ -37,8 +37,7 @@ def choose(floor: Floor, job: Job, station: Station) -> bool:
 def _best_of(floor: Floor, job: Job, station: Station) -> Worker:
     """Of those who can go, who comes first."""
     able, best = floor.teams.able, floor.no_worker
-    for i in range(len(able)):
-        worker = able[i]
+    for worker in able:
         stays = worker.staying is job
         if best and stays != (best.staying is job) and not stays:
             continue
@@ -67,8 +66,7 @@ def disband(floor: Floor, job: Job) -> None:
     if not job.has_team:
         return
     job.has_team = 0
-    for i in range(len(job.team)):
-        worker = job.team[i]
+    for worker in job.team:
         if worker.kind == WALK:
             worker.job = NOTHING
             worker.station = NOTHING
@@ -88,8 +86,8 @@ def all_may_stay(floor: Floor, job: Job) -> bool:
     """Whether the whole team is there, and each of them may still be sent to where it works, or stays for the job."""
     if len(job.team) != floor.tasks[job.station.tasks[job.task_position]].team:
         return False
-    for i in range(len(job.team)):
-        if not _may_work(job.team[i], job, job.station):
+    for worker in job.team:
+        if not _may_work(worker, job, job.station):
             return False
     return True
 

@@ -71,12 +71,11 @@ def _turn_source(floor: Floor, hours: Hours, opens: int) -> None:
 def _close(floor: Floor, station: Station) -> None:
     """Nothing begins any more. What is under way is done first, unless it stops with the station."""
     station.stands_for = CLOSED
-    for i in range(len(station.switched)):
-        station.switched[i].line(floor, station.switched[i].subject, 1)
+    for hook in station.switched:
+        hook.line(floor, hook.subject, 1)
     if station.finishes_at_close:
         shut_station(floor, station)
-        for i in range(len(station.seated)):
-            job = station.seated[i]
+        for job in station.seated:
             begins = job.since_s == floor.now and job.progress_from == 0  # else it goes on by somebody else from now on
             if begins and (job.kind == WORK or job.kind == SETUP):
                 interrupt(floor, job, CLOSED)
@@ -90,16 +89,15 @@ def _close(floor: Floor, station: Station) -> None:
 def _open(floor: Floor, station: Station) -> None:
     station.stands_for = IS_DOWN
     _renamed(floor, station)
-    for i in range(len(station.switched)):
-        station.switched[i].line(floor, station.switched[i].subject, 0)
+    for hook in station.switched:
+        hook.line(floor, hook.subject, 0)
     start_station(floor, station)
 
 
 @step
 def _renamed(floor: Floor, station: Station) -> None:
     """Jobs that stand for several reasons wait for that one which lasts."""
-    for i in range(len(station.standing)):
-        job = station.standing[i]
+    for job in station.standing:
         if job.kind == HELD and job.cause != station.stands_for:
             job_now(floor, job, HELD, station.stands_for)
 

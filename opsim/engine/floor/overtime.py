@@ -130,8 +130,8 @@ def _has_to_carry(floor: Floor, needs: Needs, worker: Worker) -> bool:
     people = floor.people
     if worker.tied and has_bit(needs.lacking, worker.tied.station.rank):
         return True
-    for i in range(len(people.left)):
-        if has_bit(needs.lacking, people.left[i].job.station.rank):
+    for one in people.left:
+        if has_bit(needs.lacking, one.job.station.rank):
             return True
     job = worker.job
     if job and job.held_by is worker and job.plan.carried:

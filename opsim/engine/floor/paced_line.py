@@ -108,7 +108,7 @@ def _is_open(floor: Floor, guard: LineGate) -> bool:
 @step
 def pick(floor: Floor, guard: LineGate, gate: Gate) -> int:
     """Nobody comes in while the gate is shut; while it is open whoever could before."""
-    if not len(gate.claims) or not _is_open(floor, guard):
+    if not gate.claims or not _is_open(floor, guard):
         return -1
     if guard.picked:
         return guard.picked.line(floor, guard.picked.subject, gate)

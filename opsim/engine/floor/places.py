@@ -102,8 +102,7 @@ def vacate(floor: Floor, station: Station, job: Job) -> None:
     station.capacity -= 1
     oldest: Job = floor.handed_over
     found = False
-    for i in range(len(station.seated)):
-        one = station.seated[i]
+    for one in station.seated:
         if _is_done(one) and not _stays(one) and (not found or _is_older(one, oldest)):
             oldest, found = one, True
     if found:

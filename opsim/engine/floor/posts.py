@@ -20,10 +20,10 @@ def one_each(floor: Floor, posts: Posts) -> None:
             posts.in_turn.append(post)
     if len(posts.left) < posts.n_posts:
         _sort_posts(floor, posts)
-    for i in range(len(posts.in_turn)):
+    for one in posts.in_turn:
         for post in range(posts.n_posts):
             posts.asked[post] = 0
-        fill(floor, posts, posts.in_turn[i])
+        fill(floor, posts, one)
 
 
 @step
@@ -64,8 +64,7 @@ def _is_before(posts: Posts, one: int, other: int) -> bool:
 def _sort_wanted(posts: Posts, post: int) -> None:
     """Those who are left and can be at a post, by their keys."""
     first, n = post * posts.n_members, 0
-    for i in range(len(posts.left)):
-        person = posts.left[i]
+    for person in posts.left:
         if posts.can[first + person]:
             at = n
             while at > 0 and _is_before(posts, first + person, first + posts.wanted[first + at - 1]):

@@ -40,8 +40,7 @@ def _victim(floor: Floor, station: Station) -> Job:
     for i in range(1, len(station.queue)):
         highest = max(highest, station.queue[i].priority)
     found: Job = _as_job(0)
-    for i in range(len(station.seated)):
-        job = station.seated[i]
+    for job in station.seated:
         if _may_preempt(highest, job.priority) and _can_stop(job) and (not found or _gives_way_before(job, found)):
             found = job
     return found
@@ -71,8 +70,7 @@ def _give_up_server(floor: Floor, station: Station, job: Job, restart: int) -> N
         forget_progress(floor, job)
     if job.ahead and not job.ahead.own:  # else who took the server might wait for it
         give_up_place(floor, job, job.ahead)
-    for i in range(len(floor.lost_server)):
-        told = floor.lost_server[i]
+    for told in floor.lost_server:
         told.line(floor, told.subject, job, station)
     job_now(floor, job, QUEUE, PREEMPTED)
     job.stage = GOES_ON

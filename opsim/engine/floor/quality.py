@@ -113,8 +113,8 @@ def note(floor: Floor, gauge: Gauge, job: Job, worker: Worker) -> bool:
     good = worker.quality[station.rank] * _share_of_good_by(floor, worker, station)
     if good < 1:
         _see_worse(floor, gauge, job, good)
-        for i in range(len(job.members)):
-            _see_worse(floor, gauge, job.members[i], good)
+        for other in job.members:
+            _see_worse(floor, gauge, other, good)
     return False
 
 

@@ -48,8 +48,7 @@ def find_reached(floor: Floor, needs: Needs) -> None:
     for word in range(floor.n_words):
         needs.lacking[word] &= ~needs.held[word]
         needs.passed[word] &= ~needs.held[word]
-    for i in range(len(needs.known)):
-        known = needs.known[i]
+    for known in needs.known:
         if _are_same(floor, known.wanted, needs.lacking) and _are_same(floor, known.passed, needs.passed):
             needs.comes = known.comes
             return

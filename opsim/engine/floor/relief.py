@@ -91,8 +91,7 @@ def send_takers(floor: Floor) -> bool:
     """Send who is free and can do it, by the rule of allocation; True where somebody goes."""
     people, sent = floor.people, False
     _put_in_turn(floor, people)
-    for i in range(len(people.in_turn)):
-        relief = people.in_turn[i]
+    for relief in people.in_turn:
         if relief.leaver.job is not relief.job:
             be_wanted_no_more(floor, relief.leaver)
         elif not relief.taker and _may_begin(relief, floor.now):
@@ -152,8 +151,7 @@ def best_free(floor: Floor, station: Station, job: Job, since_s: float, to_carry
     On patrol, only who stands at the station: at a stop of his round, or ``to_carry`` it wherever he is on it.
     """
     best, n_waiting, n_able = floor.no_worker, float(1 + len(station.queue)), 0
-    for i in range(len(floor.free)):
-        worker = floor.free[i]
+    for worker in floor.free:
         if not may_serve(worker, station):
             continue
         if floor.idle == PATROL and not (_passes(worker, station) if to_carry else on_round(worker, station)):

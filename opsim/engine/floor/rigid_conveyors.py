@@ -37,9 +37,9 @@ def get_off(floor: Floor, belt: Belt, job: Job) -> None:
     belt.stands, belt.since_s = 0, floor.now
     if belt.halted:
         belt.halted = 0
-        for i in range(len(belt.jobs)):
-            job_now(floor, belt.jobs[i], TRANSPORT, 0)
-    if len(belt.jobs):
+        for other in belt.jobs:
+            job_now(floor, other, TRANSPORT, 0)
+    if belt.jobs:
         _first_rides(floor, belt)
 
 

@@ -104,13 +104,13 @@ def _find_posts(floor: Floor, rotation: Rotation) -> None:
     for member in range(rotation.n_members):
         rotation.found[member] = -1
     posts.left.clear()
-    if not len(rotation.there):
+    if not rotation.there:
         return
     _see_doses(floor, rotation)
-    for i in range(len(rotation.there)):
-        if _can_be_somewhere(rotation, rotation.there[i]):
-            posts.left.append(rotation.there[i])
-    while len(posts.left):
+    for one in rotation.there:
+        if _can_be_somewhere(rotation, one):
+            posts.left.append(one)
+    while posts.left:
         _set_keys(floor, rotation, first)
         one_each(floor, posts)
         n_left = len(posts.left)
@@ -143,8 +143,7 @@ def _see_doses(floor: Floor, rotation: Rotation) -> None:
             for member in range(rotation.n_members):
                 can = rotation.can[rotation.heaviest[post] * rotation.n_members + member]
                 rotation.posts.can[post * rotation.n_members + member] = can
-    for i in range(len(rotation.there)):
-        member = rotation.there[i]
+    for member in rotation.there:
         rotation.dose[member] = dose_so_far(floor, rotation.members[member])
 
 
@@ -154,8 +153,7 @@ def _set_keys(floor: Floor, rotation: Rotation, first: int) -> None:
     posts, n_slots = rotation.posts, max(len(rotation.there), rotation.n_posts)
     for number in range(rotation.n_posts):
         post = rotation.heaviest[number]
-        for i in range(len(posts.left)):
-            member = posts.left[i]
+        for member in posts.left:
             away = _turns_away(rotation.position[member], rotation.turn, first + post, n_slots)
             set_key(rotation, number, member, post, away)
 

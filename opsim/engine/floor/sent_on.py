@@ -38,8 +38,7 @@ def send_on(floor: Floor, job: Job) -> bool:
 @step
 def tell_lost_server(floor: Floor, job: Job) -> None:
     """Whoever has to know that a job loses what it had at its server."""
-    for i in range(len(floor.lost_server)):
-        told = floor.lost_server[i]
+    for told in floor.lost_server:
         told.line(floor, told.subject, job, job.station)
 
 
@@ -59,8 +58,8 @@ def turn_away(floor: Floor, job: Job, but: int) -> None:
 @inlined
 def _wait_no_more(floor: Floor, job: Job) -> None:
     call_off(floor, job.station, job)
-    for i in range(len(floor.call_off)):
-        _ = floor.call_off[i].line(floor, floor.call_off[i].subject, job)
+    for hook in floor.call_off:
+        _ = hook.line(floor, hook.subject, job)
     if job.has_team:
         disband(floor, job)
     turn_away(floor, job, -1)

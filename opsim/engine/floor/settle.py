@@ -74,9 +74,9 @@ def settle(floor: Floor) -> None:
             reports[at] = reports[at - 1]
             at -= 1
         reports[at] = one
-    for i in range(len(reports)):
-        reports[i].line(floor, reports[i])
-        forget_event(floor, reports[i])
+    for hook in reports:
+        hook.line(floor, hook)
+        forget_event(floor, hook)
     reports.clear()
     dispatch(floor)
 
@@ -85,20 +85,19 @@ def settle(floor: Floor) -> None:
 def dispatch(floor: Floor) -> None:
     """Move jobs, give out tools, parts, vehicles and what else they wait for, send workers, until nothing changes."""
     for _ in range(MOST_ROUNDS):
-        if len(floor.stirred):
+        if floor.stirred:
             _admit(floor)
-        if len(floor.saturated):
+        if floor.saturated:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)
         changed = False
-        for i in range(len(floor.dispatchers)):
-            given_out = floor.dispatchers[i]
+        for given_out in floor.dispatchers:
             if given_out.line(floor, given_out.subject):
                 changed = True
-        if len(floor.free):
+        if floor.free:
             _send_workers(floor)
-        if not len(floor.stirred) and not changed:
+        if not floor.stirred and not changed:
             return
         if floor.error:
             return
@@ -108,8 +107,7 @@ def dispatch(floor: Floor) -> None:
 @step
 def start(floor: Floor) -> None:
     """What blocks do at the start of a run, in the order in which they were installed."""
-    for i in range(len(floor.starts)):
-        begun = floor.starts[i]
+    for begun in floor.starts:
         _ = begun.line(floor, begun.subject)
     wake(floor)
     for rank in range(floor.n_sources):
@@ -121,8 +119,8 @@ def close(floor: Floor) -> None:
     """Rows that are open at the horizon are written as they are there."""
     closing = floor.closing
     floor.now = floor.horizon_s
-    for i in range(len(closing)):
-        _ = closing[i].line(floor, closing[i].subject)
+    for hook in closing:
+        _ = hook.line(floor, hook.subject)
     for rank in range(floor.n_workers):
         log_worker(floor, floor.workers[rank])
     job = floor.first_job

@@ -29,8 +29,7 @@ def stays_whole(floor: Floor, splits: Splits, job: Job) -> bool:
         worker = job.held_by
         job.held_by = NOTHING
         set_free(floor, worker)
-    for i in range(len(floor.left_station)):
-        told = floor.left_station[i]
+    for told in floor.left_station:
         told.line(floor, told.subject, job, station)
     leave_floor(floor, job, SPLIT, 0, station.rank, -1)
     n = _make_pieces(floor, split, job)

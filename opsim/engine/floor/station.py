@@ -38,7 +38,7 @@ def fill_servers(floor: Floor, station: Station) -> None:
     """A server has come free: whoever is next in the queue moves up."""
     if station.serve:
         station.serve.line(floor, station)
-    elif len(station.queue):
+    elif station.queue:
         seat(floor, station, next_in_line(floor, station))
 
 
@@ -68,7 +68,7 @@ def seat(floor: Floor, station: Station, job: Job) -> None:
         job.task_position = 0
         job.repeats_done = 0
     job.stage = 0
-    if len(station.stages):
+    if station.stages:
         proceed(floor, job, NOTHING)
     else:
         _next_task(floor, job, floor.no_worker)
@@ -118,8 +118,8 @@ def not_yet(floor: Floor, station: Station, job: Job, worker: Worker) -> None:
     if worker and job.held_by is not worker:
         set_free(floor, worker)
     if station.down:
-        for i in range(len(floor.broken_off)):  # the tools of the task before lie at no closed station
-            floor.broken_off[i].line(floor, floor.broken_off[i].subject, job)
+        for hook in floor.broken_off:  # the tools of the task before lie at no closed station
+            hook.line(floor, hook.subject, job)
         stand_still(floor, station, job)
     elif station.n_tasks == 0:
         floor.operation_line(floor, job)
@@ -146,7 +146,7 @@ def call(floor: Floor, station: Station, job: Job) -> None:
 @step
 def quiet(floor: Floor, station: Station) -> None:
     """Nobody calls at the station any more, where that is so."""
-    if not len(station.calling) and has_bit(floor.calls, station.rank):
+    if not station.calling and has_bit(floor.calls, station.rank):
         clear_bit(floor.calls, station.rank)
         floor.n_calling -= 1
 
@@ -184,8 +184,7 @@ def go_on(floor: Floor, job: Job) -> None:
 def perform(floor: Floor, job: Job, worker: Worker) -> None:
     """The worker's next performance of the job's task begins now, or the rest of one that was interrupted."""
     station = job.station
-    for i in range(len(station.acts)):
-        act = station.acts[i]
+    for act in station.acts:
         if act.line(floor, act.subject, job, worker):
             return
     if station.down:

@@ -59,11 +59,10 @@ def _calls(job: Job) -> bool:
 def gather(floor: Floor, subject: Any) -> bool:
     """Send whole teams, to the jobs that have waited longest. True where one was sent."""
     teams, sent = floor.teams, False
-    if len(floor.free) < 2 or not len(teams.gathering):
+    if len(floor.free) < 2 or not teams.gathering:
         return False
     _put_in_turn(floor)
-    for i in range(len(teams.turn)):
-        claim = teams.turn[i]
+    for claim in teams.turn:
         job, station = claim.job, claim.job.station
         if not _calls(job) or station.rank < 0 or not job.on_floor:
             _take(floor, claim)  # its server was taken, or it is gone
@@ -85,19 +84,19 @@ def _put_in_turn(floor: Floor) -> None:
     """Jobs that wait for a team; first those for which somebody stays who is to go."""
     gathering, turn = floor.teams.gathering, floor.teams.turn
     turn.clear()
-    for i in range(len(gathering)):
-        if _is_stayed_for(floor, gathering[i].job):
-            turn.append(gathering[i])
-    for i in range(len(gathering)):
-        if not _is_stayed_for(floor, gathering[i].job):
-            turn.append(gathering[i])
+    for one in gathering:
+        if _is_stayed_for(floor, one.job):
+            turn.append(one)
+    for other in gathering:
+        if not _is_stayed_for(floor, other.job):
+            turn.append(other)
 
 
 @inlined
 def _is_stayed_for(floor: Floor, job: Job) -> bool:
     """Whether somebody who is free stays until the job's tasks here are done."""
-    for i in range(len(floor.free)):
-        if floor.free[i].staying is job:
+    for worker in floor.free:
+        if worker.staying is job:
             return True
     return False
 
@@ -119,15 +118,13 @@ def _send(floor: Floor, job: Job, station: Station) -> None:
     job_now(floor, job, HELD, TEAM)
     job.has_team, job.block.coming, job.block.working = 1, len(team), 0
     job.team.clear()
-    for i in range(len(team)):
-        worker = team[i]
+    for worker in team:
         job.team.append(worker)
         log_worker(floor, worker)
         worker.since_s = floor.now
         be_busy(floor, worker)
         worker.job, worker.station = job, station
-    for i in range(len(team)):
-        worker = team[i]
+    for worker in team:
         walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
         if walk_s > 0:
             walk(floor, worker, station.place, walk_s)
@@ -187,9 +184,9 @@ def done_in_team(floor: Floor, job: Job, worker: Worker) -> bool:
         _begin(floor, job)
         return True
     job.has_team = 0
-    for i in range(len(job.team)):
-        if job.team[i] is not worker:
-            set_free(floor, job.team[i])
+    for member in job.team:
+        if member is not worker:
+            set_free(floor, member)
     job.team.clear()
     return False
 

@@ -50,7 +50,7 @@ def untie(floor: Floor, subject: Any, job: Job, station: Station) -> None:
         for rank in range(floor.n_workers):
             if floor.workers[rank].tied is job:
                 _untie_from(floor, floor.workers[rank])
-    if len(people.left):
+    if people.left:
         give_up_claims(floor, people.left, job)
 
 
@@ -82,9 +82,9 @@ def send_carriers(floor: Floor) -> bool:
     people, sent = floor.people, False
     people.left_jobs.clear()
     people.left_since_s.clear()
-    for i in range(len(people.left)):
-        people.left_jobs.append(people.left[i].job)
-        people.left_since_s.append(people.left[i].since_s)
+    for one in people.left:
+        people.left_jobs.append(one.job)
+        people.left_since_s.append(one.since_s)
     for i in range(len(people.left_jobs)):
         job = people.left_jobs[i]
         at = claim_at(people.left, job)

@@ -99,8 +99,7 @@ def left_station(floor: Floor, subject: Any, job: Job, station: Station) -> None
     if not is_known(job):
         return
     if job.seat and grip_at(job, AT_STATION) >= 0:
-        for i in range(len(station.seated)):
-            one = station.seated[i]
+        for one in station.seated:
             if one is not job and one.seat is job.seat:
                 pass_on(floor, job, one)
                 break
@@ -150,8 +149,8 @@ def who_waits_longest(floor: Floor, station: Station, job: Job) -> None:
     """
     before(floor, job)
     found = floor.crib.found
-    for i in range(len(found)):
-        if _somebody_for(floor, found[i].job.station):
+    for one in found:
+        if _somebody_for(floor, one.job.station):
             return
 
 
@@ -159,8 +158,7 @@ def who_waits_longest(floor: Floor, station: Station, job: Job) -> None:
 def _somebody_for(floor: Floor, station: Station) -> bool:
     """Whether somebody who is free may be sent to a station: he is ``floor.found_worker`` then."""
     first, n_able = station.calling[0], 0
-    for i in range(len(floor.free)):
-        worker = floor.free[i]
+    for worker in floor.free:
         if not may_serve(worker, station) or (floor.idle == PATROL and not on_round(worker, station)):
             continue
         n_able += 1

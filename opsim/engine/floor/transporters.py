@@ -55,8 +55,8 @@ def see_to_vehicles(floor: Floor, pool: Pool) -> bool:
                 at -= 1
             turns.insert(at, vehicle)
         pool.ready.clear()
-        for i in range(len(turns)):
-            _next_step(floor, turns[i])
+        for one in turns:
+            _next_step(floor, one)
         _send(floor, pool)
         changed = True
     return changed
@@ -94,9 +94,9 @@ def _send(floor: Floor, pool: Pool) -> None:
         vehicle.answers = call
         _drive(floor, vehicle, COMING, call.place_from)
     if pool.goes_home:
-        for i in range(len(idle)):
-            if idle[i].place != pool.place:
-                _drive(floor, idle[i], GOING_HOME, pool.place)
+        for one in idle:
+            if one.place != pool.place:
+                _drive(floor, one, GOING_HOME, pool.place)
 
 
 @step
@@ -112,7 +112,7 @@ def _next_step(floor: Floor, vehicle: Vehicle) -> None:
     if (vehicle.doing == BRINGING or vehicle.doing == UNLOADING) and _first_for(vehicle) >= 0:
         _spend(floor, vehicle, UNLOADING, vehicle.place, pool.unload_s)
         return
-    if len(vehicle.aboard):
+    if vehicle.aboard:
         _drive(floor, vehicle, BRINGING, _nearest_goal(floor, vehicle))
     else:
         _be_free(floor, vehicle)

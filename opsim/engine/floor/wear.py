@@ -37,8 +37,8 @@ def work_begins(floor: Floor, wear: Wear) -> None:
     """A performance begins."""
     wear.n_at_work += 1
     if wear.n_at_work == 1:
-        for i in range(len(wear.busy)):
-            _run(floor, wear.busy[i])
+        for one in wear.busy:
+            _run(floor, one)
 
 
 @step
@@ -46,40 +46,40 @@ def work_ends(floor: Floor, wear: Wear) -> None:
     """A performance ends, or is broken off."""
     wear.n_at_work -= 1
     if wear.n_at_work == 0:
-        for i in range(len(wear.busy)):
-            _hold(floor, wear.busy[i])
+        for one in wear.busy:
+            _hold(floor, one)
 
 
 @step
 def cycle_done(floor: Floor, wear: Wear) -> None:
     """An operation is done."""
-    for i in range(len(wear.cycles)):
-        wear.cycles[i].left -= 1.0
+    for one in wear.cycles:
+        one.left -= 1.0
 
 
 @step
 def clock_stops(floor: Floor, wear: Wear) -> None:
     """The station stops; what it does has been broken off before."""
-    for i in range(len(wear.clock)):
-        _hold(floor, wear.clock[i])
+    for one in wear.clock:
+        _hold(floor, one)
 
 
 @step
 def clock_goes_on(floor: Floor, wear: Wear) -> None:
     """The station is up; what is at work on it begins after this."""
-    for i in range(len(wear.clock)):
-        _run(floor, wear.clock[i])
+    for one in wear.clock:
+        _run(floor, one)
 
 
 @step
 def renew(floor: Floor, wear: Wear, stop: Stop) -> None:
     """A breakdown is repaired: what counts towards it begins anew."""
-    for i in range(len(wear.clock)):
-        if wear.clock[i].stop is stop:
-            wear.clock[i].left_s = on_grid(next_number(floor, wear.clock[i].gaps))
-    for i in range(len(wear.busy)):
-        if wear.busy[i].stop is stop:
-            wear.busy[i].left_s = on_grid(next_number(floor, wear.busy[i].gaps))
-    for i in range(len(wear.cycles)):
-        if wear.cycles[i].stop is stop:
-            wear.cycles[i].left = next_number(floor, wear.cycles[i].gaps)
+    for one in wear.clock:
+        if one.stop is stop:
+            one.left_s = on_grid(next_number(floor, one.gaps))
+    for other in wear.busy:
+        if other.stop is stop:
+            other.left_s = on_grid(next_number(floor, other.gaps))
+    for each in wear.cycles:
+        if each.stop is stop:
+            each.left = next_number(floor, each.gaps)

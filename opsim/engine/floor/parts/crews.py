@@ -9,7 +9,7 @@ from opsim.engine.floor.parts.state import Gate, Job, Station, Worker
 
 @struct
 class Crew:
-    """See ``simpy_engine.crew``, ``crew_line`` and ``crew_people``, which are one here.
+    """See ``crew``, ``crew_line`` and ``crew_people``, which are one here.
 
     jobs, carried, gates : of its line; place : by the rank of a station, where in the line it is, -1: elsewhere
     hand, goal, stand : by the number of a member; of ``stand`` -1: he comes from elsewhere

@@ -1,4 +1,4 @@
-"""Performances in which a tool is held. See ``simpy_engine.holds``."""
+"""Performances in which a tool is held. See ``holds``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ if TYPE_CHECKING:
 
 @struct
 class Doing:
-    """See ``simpy_engine.holds.Doing``; drawn_s, drawn_start, drawn_end : what was drawn, before human effects."""
+    """A performance with a hold, from where it has come to. worker, task, k : whose, of what, and which
+
+    left_s, start_s, end_s : seconds of work to its end, and to the moments of taking the tool and of giving it back
+    stretch_s : seconds of work to where the stretch under way ends
+    at_work : whether it is under way now; begun : whether it was ever
+    before  : how much of the task was done when it was drawn; drawn : before human effects, with the moments as shares
+
+    drawn_s, drawn_start, drawn_end : what was drawn, before human effects.
+    """
 
     worker: Worker
     task: int

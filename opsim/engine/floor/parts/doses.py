@@ -1,4 +1,4 @@
-"""What each worker's body has gone through so far. See ``simpy_engine.doses``."""
+"""What each worker's body has gone through so far. See ``doses``."""
 
 from __future__ import annotations
 

@@ -32,6 +32,6 @@ def stops(floor: Floor, worker: Worker) -> None:
 
 @inlined
 def stop(floor: Floor, worker: Worker) -> None:
-    """The stretch under way means nothing any more (``simpy_engine.worker.stop``)."""
+    """The stretch under way means nothing any more."""
     end_stretch(floor, worker)
     stops(floor, worker)

@@ -41,5 +41,5 @@ def stir(floor: Floor, station: Station) -> None:
     """There may be room at a station: whoever wants in is looked at again."""
     for i in range(station.n_wanted_by):
         gate = station.wanted_by[i]
-        if len(gate.claims):
+        if gate.claims:
             stir_gate(floor, gate)

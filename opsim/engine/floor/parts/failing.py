@@ -22,7 +22,13 @@ class RepairTeam:
 
 @struct
 class Stop:
-    """See ``simpy_engine.stops.Stop``. becomes : of jobs in work, one of RESUMES, RESTARTS, SCRAPPED of ``failing``
+    """One kind of breakdown or maintenance of a station.
+
+    rank : among all stops; repairs : how long each of its repairs takes; n : how often it has come, less one
+    failing : what is known of its station
+    kind, since_s : DOWN or REPAIR, and since when, while the station stands because of it
+
+    becomes : of jobs in work, one of RESUMES, RESTARTS, SCRAPPED of ``failing``
 
     task, cause : in its rows; next_s : of maintenance, until it falls due first, then every_s
     due_line, over_line : steps told when maintenance falls due, and when the repair is over
@@ -48,7 +54,14 @@ class Stop:
 
 @struct
 class Failing:
-    """See ``simpy_engine.failing.Failing``. shop : of all such stations; in_work, together : jobs gone through."""
+    """closed : whether it is out of its hours
+
+    now : because of which it stands; due : stops that are to come; held : jobs on servers that wait for them
+
+    pending : all stations with stops that are due, by rank; shared by all
+
+    shop : of all such stations; in_work, together : jobs gone through.
+    """
 
     station: Station
     shop: Shop

@@ -38,11 +38,11 @@ def leads_to(gate: Gate, job: Job) -> bool:
 def goes_in_next(floor: Floor, job: Job) -> bool:
     """Whether a claim of the job at its gate would be the first that is looked at, and met, and no block has a word."""
     gate, station = job.gate, job.station
-    if gate.n_stations > 1 or len(gate.claims) or len(floor.stirred) or job.ahead or job.held_by:
+    if gate.n_stations > 1 or gate.claims or floor.stirred or job.ahead or job.held_by:
         return False
-    if gate.pick or len(gate.allows) or len(gate.entered) or len(floor.left_station):
+    if gate.pick or gate.allows or gate.entered or floor.left_station:
         return False
-    if station.clear or station.vacate or len(station.afters):
+    if station.clear or station.vacate or station.afters:
         return False
     return gate.stations[0].n_inside < gate.stations[0].capacity
 
@@ -50,8 +50,8 @@ def goes_in_next(floor: Floor, job: Job) -> bool:
 @inlined
 def is_allowed(floor: Floor, gate: Gate, job: Job) -> bool:
     """Whether no block keeps a job out."""
-    for i in range(len(gate.allows)):
-        if not gate.allows[i].line(floor, gate.allows[i].subject, job):
+    for hook in gate.allows:
+        if not hook.line(floor, hook.subject, job):
             return False
     return True
 
@@ -77,11 +77,11 @@ def first_that_may(floor: Floor, gate: Gate) -> int:
 @inlined
 def next_claim(floor: Floor, gate: Gate) -> int:
     """The number of the claim that is met next; -1: none. A job that comes back to its station needs no other place."""
-    if not len(gate.claims):
+    if not gate.claims:
         return -1
     if gate.pick:
         return gate.pick.line(floor, gate.pick.subject, gate)
-    if not len(gate.allows):
+    if not gate.allows:
         if has_room(gate):
             return 0
         if not gate.comes_back:  # a long queue outside is not gone through again and again

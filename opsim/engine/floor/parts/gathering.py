@@ -1,4 +1,4 @@
-"""Jobs that wait for a team, and who is chosen. See ``simpy_engine.teams``."""
+"""Jobs that wait for a team, and who is chosen. See ``teams``."""
 
 from __future__ import annotations
 

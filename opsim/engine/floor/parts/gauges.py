@@ -1,4 +1,4 @@
-"""Where something goes wrong, or is looked at. See ``simpy_engine.quality``."""
+"""Where something goes wrong, or is looked at. See ``quality``."""
 
 from __future__ import annotations
 

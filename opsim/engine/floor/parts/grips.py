@@ -1,4 +1,4 @@
-"""What jobs have of tools, what they want, and the crib where tools lie. See ``simpy_engine.grips`` and ``crib``."""
+"""What jobs have of tools, what they want, and the crib where tools lie. See ``crib``."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ class Grip:
 class Want:
     """Tools that a job wants. go_on_line : the step that follows when they are there; doing : what waits for them
 
-    before, since_s : with the job's number, its place among those who wait; at_once : see ``simpy_engine.grips.Want``
+    before, since_s : with the job's number, its place among those who wait; at_once : they are the job's as soon
+        as they are free; else when a worker sets out with them
     """
 
     job: Job

@@ -80,7 +80,7 @@ class Human:
     shares : address of (J, 5) numbers of his muscles; heaviness, courses : by task, how heavy it is for him, NaN where
             nobody has asked; address of the (PARTS, J) course of loads, 0 where none is known, -1 before
     units .. busy_until_s : see ``opsim.human.memory``; last_s : NaN where he has never done it
-    has_worked, resting : see ``simpy_engine.human_rest``
+    has_worked, resting : see ``human_rest``
     """
 
     worker: Worker

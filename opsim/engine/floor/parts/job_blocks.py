@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @struct
 class JobBlocks:
-    """The fields of each block stand together, in the order of ``simpy_engine.blocks``.
+    """The fields of each block stand together.
 
     taken : pieces that were taken out of it, a lot in a store; given : stations where it had its parts
     next_piece : of what it was split into the first; of a piece, the one behind it

@@ -76,7 +76,7 @@ def line_of_job(guard: Guard, job: Job) -> CardLine:
 @inlined
 def is_outside(job: Job) -> bool:
     """Whether a job has neither a place nor a card yet: in this all who want the same are alike, but for their time."""
-    return job.station.rank < 0 and not job.ahead and not len(job.cards)
+    return job.station.rank < 0 and not job.ahead and not job.cards
 
 
 @inlined

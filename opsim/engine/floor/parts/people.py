@@ -57,7 +57,7 @@ class Needs:
 
 @struct
 class People:
-    """``Attendance``, ``Leaving``, ``Ties`` and ``Reliefs`` of the simpy_engine.
+    """What ``attendance``, ``leaving``, ``ties`` and ``relief`` know.
 
     those : the n workers who have shifts, by rank; n_watched : of them; n_tied : jobs that wait for one worker
     left : jobs that somebody would have to carry who has gone off; left_jobs, left_since_s : when they are gone through

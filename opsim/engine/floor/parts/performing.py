@@ -14,8 +14,7 @@ from opsim.log import SETUP, WORK
 @inlined
 def is_ready(floor: Floor, station: Station, job: Job) -> bool:
     """Whether nothing keeps the task a job has come to from beginning."""
-    for i in range(len(station.readies)):
-        ready = station.readies[i]
+    for ready in station.readies:
         if not ready.line(floor, ready.subject, job):
             return False
     return True

@@ -41,7 +41,17 @@ class Moment:
 
 @struct
 class Presence:
-    """See ``simpy_engine.presence.Presence``. next : number of the moment that is due; watched : see ``Attendance``."""
+    """worker : who; to_come : what his calendar still holds, in order; due : the next of it
+
+    state  : gone, here, leaving (he will go as soon as he may), or in a pause, on the way to its place included
+    duty   : the shift he is on, or stays on after; None: he has none now
+    goes   : whether he is leaving because his shift is over, not for a pause
+    misses : whether he is absent from the shift that has followed at once on the one he is leaving
+    owed   : pauses that have begun and that he has not had; pause : the one he is in
+    overtime : whether he stays on after his shift; undecided : whether that is still to be seen, in this instant
+
+    next : number of the moment that is due; watched : see ``Attendance``.
+    """
 
     worker: Worker
     n_moments: int

@@ -32,7 +32,7 @@ class Posts:
 
 @struct
 class Rotation:
-    """See ``simpy_engine.rotations``. limit : its number among limits; rule : see ``rotation_rules``
+    """See ``rotations``. limit : its number among limits; rule : see ``rotation_rules``
 
     by_dose : whether the rule evens doses out
 

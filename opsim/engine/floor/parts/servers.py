@@ -81,11 +81,11 @@ def setup_s(station: Station, job: Job) -> float:
     if not servers:
         return 0.0
     shortest_s = INF
-    for i in range(len(servers.free)):
-        shortest_s = min(shortest_s, needed_s(servers, servers.free[i], job.product))
-    if not len(servers.free):
-        for i in range(len(station.seated)):
-            known = last_on(station.seated[i])
+    for worker in servers.free:
+        shortest_s = min(shortest_s, needed_s(servers, worker, job.product))
+    if not servers.free:
+        for other in station.seated:
+            known = last_on(other)
             if known:
                 shortest_s = min(shortest_s, needed_s(servers, known - KNOWN, job.product))
     return shortest_s

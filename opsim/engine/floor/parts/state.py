@@ -1,7 +1,7 @@
 """What stands where on the floor right now: jobs, stations, workers. Structs of a run, changed only inside settle.
 
-The fields mean what those of ``simpy_engine.state`` and ``simpy_engine.floor`` mean. Truths are 0 or 1; a callable of
-that engine is a Hook here: the line of a step, and its subject. Blocks have structs of their own beside these.
+Truths are 0 or 1. What blocks hang in is a Hook: what is called, and its subject. Blocks have structs of their own
+beside these.
 """
 
 from __future__ import annotations
@@ -34,10 +34,31 @@ DUTY, CREWS, LINES, FIRST_ROTATION = range(4)
 
 @struct
 class Station:
-    """See ``simpy_engine.state.Station``. n_tasks, tasks, automatic, repeats, per_lot : of what a job gets here
+    """tasks, automatic, repeats : of each task a job gets here: its rank, whether it needs no worker, how often
+
+    calling : jobs on servers for which nobody was sent yet; wanted_by : gates of jobs that want in
+    luck    : by task, durations of automatic runs to come; next_k : how many there were
+    down    : for how many reasons it stands still; standing : jobs on servers that wait until it goes on
+    stands_for : the cause that they wait for
+    seated  : jobs on servers, where a block has to find them; else None
+    per_lot : of each task, whether it is done once for a lot; else for each of its units
+
+    What blocks hang in, each empty or nothing where none does:
+    stages  : preparations of a seated job, in their order
+    ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``, or is left
+    sent    : told of a job with ``with_tools`` that a worker is sent to
+    before  : of such a job, the stations whose first call has waited longer for the same tools
+    act, acted : other ways to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
+    after   : asked when an operation is done, in their order
+    order   : key by which the next job of the queue is chosen; None: first come, first served
+    serve   : fills free servers from the queue, in place of one job at a time; asked after each arrival too
+    receive, vacate : in place of arriving at a server or the queue, and of giving the server back
+    meter   : counts performances and operations
+    setup_attended : whether a worker sets it up; setups : what its servers are set up for
+    switched : told when the station closes (True) or opens
+    clear   : told of each finished job that has to go on, which may leave its server; put_away : those that have
 
     has_seated : whether seated jobs are known; luck, next_k : by task, of automatic runs
-    receive, vacate, clear, serve, order, sent, before, act, acted : nothing where no block hangs in
     """
 
     rank: int
@@ -94,8 +115,23 @@ class Station:
 
 @struct
 class Job:
-    """See ``simpy_engine.state.Job``. on_floor : 0 when it has left; before_on_floor, next_on_floor : as they came
+    """One unit of a product, or a lot.
 
+    number          : n * sources + source, so that no two jobs have the same; n : its number in its source
+    kind, since_s   : the state it is in, and since when
+    step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
+                      ``gate`` is in front of the operation
+    task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
+    worker .. pace_shift : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
+    asked           : what was drawn for it, before human effects, and how much of it was done then; None: nobody was
+    progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
+    over            : the end of an automatic run under way
+    stage           : how many of the station's preparations are done
+    setup_task      : the set-up under way or called for; -1: none
+    with_tools      : whether it calls for a worker who takes tools with him; team : who has come, or is on his way
+    visits          : how often each step was passed, where the way on is drawn
+    due_s           : when it should be done; bad : whether a defect is in it
+    on_floor        : 0 when it has left; before_on_floor, next_on_floor : as they came
     asked_s, asked_done : what was drawn for the performance under way, before human effects, and how much of it was
     done then; asked : whether that is known. The rest, from ``visits`` on, belongs to blocks.
     """
@@ -175,8 +211,18 @@ class Gate:
 
 @struct
 class Worker:
-    """See ``simpy_engine.state.Worker``. version : of the stretch his process waits for; skills, own_skills : as bits
+    """walk_s : seconds by place, then station
+    rating   : (S,) by station; skills : bit r set where he may be sent to station r now
+    luck     : by task, durations to come at rating 1
+    next_k   : by task, how often it was done
+    round    : where the worker is on the round he patrols; served : whether he has worked at that stop
+    walks_left : that he must still make, there and back, to bring all of the job he carries
+    stint    : his part of a team's performance under way, which has a row of its own
+    going    : whether he goes off shift as soon as he is done with what he is at
+    staying  : the job whose tasks at its station he does to the end before he goes
+    human    : the effects on him (``humans.Human``); pace_shift : by how much they shifted the log time he drew last
 
+    version : of the stretch his process waits for; skills, own_skills : as bits
     limits : for each limit its bits; limited : whether it holds; in_free : whether he can be sent
     """
 

@@ -7,7 +7,7 @@ from opsim.engine.floor.machine import struct
 
 @struct
 class Stint:
-    """See ``simpy_engine.stints``."""
+    """See ``stints``."""
 
     station: int
     product: int

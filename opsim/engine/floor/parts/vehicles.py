@@ -20,7 +20,13 @@ class Pickup:
 
 @struct
 class Vehicle:
-    """See ``simpy_engine.vehicles.Vehicle``. rank : where its reports come among those of an instant."""
+    """number : counted over all transporters; doing : one of FREE to GOING_HOME
+
+    place, came_from : where it is, or drives to, and from where; since_s : since when it does what it does
+    answers : the call it is on its way to, or loads; aboard : its jobs, first the one that was loaded first
+
+    rank : where its reports come among those of an instant.
+    """
 
     number: int
     rank: int
@@ -43,7 +49,7 @@ class Leg:
 
 @struct
 class Pool:
-    """The vehicles of a transporter. drive_s : by place and place; ready, calls : see ``simpy_engine.vehicles.Pool``
+    """The vehicles of a transporter. drive_s : by place and place; ready, calls : see ``vehicles``
 
     turns, idle : vehicles that are gone through just now: those that were ready, and those that are free
     """
