@@ -25,7 +25,7 @@ _HOMES = {
     "figures": "opsim.kpi",
     "read_events": "opsim.log_store",
     "read_scenarios": "opsim.scenario",
-    "run_plan": "opsim.engine.simpy_engine",
+    "run_plan": "opsim.engine.floor",
     "run_scenario": "opsim.study",
     "stream": "opsim.streams",
     "t_interval": "opsim.study",

@@ -1,10 +1,9 @@
-"""Human effects on one worker in somebody's own model: the engine's, on a floor with nobody else on it."""
+"""Human effects on one worker in somebody's own model: those of a floor with nobody else on it."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from opsim.own_luck import OwnLuck
 from opsim.plan.human import HumanPlan
@@ -14,46 +13,30 @@ if TYPE_CHECKING:
 
 
 class OwnHuman:
-    """What ``humans.Human`` asks of a floor, and his answers; times are those of the environment.
-
-    Between performances he rests, whatever he does.
-    """
-
-    humans: tuple[Any, ...] = ()
+    """A floor with one worker; times are those of the environment. Between performances he rests, whatever he does."""
 
     def __init__(self, env: simpy.Environment, luck: OwnLuck, human: HumanPlan):
-        from opsim.engine.simpy_engine.humans import install
+        from opsim.engine.floor.human_side import human_side_of
         from opsim.ergonomics.shift.worker_plans import plan_of
 
         self._env = env
         self.plan = replace(plan_of({luck.worker: luck}, [luck.worker], luck.handling), human=human)
-        self.draws = SimpleNamespace(workforce=luck.workforce)
-        self.workers = (SimpleNamespace(rank=0, pace_shift=0.0, human=None),)
-        install(self)  # type: ignore[arg-type]
-        self._human = self.humans[0]
+        self._side = human_side_of(self.plan, luck.workforce, env.now)
         self._rank = {task.name: rank for rank, task in enumerate(self.plan.tasks)}
-        if self._human.tired is not None:
-            self._human.tired.at_s = env.now
-
-    @property
-    def now(self) -> float:
-        """Now."""
-        return self._env.now
 
     @property
     def level(self) -> float:
         """How tired he is, 0 to 1."""
-        return float(self._human.level(self.now))
+        return self._side.level(self._env.now)
 
     def drawn(self, task: str, k: int, drawn_s: float) -> tuple[float, float]:
         """Seconds of his k-th performance of a task, which begins now; and the shift that postures follow."""
-        time_s = self._human.drawn(self, None, self._rank[task], k, drawn_s)
-        return time_s, self.workers[0].pace_shift
+        return self._side.drawn(self._env.now, self._rank[task], k, drawn_s)
 
     def works(self, task: str, k: int, until_s: float, done: float) -> None:
         """He works on his k-th of a task from now, ``done`` of which is done, until then if nothing comes between."""
-        self._human.works(self.now, self._rank[task], until_s, done, k)
+        self._side.works(self._env.now, self._rank[task], k, until_s, done)
 
     def stops(self) -> None:
         """He is broken off."""
-        self._human.stops(self.now)
+        self._side.stops(self._env.now)

@@ -1,4 +1,4 @@
-"""A worker's own draws, by the names of ``engine/simpy_engine/draws.py``: the same luck in any model."""
+"""A worker's own draws, by the names of ``engine/draws.py``: the same luck in any model."""
 
 from __future__ import annotations
 

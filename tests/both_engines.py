@@ -29,11 +29,11 @@ class BothEngines:
 
     def plant(self) -> None:
         """From now on ``run_plan`` of the SimPy engine is that of both: before a test module imports it."""
-        from opsim.engine import fast_engine, simpy_engine
-        from opsim.engine.simpy_engine import run as home
+        from opsim.engine import fast_engine, floor
+        from opsim.engine.floor import run as home
 
-        twice = doubled(simpy_engine.run_plan, fast_engine.run_plan, fast_engine.unsupported, self.runs)
-        simpy_engine.run_plan = home.run_plan = twice
+        twice = doubled(floor.run_plan, fast_engine.run_plan, fast_engine.unsupported, self.runs)
+        floor.run_plan = home.run_plan = twice
 
     def pytest_sessionfinish(self, session: Any) -> None:
         if hasattr(session.config, "workeroutput"):  # one of several processes: the first one tells

@@ -8,7 +8,7 @@ from random import Random
 import numpy as np
 from made_floors import FOLDER, text_of
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.kpi.locked import locked
 from opsim.laws import CHECKS, audit

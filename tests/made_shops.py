@@ -1,6 +1,6 @@
 """Small shops whose orders come at given times, for tests of the sequence of work."""
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import KINDS
 from opsim.plan import compile_plan

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import EventLog
 from opsim.plan import Plan, compile_plan

@@ -5,7 +5,7 @@ import sys
 from dataclasses import replace
 from types import ModuleType
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 
 NAME = "opsim.engine.fast_engine"
 

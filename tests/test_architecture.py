@@ -117,7 +117,7 @@ def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[st
         ("import emulator", {"numpy", "numba"}),
         ("import opsim.scenario.read", {"numpy", "numba", "matplotlib", "emulator"}),
         ("import opsim.plan, opsim.tasks, opsim.scenario.risks", {"numpy", "simpy", "scipy", "matplotlib", "emulator"}),
-        ("import opsim.engine.simpy_engine", {"numba", "matplotlib", "scipy", "emulator"}),
+        ("import opsim.engine.floor", {"numba", "matplotlib", "scipy", "emulator"}),
     ],
 )
 def test_importing_is_light(statement, absent):

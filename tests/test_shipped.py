@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.libraries import load_library
 from opsim.log import FINISH

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics.walks import walk_again
 from opsim.kpi import figures
 from opsim.kpi.names import WALKING

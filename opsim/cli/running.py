@@ -135,7 +135,7 @@ def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any], said: set[st
 @contextmanager
 def failures(kept: str) -> Iterator[None]:
     """What is neither the user's mistake nor to be met with a traceback. Set OPSIM_TRACEBACK=1 to see where."""
-    from opsim.engine.simpy_engine.settle import EndlessInstant
+    from opsim.engine.endless import EndlessInstant
     from opsim.laws import BrokenLog
     from opsim.study.pool import ProcessLost
 

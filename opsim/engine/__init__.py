@@ -1,1 +1,1 @@
-"""Plan -> EventLog. SimPy is the reference and the default engine."""
+"""Plan -> EventLog. The rules are said once, in ``floor``: SimPy drives them, ``fast_engine`` compiles them."""

@@ -27,6 +27,10 @@ class Tired:
             self.pass_to(now)
         self._task, self._begun_s, self._until_s, self._done = task, now, until_s, done
 
+    def is_at(self, task: int, begun_s: float, until_s: float, done: float) -> None:
+        """He works on a task (-1: none) since some time, begun at share ``done`` of it, until it is done then."""
+        self._task, self._begun_s, self._until_s, self._done = task, begun_s, until_s, done
+
     def stops(self, now: float) -> None:
         """He works no more."""
         self.pass_to(now)

@@ -10,7 +10,7 @@ import tracemalloc
 
 import pytest
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.export.ocel import object_log
 from opsim.export.ocel_json import write_ocel_json
 from opsim.export.ocel_sqlite import write_ocel_sqlite

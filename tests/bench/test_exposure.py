@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bench.cpu import best_s
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics import trunk_exposure
 from opsim.ergonomics.shift.booking import Booking
 from opsim.ergonomics.shift.fold import fold

@@ -7,7 +7,7 @@ import pytest
 from bench.cpu import best_s
 from human_plans import LINE, planned, shipped
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.human.burden import Burdens
 from opsim.human.lffrm import Lffrm
 from opsim.human.three_compartment import ThreeCompartment

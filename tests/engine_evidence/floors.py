@@ -31,7 +31,7 @@ from made_floors import text_of
 from made_lines import line_scenario
 from made_people_blocks import ALWAYS, PEOPLE, people_floor_with
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import FINISH
 from opsim.plan import Plan
 from opsim.problems import ScenarioError

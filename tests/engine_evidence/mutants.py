@@ -54,7 +54,7 @@ MUTANTS = {
     ),
     "lost_interruption": Fault(
         "who is stopped in the middle of a stretch never hears of it, and goes on to its end",
-        *("parts.events.end_stretch", "worker.version += 1", "worker.version += 0"),
+        *("parts.stretches.end_stretch", "worker.version += 1", "worker.version += 0"),
     ),
     "last_who_waits": Fault(
         "tools that are given back go to who has waited shortest for them",

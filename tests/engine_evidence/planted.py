@@ -28,9 +28,18 @@ def plant(place: str, old: str, new: str) -> Callable:
     if text.count(old) != 1:
         raise ValueError(f"{place} has {text.count(old)} times {old!r}: the fault has to be written anew")
     known: dict[str, Any] = {}
-    exec(compile("from __future__ import annotations\n" + text.replace(old, new), place, "exec"), vars(module), known)
+    exec(_code(text.replace(old, new), place), vars(module), known)
     function.__code__ = known[name].__code__
     return function
+
+
+def _code(text: str, place: str) -> Any:
+    """A function as it stands in a rule of the floor, or in the engine itself: the latter stays as it is."""
+    from opsim.engine.fast_engine.lowering import lowered
+
+    tree = lowered(f"from __future__ import annotations\n@step\n{text}", place)
+    tree.body[-1].decorator_list = []  # type: ignore[attr-defined]
+    return compile(tree, place, "exec")
 
 
 def make_ready(plan: Plan, faulty: Callable) -> int:
@@ -39,6 +48,7 @@ def make_ready(plan: Plan, faulty: Callable) -> int:
     Raises RuntimeError where a sound step is not on disk: ``fast_engine.ready`` of a process without faults puts it.
     """
     from opsim.engine.fast_engine.build import Build
+
     from opsim.engine.fast_engine.machine import TABLE, needed
     from opsim.engine.fast_engine.machine.table import is_on_disk
 

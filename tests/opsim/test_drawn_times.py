@@ -3,7 +3,7 @@ import pytest
 from human_plans import LINE, planned, shipped
 
 from opsim.drawn_times import drawn_s
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
 
 
 @pytest.mark.parametrize("k", [[0], [63, 64, 65], [200, 3, 3, 130], []])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from plans import CELL, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import COLUMNS, ORDER, EventLog, event_log, row
 from opsim.log_store import read_events, write_events
 from opsim.whole import write_text

@@ -89,7 +89,7 @@ def test_a_floor_without_workers_has_nothing_to_account_for():
 
 @pytest.mark.parametrize("variant", ["base", "flu"])
 def test_every_second_of_everybody_in_the_shipped_plant_is_accounted_for(variant):
-    from opsim.engine.simpy_engine import run_plan
+    from opsim.engine.floor import run_plan
     from opsim.plan import compile_plan
     from opsim.scenario import read_scenarios
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.limits import plug_ins_of
+from opsim.engine.fast_engine import sources
+from opsim.engine.fast_engine.limits import plug_ins_of, refuse_too_many
 from opsim.engine.fast_engine.readiness import compiling_s, is_kept, ready
 from opsim.engine.fast_engine.run import run_plan
 from opsim.plan import Plan
 
-__all__ = ["compiling_s", "is_kept", "ready", "run_plan", "unsupported"]
+__all__ = ["compiling_s", "is_kept", "ready", "run_plan", "sources", "unsupported"]
 
 
 def unsupported(plan: Plan) -> list[str]:
@@ -17,6 +18,7 @@ def unsupported(plan: Plan) -> list[str]:
     if said := plug_ins_of(plan):
         return said
     try:
+        refuse_too_many(plan)
         Build(plan)
     except NotImplementedError as error:
         return [str(error)]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 
-from opsim.engine.fast_engine import blocks
+from opsim.engine.fast_engine import sources
 from opsim.engine.fast_engine.machine.steps import STEPS
 from opsim.engine.fast_engine.machine.table import lacking
 from opsim.engine.fast_engine.readiness import ready_for
@@ -20,7 +20,7 @@ def main() -> int:
         if done % 100 == 0 or done == total:
             print(f"compiling the fast engine: {done} of {total}", flush=True)
 
-    blocks.know_all()
+    sources.know_all()
     n_compiled = len(list(lacking(STEPS.values())))
     ready_for(STEPS.values(), told)
     print(f"{len(STEPS)} steps are ready, {n_compiled} of them compiled now")

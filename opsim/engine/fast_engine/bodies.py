@@ -53,6 +53,18 @@ class Bodies:
         self._orders.clear()
         self._burdens = Burdens(self.plan, self._workforce or 0)
 
+    def heaviness_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.heaviness[worker].ctypes.data)
+
+    def rates_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.rates[worker].ctypes.data)
+
+    def courses_of(self, worker: int) -> int:
+        """The address of a worker's row."""
+        return int(self.courses[worker].ctypes.data)
+
     def asks(self, answer: Callable[[int, int], None]) -> int:
         """The address of a function of two numbers that the engine can call."""
 
@@ -95,13 +107,10 @@ class Bodies:
         into[:] = self._orders[rotation]
 
     def _heaviest_first(self, rotation: int) -> list[int]:
-        from types import SimpleNamespace
+        from opsim.engine.heaviest_first import heaviest_first
 
-        from opsim.engine.simpy_engine.doses import heaviest_first
-
-        plan, doses = self.plan.rotations[rotation], [SimpleNamespace(rates=self._rates())] * len(self.plan.workers)
-        floor: Any = SimpleNamespace(plan=self.plan, doses=doses)
-        return heaviest_first(floor, plan.posts, plan.workers)
+        plan = self.plan.rotations[rotation]
+        return heaviest_first(self.plan, self._rates(), plan.posts, plan.workers)
 
     def _rates(self) -> Any:
         from opsim.ergonomics.shift.dose_rates import dose_rates_of

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.extending import overload_method
-
 from opsim.engine.fast_engine import human_muscles
 from opsim.engine.fast_engine.bodies import bodies_of
 from opsim.engine.fast_engine.machine import call_out, inlined, step
-from opsim.engine.fast_engine.machine.structs import Pointer
 from opsim.engine.fast_engine.parts.humans import Human
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 from opsim.engine.fast_engine.parts.tiring import pass_to_now
@@ -22,12 +19,6 @@ _shift: Any = inlined(Lffrm.shift)
 _passed: Any = inlined(Lffrm.passed)
 _rested: Any = inlined(Lffrm.rested)
 _rest_to_s: Any = inlined(Lffrm.rest_to_s)
-
-
-@overload_method(Pointer, "rested")
-def _rested_of_a_model(self, state, seconds):
-    """What ``Lffrm.passed`` calls of itself."""
-    return (lambda self, state, seconds: _rested(self, state, seconds)) if self.of == "Model" else None
 
 
 def install(build: Any, effects: Any) -> None:
@@ -43,7 +34,7 @@ def install(build: Any, effects: Any) -> None:
     bodies = bodies_of(build) if model.needs_burden else None
     even = build.floats([1.0] * len(build.tasks)) if bodies is None else 0
     for worker in build.workers:
-        worker.human.heaviness = even if bodies is None else bodies.heaviness[worker.rank].ctypes.data
+        worker.human.heaviness = even if bodies is None else bodies.heaviness_of(worker.rank)
     if bodies is not None:
         effects.ask_burden = bodies.asks(bodies.answer_heaviness)
 

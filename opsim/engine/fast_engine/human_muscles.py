@@ -4,45 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
-from numba.core import types
-
 from opsim.engine.fast_engine.bodies import UNKNOWN, bodies_of
 from opsim.engine.fast_engine.machine import call_out, inlined, step
-from opsim.engine.fast_engine.machine.compiling import intrinsic
 from opsim.engine.fast_engine.parts.humans import Human
+from opsim.engine.fast_engine.parts.muscles import course_at, kept_muscles, muscles_at
 from opsim.engine.fast_engine.parts.state import Floor, Station, Worker
 from opsim.engine.fast_engine.parts.tiring import pass_to_now
 from opsim.ergonomics.kernels.compartments import rest, rest_to_s, spend
-from opsim.human.burden import PARTS
-from opsim.human.three_compartment import JOINTS, ThreeCompartment
+from opsim.human.three_compartment import ThreeCompartment
 from opsim.human.tired import piece
 
-N_JOINTS, N_NUMBERS = len(JOINTS), 5
 _piece = inlined(piece)
 _shift: Any = inlined(ThreeCompartment.shift)
-
-
-@intrinsic
-def _floats_at(_typingctx: Any, address: Any) -> Any:
-    pointer = types.CPointer(types.float64)
-
-    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
-
-    return pointer(types.int64), codegen
-
-
-@inlined
-def _muscles_at(address: int) -> Any:
-    """(J, 5), as ``kernels.compartments`` has the state of muscles."""
-    return numba.carray(_floats_at(address), (N_JOINTS, N_NUMBERS))
-
-
-@inlined
-def _course_at(address: int) -> Any:
-    """(PARTS, J) loads."""
-    return numba.carray(_floats_at(address), (PARTS, N_JOINTS))
 
 
 def install(build: Any, effects: Any) -> None:
@@ -51,12 +24,10 @@ def install(build: Any, effects: Any) -> None:
     build.hang(effects.shifts, slowed)
     bodies = bodies_of(build)
     effects.ask_burden = bodies.asks(bodies.answer_course)
-    effects.spare = build.floats([0.0] * (N_JOINTS * N_NUMBERS))
+    effects.spare = kept_muscles(build, build.plan.human.fatigue.fresh().shares * 0.0)
     for worker in build.workers:
-        shares = build.plan.human.fatigue.fresh().shares
-        assert shares.shape == (N_JOINTS, N_NUMBERS)
-        worker.human.shares = build.floats(shares.ravel())
-        worker.human.courses = bodies.courses[worker.rank].ctypes.data
+        worker.human.shares = kept_muscles(build, build.plan.human.fatigue.fresh().shares)
+        worker.human.courses = bodies.courses_of(worker.rank)
 
 
 @step
@@ -70,7 +41,7 @@ def slowed(floor: Floor, worker: Worker, station: Station) -> None:
 @step
 def pass_on(floor: Floor, human: Human) -> None:
     """Time goes on for his muscles until now, which is later than when it did last."""
-    at_s, muscles = human.at_s, _muscles_at(human.shares)
+    at_s, muscles = human.at_s, muscles_at(human.shares)
     human.at_s = floor.now
     task = human.task
     if task < 0:
@@ -87,11 +58,11 @@ def pass_on(floor: Floor, human: Human) -> None:
     if not course:
         human.tired = rest(muscles, work_s + rest_s)
     else:
-        human.tired = spend(muscles, _course_at(course), first, last, work_s, rest_s)
+        human.tired = spend(muscles, course_at(course), first, last, work_s, rest_s)
 
 
 @step
 def has_to_rest(floor: Floor, human: Human) -> None:
     """For how many seconds, until none of his joints is too tired."""
     effects = human.effects
-    effects.answer = rest_to_s(_muscles_at(human.shares), _muscles_at(effects.spare), effects.rest.until)
+    effects.answer = rest_to_s(muscles_at(human.shares), muscles_at(effects.spare), effects.rest.until)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from threading import local
 
+from opsim.engine.endless import endless_instant
 from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
 from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
-from opsim.engine.fast_engine.limits import refuse_plug_ins
+from opsim.engine.fast_engine.limits import refuse_plug_ins, refuse_too_many
+from opsim.engine.fast_engine.loop import DONE, FAILED
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.room import Columns
-from opsim.engine.fast_engine.settle import DONE, FAILED, MOST_ROUNDS
-from opsim.engine.simpy_engine.settle import EndlessInstant
 from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
@@ -27,6 +27,7 @@ class Machine:
 
     def __init__(self, plan: Plan, told: Callable[[int, int], None] | None = None):
         refuse_plug_ins(plan)
+        refuse_too_many(plan)
         self.plan, self.build = plan, Build(plan)
         self.floor = self.build.floor
         complete(needed(self.build.steps.values()), told)
@@ -61,7 +62,7 @@ class Machine:
             waiting.handle()
         self._raise_what_failed()
         if state == FAILED:
-            self._refuse()
+            raise endless_instant(self.plan, self.floor)
         close_floor(at)
         self._raise_what_failed()
         return EventLog(replication, self.plan.horizon_s, self.columns.end(), self._names.copy())
@@ -69,15 +70,6 @@ class Machine:
     def _raise_what_failed(self) -> None:
         if self.numbers.failed is not None:
             raise self.numbers.failed
-
-    def _refuse(self) -> None:
-        stations = {station for gate in self.floor.stirred for station in self._stations_of(gate)}
-        names = ", ".join(sorted(self.plan.stations[station].name for station in stations))
-        where = f"t = {self.floor.now} s: over {MOST_ROUNDS} rounds in one instant"
-        raise EndlessInstant(f"{where}; still moving at: {names}")
-
-    def _stations_of(self, gate) -> list[int]:
-        return [gate.stations[i].rank for i in range(gate.n_stations)]
 
 
 class _Kept(local):
@@ -93,7 +85,7 @@ MOST_KEPT = 2
 
 
 def run_plan(plan: Plan, replication: int = 0) -> EventLog:
-    """Run a Plan to its horizon (exclusive): the rows of ``simpy_engine.run_plan``, to the last bit.
+    """Run a Plan to its horizon (exclusive): the rows of ``floor.run_plan``, to the last bit.
 
     Draws use one BLAS thread, as there. Replications of one Plan (the same object) use its floor again. Raises
     NotImplementedError for what ``unsupported`` says.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.fast_engine.machine import Handle, cast, inlined, step
-from opsim.engine.fast_engine.parts.keys import put
+from opsim.engine.fast_engine.parts.keys import begin_key, put
 from opsim.engine.fast_engine.parts.sequencing import Sequence
 from opsim.engine.fast_engine.parts.servers import setup_s
 from opsim.engine.fast_engine.parts.state import GOES_ON, Floor, Job, Station
@@ -35,7 +35,7 @@ def order(floor: Floor, station: Station, job: Job) -> bool:
         left_steps = plan.left_steps[step]
     begun = job.stage == GOES_ON
     since_s, number = job.since_s, float(job.number)
-    floor.key_n = 0
+    begin_key(floor)
     if known.rule == 0:
         key = _fifo(floor.now, since_s, work_s, left_s, left_steps, job.due_s, 0.0, number)
         first = _queue_key(job.priority, begun, key[0], key[1])

@@ -11,8 +11,8 @@ from plans import plan
 from plans import queue as queue_text
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
+from opsim.engine.floor import run_plan
 from opsim.log import CREATE, FINISH
 from opsim.plan import Plan
 

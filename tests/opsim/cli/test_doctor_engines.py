@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from stand_in_engine import spoilt, stand_in
 
-from opsim.engine.simpy_engine.settle import EndlessInstant
+from opsim.engine.endless import EndlessInstant
 from opsim.log import WORK
 from tests.opsim.cli.calls import LINE, line, opsim
 
@@ -87,7 +87,7 @@ def test_what_neither_engine_comes_to_an_end_of_is_told_as_of_any_run(tmp_path, 
         raise EndlessInstant("t = 60.0 s: over 10000 rounds")
 
     stand_in(monkeypatch).run_plan = endless
-    monkeypatch.setattr("opsim.engine.simpy_engine.run_plan", endless)
+    monkeypatch.setattr("opsim.engine.floor.run_plan", endless)
     code, _, complaint = opsim("doctor", "engines", line(tmp_path))
     assert code == 1 and "does not move on in time" in complaint and "t = 60.0 s" in complaint
 

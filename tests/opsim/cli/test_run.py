@@ -3,7 +3,7 @@ import json
 import pytest
 
 from opsim.cli.run_table import without_repeats
-from opsim.engine.simpy_engine.settle import EndlessInstant
+from opsim.engine.endless import EndlessInstant
 from opsim.laws import BrokenLog
 from opsim.study.pool import ProcessLost
 from tests.opsim.cli.calls import LINE, line, opsim

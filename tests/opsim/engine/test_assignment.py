@@ -2,10 +2,14 @@
 
 import numpy as np
 import pytest
+import simpy
 from plans import plan, ran
 
-from opsim.engine.simpy_engine.allocation import _walk_on
-from opsim.engine.simpy_engine.run import _open
+from opsim.engine.floor import FloorOfPlan
+from opsim.engine.floor.allocation import _walk_on
+from opsim.engine.floor.parts.bits import leave_those
+from opsim.engine.floor.parts.records import Claim
+from opsim.engine.floor.parts.state import DUTY
 from opsim.kpi import figures
 from opsim.log import BAD, FINISH, WALK, WORK
 
@@ -242,8 +246,10 @@ def test_stations_at_one_place_are_served_in_turn():
 def test_a_call_that_somebody_may_not_serve_does_not_stop_him_on_his_round():
     """Else he would come to it for ever: his skills may be taken from him for a while, as before a break."""
     one_place = ROUND.replace("b: [3 m, 0 m], c: [3 m, 4 m]", "b: [0 m, 0 m], c: [0 m, 0 m]")
-    floor = _open(plan(one_place), 0)
-    floor.stations[1].calling.append((0.0, 0.0, 0, None))
+    one = FloorOfPlan(plan(one_place))
+    one.open(simpy.Environment())
+    floor = one.floor
+    floor.stations[1].calling.append(Claim())
     assert _walk_on(floor)
-    floor.workers[0].restrict("break", 0)
+    leave_those(floor, floor.workers[0], DUTY, [0])
     assert not _walk_on(floor)

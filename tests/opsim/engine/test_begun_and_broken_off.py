@@ -5,7 +5,7 @@ import pytest
 from human_plans import planned
 from made_shops import ran, spans
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.log import NO_TOOL, WAIT, WORK
 from opsim.practice import practice

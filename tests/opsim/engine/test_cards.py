@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.card_gates import Guard
+from opsim.engine.floor import card_gates, run_plan
 from opsim.laws import audit
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, LOST, NO_CARD, REWORK, WORK
 from tests.opsim.kpi.locking import LOOPS
@@ -227,8 +226,8 @@ cards: {few: {n: 1}}
 
 def test_jobs_outside_are_not_all_looked_at_each_time_something_changes(monkeypatch):
     """A floor that stands still, and 2,400 jobs outside: each is told what it waits for a few times at most."""
-    told, mark = [], Guard._mark
-    monkeypatch.setattr(Guard, "_mark", lambda guard, job, lacks: (told.append(job.number), mark(guard, job, lacks)))
+    told, mark = [], card_gates._mark
+    monkeypatch.setattr(card_gates, "_mark", lambda *what: (told.append(what[1].number), mark(*what)))
     log = run_plan(plan(LOOPS.replace("{n: 2,", "{n: 50,").replace("run: {horizon: 2 h}", "run: {horizon: 10 h}")))
     outside = np.sum((log["kind"] == HELD) & (log["station"] < 0) & (log["end_s"] == 36_000))
     assert outside > 2000

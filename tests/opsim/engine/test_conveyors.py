@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.log import BLOCKED, CREATE, FINISH, QUEUE, TRANSPORT
 

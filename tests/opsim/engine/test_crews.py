@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
 from opsim.kpi.crews import hand_overs
 from opsim.log import FINISH, KINDS, WORK
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import DOWN, FINISH, HELD, IS_DOWN, REPAIR, SCRAP, WORK, EventLog
 

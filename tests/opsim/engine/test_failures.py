@@ -3,7 +3,7 @@
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import BREAKDOWN, DOWN, FINISH, HELD, IS_DOWN, MAINTENANCE, NO_TOOL, NO_WORKER, REPAIR, SCRAP, WAIT, WORK
 

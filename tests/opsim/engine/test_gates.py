@@ -4,8 +4,8 @@ import numpy as np
 import plans
 import pytest
 
-from opsim.engine.simpy_engine import floor as floors
-from opsim.engine.simpy_engine.state import Gate
+from opsim.engine.floor import build
+from opsim.engine.floor.parts import gates
 
 BACKLOG = """
 opsim: 1
@@ -30,15 +30,15 @@ ROUTES = {
 @pytest.mark.parametrize("edits", ROUTES.values(), ids=ROUTES)
 def test_looking_at_every_claim_would_find_the_same(edits, monkeypatch):
     log, _ = plans.ran(BACKLOG, *edits)
-    monkeypatch.setattr(floors, "_comes_back", lambda *_: True)
+    monkeypatch.setattr(build, "_comes_back", lambda *_: True)
     twin, _ = plans.ran(BACKLOG, *edits)
     assert all(np.array_equal(log[name], twin[name], equal_nan=True) for name in log.columns)
 
 
 def test_a_queue_outside_is_not_gone_through_where_nobody_comes_back(monkeypatch):
     asked = []
-    may_enter = Gate.may_enter
-    monkeypatch.setattr(Gate, "may_enter", lambda gate, job: asked.append(job) or may_enter(gate, job))
+    may_enter = gates.may_enter
+    monkeypatch.setattr(gates, "may_enter", lambda *what: asked.append(what) or may_enter(*what))
     plans.ran(BACKLOG)
     assert not asked
     plans.ran(BACKLOG, *ROUTES["twice at one station"])

@@ -5,7 +5,7 @@ import plans
 import pytest
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
 from opsim.kpi import figures
 from opsim.log import HELD, NO_TOOL, TOOL, WAIT, WORK
 

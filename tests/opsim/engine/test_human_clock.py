@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from human_plans import LINE, planned
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import WORK
 
 HOUR_S = 3600.0

@@ -3,7 +3,7 @@ import pytest
 from checked_floors import differ
 from human_plans import LINE, planned, shipped
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import BAD, FINISH, REWORK
 

@@ -12,7 +12,7 @@ from made_brigades import scenario as brigade
 from made_floors import text_of
 from made_people_blocks import people_floor_with
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.laws import audit
 from opsim.log import FINISH, NO_TOOL, SETUP, WAIT, WORK

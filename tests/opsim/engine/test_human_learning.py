@@ -5,7 +5,7 @@ import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.human.catalogue import entry, models_of
 from opsim.log import FINISH, WORK
 from opsim.plan.human import HumanPlan

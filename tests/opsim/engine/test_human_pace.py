@@ -3,7 +3,7 @@ import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import BLOCKED, FINISH, QUEUE, WORK
 
 TWO = """

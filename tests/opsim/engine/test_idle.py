@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.locked import locked
 from opsim.laws import CHECKS, audit
 from opsim.log import BLOCKED, FINISH, WAIT, WALK, WORK

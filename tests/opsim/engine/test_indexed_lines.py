@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
+from opsim.engine.floor import run_plan
 from opsim.kpi.table import figures
 from opsim.laws import audit
 from opsim.log import (

@@ -7,7 +7,7 @@ import pytest
 from plans import plan
 
 from opsim import log as kinds
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 
 BIKES = """
 opsim: 1

@@ -1,13 +1,18 @@
 """Rules by exposure: the dose that the engine counts, and how nearly even it comes out."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import plans
 import pytest
+import simpy
 from checked_floors import differ
 from made_pool import POOL
 
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.doses import Dose
+from opsim.engine.floor import FloorOfPlan, run_plan
+from opsim.engine.floor.humans import stops, works
+from opsim.engine.floor.loop import run_until
+from opsim.engine.floor.parts.doses import Dose, dose_so_far
 from opsim.ergonomics.shift.dose_rates import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios
@@ -41,13 +46,21 @@ def doses(log, plan, per_s=lambda _worker, task: (HEAVY, LIGHT)[task]):
 
 def test_a_dose_grows_with_work_and_stands_still_without(known):
     """6 a second from 0 to 4, broken off: 24; 2 a second from 10 to 12: 26 at 11 s, 28 from 12 s on."""
-    dose = Dose(DoseRates(None, 0), 0)
-    dose.works(0.0, 0, 10.0)
-    assert dose.so_far(3.0) == 18.0
-    dose.stops(4.0)
-    assert dose.so_far(9.0) == 24.0
-    dose.works(10.0, 1, 12.0)
-    assert [dose.so_far(now) for now in (10.0, 11.0, 12.0, 99.0)] == [24.0, 26.0, 28.0, 28.0]
+    rates, dose = DoseRates(None, 0), Dose()
+    dose.rates = [np.nan, np.nan]
+    dose.ask_rate = lambda worker, task: dose.rates.__setitem__(task, rates.per_s(worker, task))
+    effects = SimpleNamespace(pass_line=None, forgets=0, rests=0)
+    worker = SimpleNamespace(rank=0, dose=dose, human=SimpleNamespace(effects=effects))
+
+    def at(now, **asked):
+        return SimpleNamespace(now=now, asked_done=0.0, asked_k=0, **asked)
+
+    works(at(0.0, asked_task=0, asked_until_s=10.0), worker)
+    assert dose_so_far(at(3.0), worker) == 18.0
+    stops(at(4.0), worker)
+    assert dose_so_far(at(9.0), worker) == 24.0
+    works(at(10.0, asked_task=1, asked_until_s=12.0), worker)
+    assert [dose_so_far(at(now), worker) for now in (10.0, 11.0, 12.0, 99.0)] == [24.0, 26.0, 28.0, 28.0]
 
 
 FLOORS = [
@@ -59,18 +72,14 @@ FLOORS = [
 @pytest.mark.parametrize(("name", "hours"), FLOORS)
 def test_the_doses_that_are_counted_are_those_of_the_rows(name, hours, monkeypatch):
     """Whatever breaks work off, hands it over, or lets several do it."""
-    seen, works = {}, Dose.works
-
-    def watched(self, *what):
-        seen[self._worker] = self
-        works(self, *what)
-
-    monkeypatch.setattr(Dose, "works", watched)
     monkeypatch.setattr(DoseRates, "per_s", lambda self, worker, task: odd(worker, task))
     changes = {"allocation.rule": "least_exposed", "run.horizon": f"{hours} h", "run.warm_up": "0 s"}
     plan = plans.compile_plan(next(iter(read_scenarios(name, None, changes).values())))
-    log = run_plan(plan)
-    counted = [seen[rank].so_far(plan.horizon_s) if rank in seen else 0.0 for rank in range(len(plan.workers))]
+    one, env = FloorOfPlan(plan), simpy.Environment()
+    one.open(env)
+    run_until(env, plan.horizon_s)
+    log = one.close()
+    counted = [dose_so_far(one.floor, worker) for worker in one.build.workers]
     assert np.allclose(counted, doses(log, plan, odd), rtol=1e-9, atol=1e-6)
     assert max(counted) > 1000
 

@@ -4,7 +4,7 @@ import pytest
 from checked_floors import differ
 from human_plans import NEUTRAL, shipped, without_effects
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.human.catalogue import entry
 
 FLOORS = [

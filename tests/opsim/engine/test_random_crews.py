@@ -8,7 +8,7 @@ import pytest
 from made_brigades import scenario
 from plans import plan, ran
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import FINISH, JOB_KINDS, WORK
 
 FEW, MANY = range(12), range(12, 160)

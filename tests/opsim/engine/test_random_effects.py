@@ -17,7 +17,7 @@ from made_floors import text_of
 from made_people_blocks import ALWAYS, PEOPLE, people_floor_with
 from made_troubles import troubled
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.log import WORK
 

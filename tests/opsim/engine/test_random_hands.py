@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import COLUMNS, FINISH, HELD, NO_TOOL, REWORK, SCRAP, TEAM, TOOL, WAIT, WORK
 

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from made_lines import line_scenario
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.table import figures
 from opsim.laws import CHECKS, audit
 from opsim.log import COLUMNS, FINISH, JOB_KINDS, SENT_ON, STANDS

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.laws import CHECKS, audit
 from opsim.log import COLUMNS, FINISH, WORK

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import COLUMNS, CREATE, FINISH
 from opsim.plan import compile_plan

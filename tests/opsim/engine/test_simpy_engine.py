@@ -5,8 +5,8 @@ import pytest
 from plans import CELL, line, plan, queue
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.log import BLOCKED, COLUMNS, CREATE, FINISH, HELD, JOB_BLOCKED, LOST, WAIT, WALK, WORK
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import line, plan, queue
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.engine.simpy_work import simpy_s, visits
 from opsim.log import WORK
 

@@ -4,7 +4,7 @@ import plans
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.laws import audit
 from opsim.log import BLOCKED, HELD, NO_TOOL, TOOL, WORK

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from plans import line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.log import FINISH, TRANSPORT, WAIT, WALK, WORK
 

@@ -5,8 +5,8 @@ import pytest
 from plans import HERE, loaded
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
+from opsim.engine.floor import run_plan
 from opsim.laws import CHECKS, audit
 from opsim.log import WORK
 from opsim.plan import compile_plan

@@ -8,7 +8,7 @@ import pytest
 from plans import loaded
 
 from opsim.clock import on_grid
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics import bodies
 from opsim.ergonomics.exposure import trunk_exposure
 from opsim.ergonomics.joints import CANONICAL

@@ -7,7 +7,7 @@ import pytest
 from human_plans import shipped
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics import exposure
 from opsim.ergonomics.again import performance_again
 from opsim.ergonomics.pieces import drawn_again, pieces_in_window

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics import walking as looking
 from opsim.ergonomics.exposure import trunk_exposure
 from opsim.ergonomics.walking import walking_exposure

@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.export.ocel import object_log
 from opsim.export.run_clock import RunClock
 from opsim.plan import compile_plan

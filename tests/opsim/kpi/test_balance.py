@@ -5,7 +5,7 @@ from math import isnan, sqrt
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.balance import line_balance
 
 LINE = """

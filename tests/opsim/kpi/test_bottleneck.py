@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.active import Periods, active_periods, active_time
 from opsim.kpi.bottleneck import bottleneck, longest_under_way
 from tests.opsim.kpi.made_logs import made, work

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.cycle import cycle_times, task_durations, visits
 from opsim.log import WORK
 from tests.opsim.kpi.made_logs import made, work

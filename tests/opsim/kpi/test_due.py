@@ -4,7 +4,7 @@ import pytest
 from made_shops import HEAD
 from plans import CELL, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.due import due_dates
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import loaded, ran
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics.options import Options
 from opsim.ergonomics.shift.booking import Booking
 from opsim.ergonomics.shift.ledger import AT_MOST

@@ -2,7 +2,7 @@ import plans
 import pytest
 from human_plans import LINE, planned
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.kpi.names import KPIS
 from opsim.report.words import NAMES

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.flow import time_in_system, work_in_progress
 from opsim.log import CREATE, FINISH
 from tests.opsim.kpi.made_logs import found, made, row

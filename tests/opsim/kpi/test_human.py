@@ -1,7 +1,7 @@
 import pytest
 from human_plans import LINE, planned
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS
 from opsim.kpi.human import learned
 from tests.opsim.kpi.made_logs import found, made, work

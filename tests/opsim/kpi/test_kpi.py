@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS, figures, samples
 from opsim.kpi.names import USUAL
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.locked import locked
 from opsim.laws import audit
 from opsim.log import BATCH, HELD, NO_PARTS, QUEUE, SETUP, WORK

@@ -5,7 +5,7 @@ from math import isnan
 import pytest
 from plans import CELL, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import HELD
 from tests.opsim.kpi.made_logs import found, made, row, work
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.kpi.names import POSTURE, WALKING, headline
 from opsim.log import WALK

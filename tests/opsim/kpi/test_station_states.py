@@ -4,7 +4,7 @@ import pytest
 from plans import plan
 
 from opsim import log as kinds
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.station_states import possible, station_states
 from opsim.log import BLOCKED, HELD, SETUP
 from tests.opsim.kpi.made_logs import made, row, work

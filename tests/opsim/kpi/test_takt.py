@@ -5,7 +5,7 @@ from math import exp, isnan, sqrt
 import pytest
 from plans import line, plan, queue
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.takt import takt
 from opsim.log import CREATE, FINISH
 from tests.opsim.kpi.made_logs import made, row

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.kpi.trips import ends_of_trip, subject_of_trip
 from opsim.log import TRANSPORT, WALK

@@ -3,7 +3,7 @@
 import pytest
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.vehicles import transporters
 
 TRUCK = """

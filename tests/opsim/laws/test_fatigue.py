@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from human_plans import LINE, planned
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.laws.fatigue import rests, shifts
 from opsim.log import BREAK, REST, WORK
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.human.catalogue import made
 from opsim.laws import audit
 from opsim.laws.pace import pace

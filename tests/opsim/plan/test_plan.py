@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import CELL, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics.pieces import drawn_again, pieces_in_window
 from opsim.plan import Plan
 

@@ -3,7 +3,7 @@
 import numpy as np
 from plans import HERE, loaded, plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.plan.unread import unread

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.practice import practice
 from opsim.report.human_curves import curves_of
 from opsim.tiredness import tiredness

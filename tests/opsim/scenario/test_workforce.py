@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import HERE, loaded
 
-from opsim.engine.simpy_engine.draws import Draws
+from opsim.engine.draws import Draws
 from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in

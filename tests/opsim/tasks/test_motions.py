@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from opsim.effects import worker_effect
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.ergonomics.exposure import trunk_exposure
 from opsim.laws import CHECKS, audit
 from opsim.plan import compile_plan

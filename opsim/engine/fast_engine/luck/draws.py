@@ -1,4 +1,4 @@
-"""All luck of a replication, by name: the streams of ``simpy_engine/draws.py``, in arrays of many blocks."""
+"""All luck of a replication, by name: the streams of ``engine/draws.py``, in arrays of many blocks."""
 
 from __future__ import annotations
 

@@ -5,6 +5,10 @@ The engine is plain Python functions over such structs, compiled one by one. Not
 
 from opsim.engine.fast_engine.machine.arena import Arena as Arena
 from opsim.engine.fast_engine.machine.arena import Handle as Handle
+from opsim.engine.fast_engine.machine.arrays import give_ints_back as give_ints_back
+from opsim.engine.fast_engine.machine.arrays import new_floats as new_floats
+from opsim.engine.fast_engine.machine.arrays import new_ints as new_ints
+from opsim.engine.fast_engine.machine.arrays import part_of as part_of
 from opsim.engine.fast_engine.machine.compiling import inlined as inlined
 from opsim.engine.fast_engine.machine.lists import clear as clear
 from opsim.engine.fast_engine.machine.lists import drop as drop
@@ -20,6 +24,7 @@ from opsim.engine.fast_engine.machine.memory import call_out as call_out
 from opsim.engine.fast_engine.machine.memory import fresh as fresh
 from opsim.engine.fast_engine.machine.memory import give_back as give_back
 from opsim.engine.fast_engine.machine.memory import words_at as words_at
+from opsim.engine.fast_engine.machine.steps import Call as Call
 from opsim.engine.fast_engine.machine.steps import ask_1 as ask_1
 from opsim.engine.fast_engine.machine.steps import ask_2 as ask_2
 from opsim.engine.fast_engine.machine.steps import ask_3 as ask_3

@@ -172,6 +172,10 @@ class ListHandle:
     def append(self, value: Any) -> None:
         self.insert(len(self), value)
 
+    def extend(self, values: Iterable[Any]) -> None:
+        """Put values behind the last."""
+        self.fill([*self, *values])
+
     def insert(self, at: int, value: Any) -> None:
         """Put a value before the one that is now number ``at``."""
         values = list(self)

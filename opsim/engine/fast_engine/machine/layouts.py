@@ -9,7 +9,8 @@ from typing import Any
 WORD = 8
 LIST_WORDS = 4
 """Of a list inside a struct: where its items are, the number of the first, how many, and for how many there is room."""
-_SCALARS = {"int": "int", "bool": "int", "float": "float"}
+_SCALARS = {"int": "int", "bool": "int", "float": "float", "Call": "int"}
+"""NOTE: a Call is the line of a step in the table."""
 _GENERIC = re.compile(r"(List|Array)\[(.+)\]$")
 
 

@@ -73,6 +73,10 @@ class Line(int):
     """A number of a line. NOTE: where a step names one, it needs that step."""
 
 
+Call = Line
+"""Of a hook: what it calls."""
+
+
 def line_of(call: Any) -> Line:
     """Its line of the table: what hooks and events say for what is to be done."""
     return Line(step_of(call).line)

@@ -80,7 +80,7 @@ def type_of(said: str) -> Any:
     """The compiled type that an annotation stands for."""
     if said in SCALARS:
         return SCALARS[said]
-    return types.int64 if said == "bool" else Ref(said)
+    return types.int64 if said in ("bool", "Call") else Ref(said)
 
 
 def _field_type(pointer: Pointer, name: str) -> Any:
@@ -145,14 +145,21 @@ class Truth(AbstractTemplate):
         return signature(types.boolean, args[0]) if len(args) == 1 and isinstance(args[0], Pointer) else None
 
 
-@lower_builtin(bool, Pointer)
-def _is_there(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-    return builder.icmp_unsigned("!=", args[0], ir.Constant(POINTER, None))
+def _truth(sign: str) -> Any:
+    """Of a list, whether anything is in it; of anything else, whether it is there."""
+
+    def truth(_context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        if sig.args[0].kind != "list":
+            return builder.icmp_unsigned(sign, args[0], ir.Constant(POINTER, None))
+        words = builder.bitcast(args[0], I64.as_pointer())
+        n_items = builder.load(builder.gep(words, [ir.Constant(I64, 2)], inbounds=True))
+        return builder.icmp_unsigned(sign, n_items, ir.Constant(I64, 0))
+
+    return truth
 
 
-@lower_builtin(operator.not_, Pointer)
-def _is_not_there(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-    return builder.icmp_unsigned("==", args[0], ir.Constant(POINTER, None))
+lower_builtin(bool, Pointer)(_truth("!="))
+lower_builtin(operator.not_, Pointer)(_truth("=="))
 
 
 @infer_global(operator.not_)

@@ -1,4 +1,4 @@
-"""Time on the grid, as ``opsim.clock`` has it."""
+"""Time on the grid, as ``opsim.clock`` has it; and the lowest bit of a word: what a processor does at once."""
 
 from __future__ import annotations
 
@@ -25,6 +25,16 @@ def rounded(_typingctx: Any, number: Any) -> Any:
         return builder.call(rint, args)
 
     return types.float64(types.float64), codegen
+
+
+@intrinsic
+def lowest_bit(_typingctx: Any, bits: Any) -> Any:
+    """The number of the lowest bit that is set; of 0: 64."""
+
+    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        return builder.cttz(args[0], ir.Constant(ir.IntType(1), 0))
+
+    return types.int64(types.int64), codegen
 
 
 @inlined

@@ -36,6 +36,12 @@ def _grow(floor: Floor) -> None:
 
 
 @inlined
+def is_last_of_instant(floor: Floor) -> bool:
+    """Whether nothing else is to come at the time of the event that is at hand."""
+    return floor.heap_n == 0 or floor.heap_time[0] > floor.env_now
+
+
+@inlined
 def push_event(floor: Floor, at_s: float, event: Event) -> None:
     """An event is to come at a time."""
     if floor.heap_n == floor.heap_room:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from opsim.engine.fast_engine.machine import ask_3, inlined
 from opsim.engine.fast_engine.parts.state import Floor, Job, Station, Worker
 from opsim.engine.rules import ALLOCATION_RULES, allocation
@@ -15,6 +17,22 @@ _longest_queue, _nearest, _oldest_job = map(
 )
 _best_skill, _most_downstream = map(inlined, (allocation.best_skill, allocation.most_downstream))
 _least_exposed = inlined(allocation.least_exposed)
+
+
+def use_rule(floor: Any, rule: str) -> None:
+    """The floor's rule of allocation is the one of a name."""
+    floor.rule = ALLOCATION.index(rule)
+
+
+def have_room(build: Any) -> None:
+    """Keys have room for the most numbers that there may be."""
+    build.floor.key, build.floor.best_key = build.floats([0.0] * MOST), build.floats([0.0] * MOST)
+
+
+@inlined
+def begin_key(floor: Floor) -> None:
+    """Nothing is in the key."""
+    floor.key_n = 0
 
 
 @inlined
@@ -63,7 +81,7 @@ def pair_numbers(
 @inlined
 def pair_key(floor: Floor, worker: Worker, station: Station, job: Job, n_waiting: float, since_s: float) -> None:
     """The key of a free worker and a calling station; ``job`` is the one that calls, since some time."""
-    floor.key_n = 0
+    begin_key(floor)
     for i in range(len(floor.prefixes)):
         ask_3(floor.prefixes[i].line, floor, worker, station, job)
     found = pair_numbers(floor, worker, station, n_waiting, since_s)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined, step
 from opsim.engine.fast_engine.machine.memory import words_at
 from opsim.engine.fast_engine.machine.structs import array_at
@@ -47,6 +49,13 @@ def stream_of(floor: Floor, purpose: int, one: int, two: int, three: int) -> Str
     return stream
 
 
+def planned(build: Any, purpose: int, rank: int) -> Any:
+    """A stream from its beginning, of a floor that is being set up."""
+    made = build.arena.new("Stream")
+    made.id = purpose << 48 | rank << 32
+    return made
+
+
 @step
 def more_numbers(floor: Floor, stream: Stream, item: int) -> None:
     """A block of what was drawn before the run, with the item in it; else Python is asked for more.
@@ -78,6 +87,17 @@ def next_number(floor: Floor, stream: Stream) -> float:
     number = stream.next
     stream.next = number + 1
     return stream.data[number - stream.first]
+
+
+@inlined
+def next_held(floor: Floor, stream: Stream) -> float:
+    """The next duration of a stream; the shares between which the tool is held are in ``floor.holds``."""
+    if stream.next == stream.end:
+        more_numbers(floor, stream, stream.next)
+    at = stream.next - stream.first
+    stream.next += 1
+    floor.holds.start, floor.holds.end = stream.data_2[at], stream.data_3[at]
+    return stream.data[at]
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""Rows of the event log: of jobs, workers, instants; what ``simpy_engine.floor`` and ``worker`` write."""
+"""Rows of the event log: of jobs, workers, instants; those of ``floor.parts.rows``."""
 
 from __future__ import annotations
 

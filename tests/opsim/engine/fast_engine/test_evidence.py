@@ -17,7 +17,7 @@ from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
 from engine_evidence.ties import contested_ties
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.log import EventLog
 
 SHOP = {

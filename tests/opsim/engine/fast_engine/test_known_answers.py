@@ -14,7 +14,7 @@ from known_answers.simulate import plan_of, simulate
 
 from opsim.engine.choice import FAST
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.simpy_engine import run_plan as run_simpy
+from opsim.engine.floor import run_plan as run_simpy
 from opsim.study.interval import t_interval
 
 ASKED = [*CASES, *staffing.CASES]

@@ -9,7 +9,7 @@ from plans import plan
 
 from opsim.engine.fast_engine import numbers as fast_numbers
 from opsim.engine.fast_engine.run import Machine
-from opsim.engine.simpy_engine import run_plan as run_simpy
+from opsim.engine.floor import run_plan as run_simpy
 from opsim.log import COLUMNS
 from opsim.tasks import TimePerformances
 

@@ -11,7 +11,7 @@ from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
 
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.simpy_engine import run_plan as run_simpy
+from opsim.engine.floor import run_plan as run_simpy
 
 EVERY = 4
 """Of the others, one of so many is run here."""

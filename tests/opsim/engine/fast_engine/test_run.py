@@ -13,7 +13,7 @@ from plans import plan, queue
 from opsim.engine.fast_engine import room, run
 from opsim.engine.fast_engine.leases import lent
 from opsim.engine.fast_engine.luck.blocks import Stream
-from opsim.engine.simpy_engine import run_plan as simpy_run
+from opsim.engine.floor import run_plan as simpy_run
 
 TESTS = Path(__file__).parents[3]
 STOPPED = """

@@ -7,7 +7,7 @@ import pytest
 from engine_evidence.rows import first_difference
 
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.simpy_engine import run_plan as run_simpy
+from opsim.engine.floor import run_plan as run_simpy
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder

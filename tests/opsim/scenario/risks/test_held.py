@@ -4,7 +4,7 @@ from pathlib import Path
 
 from plans import plan
 
-from opsim.engine.simpy_engine import run_plan
+from opsim.engine.floor import run_plan
 from opsim.kpi.locked import locked
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.risks import risks_of

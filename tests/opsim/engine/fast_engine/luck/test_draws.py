@@ -7,9 +7,9 @@ from threading import Thread
 import numpy as np
 import pytest
 
+from opsim.engine.draws import Draws
 from opsim.engine.fast_engine.luck import of_plan
 from opsim.engine.fast_engine.luck.draws import BlockDraws
-from opsim.engine.simpy_engine.draws import Draws
 from opsim.plan import compile_plan
 from opsim.plan.failures import BreakdownPlan
 from opsim.plan.orders import ANY, OrderPlan

@@ -113,10 +113,10 @@ def test_nobody_helps_where_nothing_can_be_written(place, monkeypatch):
 
 def test_a_process_that_helps_finds_every_step():
     """By its module, which a process that has read no plan may not have imported yet."""
-    from opsim.engine.fast_engine import blocks
+    from opsim.engine.fast_engine import sources
     from opsim.engine.fast_engine.machine import steps
 
-    blocks.know_all()
+    sources.know_all()
     engine = [one for one in steps.STEPS.values() if one.function.__module__.startswith("opsim.")]
     names = "".join(f"{table._name(one)}\n" for one in engine)
     program = "from opsim.engine.fast_engine.machine import table; table.is_on_disk = lambda one: True"

@@ -1,0 +1,85 @@
+"""Modules of this package that are rules of the floor: found in ``opsim.engine.floor``, and lowered as they are read.
+
+What was lowered is kept beside what Python has compiled, as long as neither the rule nor the pass changes.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.abc
+import importlib.util
+import marshal
+import sys
+from contextlib import suppress
+from os import getpid, replace
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
+
+from opsim.engine.fast_engine import lowering
+from opsim.engine.fast_engine.lowering import COMPILED, lowered
+
+HERE = Path(__file__).parent
+FLOOR = HERE.parent / "floor"
+
+
+def know_all() -> None:
+    """Have all steps known by their lines: also those of rules that a block comes to only where a plan asks for it."""
+    for name in (*rules(), *(path.stem for path in HERE.glob("[!_]*.py"))):
+        importlib.import_module(f"{COMPILED}.{name}")
+
+
+def rules() -> list[str]:
+    """Names of all modules of rules, within the package."""
+    files = [path for folder in (FLOOR, FLOOR / "parts") for path in sorted(folder.glob("[!_]*.py"))]
+    found = [path.relative_to(FLOOR) for path in files if not (HERE / path.relative_to(FLOOR)).exists()]
+    return [".".join(path.with_suffix("").parts) for path in found]
+
+
+class Lowering(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Asked after Python's own finders: what this package has a file of is that file."""
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
+        """Where a module is."""
+        if name.startswith(COMPILED + "."):
+            file = FLOOR.joinpath(*name.removeprefix(COMPILED + ".").split(".")).with_suffix(".py")
+            if file.is_file():
+                return importlib.util.spec_from_file_location(name, file, loader=self)
+        return None
+
+    def create_module(self, spec: Any) -> ModuleType | None:
+        """An ordinary one."""
+        return None
+
+    def exec_module(self, module: ModuleType) -> None:
+        """What stands in it, lowered."""
+        exec(_code(Path(str(module.__file__))), module.__dict__)
+
+
+def _code(path: Path) -> CodeType:
+    """From disk where it is that of today's source, of this pass and this Python."""
+    kept = Path(importlib.util.cache_from_source(str(HERE / path.relative_to(FLOOR))))
+    times = [of.stat() for of in (path, Path(str(lowering.__file__)))]
+    key = importlib.util.MAGIC_NUMBER + repr([(one.st_mtime_ns, one.st_size) for one in times] + [str(path)]).encode()
+    with suppress(OSError, ValueError, EOFError, TypeError):
+        data = kept.read_bytes()
+        if data.startswith(key):
+            found: CodeType = marshal.loads(data[len(key) :])
+            return found
+    made = compile(lowered(path.read_text(encoding="utf-8"), str(path)), str(path), "exec")
+    if not sys.dont_write_bytecode:
+        with suppress(OSError):
+            _write(kept, key + marshal.dumps(made))
+    return made
+
+
+def _write(kept: Path, data: bytes) -> None:
+    """Under another name first, as several processes may do so at once."""
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    part = kept.with_name(f"{kept.name}.{getpid()}")
+    part.write_bytes(data)
+    replace(part, kept)
+
+
+# NOTE: done as this is imported, first of all in this package: the modules after it are found that way.
+sys.meta_path.append(Lowering())

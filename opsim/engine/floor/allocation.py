@@ -1,0 +1,184 @@
+"""Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round."""
+
+from __future__ import annotations
+
+from opsim.engine.floor.machine import here, inlined, step
+from opsim.engine.floor.parts.bits import clear_bit, may_serve
+from opsim.engine.floor.parts.claims import take_claim
+from opsim.engine.floor.parts.clock import lowest_bit
+from opsim.engine.floor.parts.keys import is_better, keep_best, pair_key, pair_numbers
+from opsim.engine.floor.parts.rounds import on_round
+from opsim.engine.floor.parts.rows import log_worker
+from opsim.engine.floor.parts.state import CREWS, Floor, Job, Station, Worker
+from opsim.engine.floor.station import call_off, perform
+from opsim.engine.floor.worker import be_busy, walk
+
+STAY, HOME, PATROL = range(3)
+
+
+@step
+def send_workers(floor: Floor) -> None:
+    """Serve the best pair of free worker and calling station, again and again; then the idle do as the plan says."""
+    while True:
+        while floor.free and floor.n_calling and not floor.none_fits and _serve_one(floor):
+            pass
+        if floor.idle == STAY or not floor.free:
+            return
+        if floor.idle == HOME:
+            _go_home(floor)
+            return
+        if not _walk_on(floor):
+            return
+
+
+@inlined
+def _numbers(floor: Floor, worker: Worker, station: Station) -> tuple[float, float, float, float, float, float]:
+    n_waiting = len(station.calling) + len(station.queue)
+    return pair_numbers(floor, worker, station, n_waiting, station.calling[0].since_s)
+
+
+@inlined
+def _key(floor: Floor, worker: Worker, station: Station) -> None:
+    first = station.calling[0]
+    pair_key(floor, worker, station, first.job, len(station.calling) + len(station.queue), first.since_s)
+
+
+@inlined
+def _is_best(
+    floor: Floor, worker: Worker, station: Station, best: Worker, best_station: Station, is_second: bool
+) -> bool:
+    """Whether a pair comes before the best so far, where blocks put something before the rule's numbers."""
+    if is_second:
+        _key(floor, best, best_station)
+        keep_best(floor)
+    _key(floor, worker, station)
+    if not is_better(floor):
+        return False
+    keep_best(floor)
+    return True
+
+
+@inlined
+def _next_able(floor: Floor, at: int) -> int:
+    """The number, from one on, of the next of those free who can serve at a station that calls."""
+    free, calls = floor.free, floor.calls
+    while at < len(free):
+        skills = free[at].skills
+        for word in range(floor.n_words):
+            if skills[word] & calls[word]:
+                return at
+        at += 1
+    return at
+
+
+@step
+def _serve_best(floor: Floor) -> bool:
+    """The worker of the best pair is sent, where there is one; True where there may be another pair."""
+    best, best_station = floor.no_worker, floor.outside
+    patrols, n_pairs = floor.idle == PATROL, 0
+    smallest = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    at = _next_able(floor, 0)
+    while at < len(floor.free):
+        worker = floor.free[at]
+        for word in range(floor.n_words):
+            able = worker.skills[word] & floor.calls[word]
+            while able:
+                station = floor.stations[(word << 6) + lowest_bit(able)]
+                able &= able - 1
+                if patrols and not on_round(worker, station):
+                    continue
+                n_pairs += 1
+                if n_pairs == 1:
+                    best, best_station = worker, station  # most often the only pair, and its key is never asked for
+                    continue
+                if floor.prefixes:
+                    if _is_best(floor, worker, station, best, best_station, n_pairs == 2):
+                        best, best_station = worker, station
+                    continue
+                if n_pairs == 2:
+                    smallest = _numbers(floor, best, best_station)
+                numbers = _numbers(floor, worker, station)
+                if numbers < smallest:
+                    best, best_station, smallest = worker, station, numbers
+        at = _next_able(floor, at + 1)
+    if not best:
+        floor.none_fits = not patrols  # these fit by where they stand, too
+        return False
+    if best_station.calling[0].job.with_tools:
+        floor.found_worker, floor.found_station = best, best_station
+        floor.tools_line(floor, best_station, best_station.calling[0].job)
+        best, best_station = floor.found_worker, floor.found_station
+    n_free, calls = len(floor.free), floor.calls[0]
+    _send(floor, best, best_station, best_station.calling[0].job)
+    # it was the only pair, and nobody has come free or has called since: there is none, and no need to look
+    return n_pairs > 1 or len(floor.free) >= n_free or floor.n_words > 1 or floor.calls[0] & ~calls != 0
+
+
+@step
+def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
+    """A free worker goes to a job on a server of a station, which calls there for anybody, or waits for him."""
+    log_worker(floor, worker)
+    be_busy(floor, worker)
+    calls = station.calling
+    if calls and calls[0].job is job:
+        take_claim(floor, calls, 0)
+        if not calls:
+            clear_bit(floor.calls, station.rank)
+            floor.n_calling -= 1
+    else:
+        call_off(floor, station, job)
+    if job.with_tools:
+        station.sent.line(floor, station, job)
+    worker.job, worker.station = job, station
+    walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
+    if walk_s > 0:
+        walk(floor, worker, station.place, walk_s)
+    else:
+        worker.place = station.place
+        perform(floor, job, worker)
+
+
+@step
+def _go_home(floor: Floor) -> None:
+    at = 0
+    while at < len(floor.free):
+        worker = floor.free[at]
+        at += 1
+        if worker.place != worker.home and not worker.limited[CREWS]:
+            metres = floor.distance_m[worker.place * floor.n_places + worker.home]
+            if metres > 0:
+                log_worker(floor, worker)
+                at -= 1
+                worker.in_free = 0
+                del floor.free[at]
+                walk(floor, worker, worker.home, metres / worker.walk_m_per_s)
+            else:
+                worker.place = worker.home
+
+
+@step
+def _walk_on(floor: Floor) -> bool:
+    """Patrolling workers go to the next station of their round; True where one came to a call without walking."""
+    came = False
+    for rank in range(floor.n_workers):
+        worker = floor.workers[rank]
+        if not worker.in_free:
+            continue
+        for _ in range(worker.n_patrol):
+            worker.round = (worker.round + 1) % worker.n_patrol
+            worker.served = 0
+            station = floor.stations[worker.patrol[worker.round]]
+            walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
+            if walk_s > 0:
+                log_worker(floor, worker)
+                be_busy(floor, worker)
+                walk(floor, worker, station.place, walk_s)
+                break
+            worker.place = station.place
+            if station.calling and may_serve(worker, station):
+                came = True
+                break
+    return came
+
+
+_serve_one, _send = here(_serve_best), here(send)

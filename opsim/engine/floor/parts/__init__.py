@@ -1,0 +1,1 @@
+"""Parts of the floor that several rules share."""

@@ -1,0 +1,101 @@
+"""Plan -> EventLog, one replication, by the rules of the floor as CPython reads them."""
+
+from __future__ import annotations
+
+from threading import local
+from typing import Any
+
+import simpy
+
+from opsim.engine.draws import Draws
+from opsim.engine.floor.build import Build
+from opsim.engine.floor.loop import live_in, run_until, working_life
+from opsim.engine.floor.parts.heap import new_event
+from opsim.engine.floor.settle import close, start
+from opsim.log import EventLog, LogWriter, names_of
+from opsim.one_thread import one_blas_thread
+from opsim.plan import Plan
+
+MOST_KEPT = 2
+"""Floors of the last Plans that a thread has run: a sweep goes from Plan to Plan, and does not come back."""
+
+
+class FloorOfPlan:
+    """The floor of a Plan, set up once; each replication begins with it as it was then.
+
+    running : whether a replication is under way on it
+    """
+
+    def __init__(self, plan: Plan):
+        self.plan, self.build, self.running = plan, Build(plan), False
+        self._names = names_of(plan)
+        for worker in self.build.workers:
+            worker.process = worker.stretch_over = None
+            worker.name = plan.workers[worker.rank].name
+        self.floor.plan = plan
+        self.build.arena.freeze()
+
+    @property
+    def floor(self) -> Any:
+        """The floor itself, see ``parts.state.Floor``."""
+        return self.build.floor
+
+    def open(self, env: simpy.Environment, replication: int = 0, *, processes: bool = True) -> None:
+        """The floor lives in an environment from now on, and its workers are processes there, unless they need not."""
+        floor = self.floor
+        self.build.arena.restore()
+        floor.draws, floor.rows, floor.log = Draws(self.plan, replication), [], LogWriter()
+        floor.write = floor.log.rows.extend
+        live_in(env, floor)
+        for one in self.build.answers:
+            one.begin(floor)
+        for worker in self.build.workers:
+            worker.process = worker.stretch_over = None
+            if processes:
+                worker.stretch_over = new_event(floor)
+                worker.process = env.process(working_life(floor, worker))
+        start(floor)
+
+    def close(self, replication: int = 0) -> EventLog:
+        """Its rows, those that are open at the horizon closed there."""
+        close(self.floor)
+        return self.floor.log.close(replication, self.plan.horizon_s, self._names.copy())
+
+
+class _Kept(local):
+    def __init__(self) -> None:
+        self.floors: list[FloorOfPlan] = []
+
+
+_KEPT = _Kept()
+
+
+def run_plan(plan: Plan, replication: int = 0, *, processes: bool = False) -> EventLog:
+    """Run a Plan to its horizon (exclusive); rows that are open there are closed there, with their progress.
+
+    Draws use one BLAS thread, so that the same seed gives the same bytes on any machine load and number of processes.
+    processes : whether each worker is a SimPy process of its own: the rows are the same, it takes a little longer
+    Raises EndlessInstant, and whatever a rule or a model raises.
+    """
+    with one_blas_thread():
+        one = _floor_of(plan)
+        if one.running:
+            one = FloorOfPlan(plan)
+        one.running = True
+        try:
+            env = simpy.Environment()
+            one.open(env, replication, processes=processes)
+            run_until(env, plan.horizon_s)
+            return one.close(replication)
+        finally:
+            one.running = False
+
+
+def _floor_of(plan: Plan) -> FloorOfPlan:
+    """The floor of a Plan in this thread: replications of one Plan (the same object) use it again."""
+    kept = _KEPT.floors
+    found = next((one for one in kept if one.plan is plan), None)
+    if found is None:
+        found = FloorOfPlan(plan)
+    kept[:] = [found, *(one for one in kept if one is not found)][:MOST_KEPT]
+    return found
