@@ -17,21 +17,32 @@ _HOME = {
     "motion_from_positions": "motion",
     "RecordingError": "recordings",
     "read_motions": "recordings",
-    "Alignment": "align",
-    "align_to": "align",
-    "resample": "align",
-    "pair_warp": "elastic",
-    "tsrvf": "elastic",
-    "MotionEmulator": "model",
-    "MotionPerformances": "performances",
-    "MotionLibrary": "library",
-    "LibraryError": "library",
-    "FitReport": "fit_report",
+    "Alignment": "geometry.alignment",
+    "align_to": "geometry.alignment",
+    "resample": "geometry.alignment",
+    "pair_warp": "geometry.elastic",
+    "tsrvf": "geometry.elastic",
+    "MotionEmulator": "model.emulator",
+    "MotionPerformances": "model.performances",
+    "MotionLibrary": "model.library",
+    "LibraryError": "model.library",
+    "FitReport": "fitting.report",
     "Truth": "synthetic",
-    "CompositeEmulator": "composite",
-    "Part": "composite",
+    "CompositeEmulator": "composite.task",
+    "Part": "composite.task",
 }
-_MODULES = ("align", "clean", "elastic", "joined", "recordings", "skeleton", "sphere", "synthetic", "warp")
+_MODULES = {
+    "align": "geometry.alignment",
+    "clean": "motion",
+    "elastic": "geometry.elastic",
+    "joined": "composite.joining",
+    "recordings": "recordings",
+    "skeleton": "skeleton",
+    "sphere": "geometry.sphere",
+    "synthetic": "synthetic",
+    "warp": "geometry.warps",
+}
+"""Modules by the names that they are asked for by."""
 
 __all__ = sorted([*_HOME, *_MODULES])
 
@@ -40,7 +51,7 @@ def __getattr__(name: str) -> Any:
     if name in _HOME:
         return getattr(import_module(f"emulator.{_HOME[name]}"), name)
     if name in _MODULES:
-        return import_module(f"emulator.{name}")
+        return import_module(f"emulator.{_MODULES[name]}")
     raise AttributeError(f"emulator has no {name!r}; it has {', '.join(__all__)}")
 
 

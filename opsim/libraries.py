@@ -78,7 +78,7 @@ def composite_model(task: str, parts: Sequence[tuple[str, Any, dict[str, float] 
 
     Parts of one key are one task: a worker has one effect in them. Raises ValueError where their skeletons differ.
     """
-    from emulator.composite import CompositeEmulator, Part
+    from emulator.composite.task import CompositeEmulator, Part
 
     return CompositeEmulator(task, tuple(Part(*part) for part in parts))
 
@@ -91,7 +91,7 @@ def load_library(path: Path) -> Any:
 
 @lru_cache(maxsize=8)
 def _library(path: Path, _changed: int, _size: int) -> Any:
-    from emulator.library import MotionLibrary
+    from emulator.model.library import MotionLibrary
 
     return MotionLibrary.load(path)
 
@@ -99,7 +99,7 @@ def _library(path: Path, _changed: int, _size: int) -> Any:
 @lru_cache(maxsize=64)
 def _tasks(path: Path, _changed: int, _size: int) -> dict[str, Any]:
     """What the header says of each task."""
-    from emulator.library import read_header
+    from emulator.model.library import read_header
 
     try:
         tasks = read_header(path)["tasks"]

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from emulator import sphere
-from emulator.joined import joined
+from emulator.composite.joining import joined
+from emulator.geometry import sphere
 from emulator.motion import Motion
 from emulator.segmenting.synthesis import motion_of, take_of
 

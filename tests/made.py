@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from emulator import sphere
+from emulator.geometry import sphere
 
 
 def random_warp(rng, n_times, spread=0.35, n_waves=4):

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from emulator.judge.people_found import Icc, People
-from emulator.judge.people_told import ByCovariates, Told
+from emulator.judge.people import ByCovariates, Icc, People, Told
 
 NONE = [np.nan, np.nan]
 

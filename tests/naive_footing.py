@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from emulator.clean import turn
-from emulator.kernels.footing import AHEAD, FOLDED, MOST_BEND_M, STIFF_KNEE, STRAIGHT
-from emulator.runs import stretches
+from emulator.kernels.feet import AHEAD, FOLDED, MOST_BEND_M, STIFF_KNEE, STRAIGHT
+from emulator.motion import stretches, turn
 
 
 def blurred(values, sigma):

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from emulator.kernels.limbs import AHEAD, REACH
-from emulator.kernels.limbs import SOFT_M as SOFT_HIPS_M
+from emulator.kernels.bodies import AHEAD, REACH, RISE
+from emulator.kernels.bodies import SOFT_M as SOFT_HIPS_M
 from emulator.kernels.planting import BEHIND, EASY, LOWEST, SOFT_M, SPARE
-from emulator.kernels.ridden import RISE
-from emulator.runs import stretches
+from emulator.motion import stretches
 from tests.naive import naive_steps
 
 

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from long_take import long_take
 
 from emulator.recordings.bvh_write import write_bvh
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from opsim.cli import main
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder

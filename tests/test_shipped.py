@@ -35,7 +35,7 @@ def test_a_shipped_scenario_fits_on_a_page(name):
 
 @pytest.mark.parametrize("name", LIBRARIES)
 def test_a_shipped_library_says_who_is_behind_it_and_what_made_it(name):
-    from emulator.library import read_header
+    from emulator.model.library import read_header
 
     header = read_header(shipped_folder() / "libraries" / f"{name}.npz")
     assert len(header["tasks"]) == LIBRARIES[name]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from emulator.cleaning.found import KINDS, Cleaned, Repair, verdict_of
+from emulator.cleaning.pipeline import cleaned
+from emulator.cleaning.report import KINDS, Cleaned, Repair, verdict_of
 from emulator.cleaning.settings import POLICIES, CleaningSettings, settings_of
-from emulator.cleaning.whole import cleaned
 
 __all__ = ["KINDS", "POLICIES", "Cleaned", "CleaningSettings", "Repair", "cleaned", "settings_of", "verdict_of"]

@@ -1,4 +1,14 @@
-"""What cleaning looks for, what it mends, and every number it goes by."""
+"""What cleaning looks for, what it mends, and every number it goes by.
+
+Is it a body, in metres, z up? What is not is refused: a wrong unit cannot be told from a wrong body afterwards.
+
+How far joints go: the angles that are looked at, their limits in degrees, and who says so.
+
+Limits are the widest that the sources give, passive where they tell passive from active, since a false accusation is
+worse than a missed fault. AAOS: American Academy of Orthopaedic Surgeons, Joint Motion (1965). Kapandji: The
+Physiology of the Joints (2007, 2008). Norkin & White: Measurement of Joint Motion (2016). What directions of bones do
+not show (turns about a bone's own axis; which way an elbow bends) has no limit here.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +16,10 @@ from dataclasses import dataclass, fields
 from difflib import get_close_matches
 from math import isfinite
 from typing import Any
+
+import numpy as np
+
+from emulator.recordings.take import Recording, Take
 
 POLICIES: dict[str, tuple[str, ...]] = {
     "swaps": ("mend", "tell", "off"),
@@ -136,3 +150,154 @@ def _wrong(name: str, value: Any) -> str:
         return f"{name}: found {value!r}, expected a share up to 1"
     most = MOST.get(name.rpartition("_")[2], MOST["usual"])
     return f"{name}: found {value!r}, expected {most:g} at most" if value > most else ""
+
+
+UNITS_M = {"millimetres": 0.001, "centimetres": 0.01, "inches": 0.0254, "decimetres": 0.1, "feet": 0.3048}
+USUAL_M = 1.7
+N_FRAMES = 15
+LYING, STANDING = 0.3, 0.9
+MOST_NAMED = 5
+
+
+def mistakes(recording: Recording, settings: CleaningSettings) -> list[str]:
+    """What speaks against the recording as a whole: place, found and expected; empty if nothing."""
+    if settings.plausible == "off":
+        return []
+    wrong = [said for take in recording.takes if (said := _wrong_size(take, settings))]
+    hidden = _never_seen(recording)
+    if len(wrong) > MOST_NAMED:
+        wrong = [*wrong[:MOST_NAMED], f"and {len(wrong) - MOST_NAMED} more takes of {len(recording.takes)}"]
+    return [*wrong, *hidden, *([] if wrong else _wrong_way_up(recording))]
+
+
+def size_m(take: Take) -> float:
+    """Between the two farthest joints, median over frames; nan where nothing was seen."""
+    frames = np.unique(np.linspace(0, take.n_frames - 1, N_FRAMES).astype(int))
+    positions = take.positions_m[frames]
+    away = np.linalg.norm(positions[:, :, None] - positions[:, None], axis=-1)
+    most = np.where(np.isfinite(away), away, 0.0).max(axis=(1, 2))
+    return float(np.median(most[most > 0])) if np.any(most > 0) else float("nan")
+
+
+def _wrong_size(take: Take, settings: CleaningSettings) -> str:
+    size = size_m(take)
+    if np.isfinite(size) and settings.shortest_m <= size <= settings.tallest_m:
+        return ""
+    expected = f"expected {settings.shortest_m:g} to {settings.tallest_m:g} m"
+    if not np.isfinite(size):
+        return f"take {take.name}: found no frame in which two joints are seen, {expected} between the farthest"
+    fitting = {unit: size * metres for unit, metres in UNITS_M.items()}
+    unit = min(fitting, key=lambda name: abs(np.log(fitting[name] / USUAL_M)))
+    fits = settings.shortest_m <= fitting[unit] <= settings.tallest_m
+    hint = f"; in {unit} it would be {fitting[unit]:.2f} m" if fits else ""
+    return f"take {take.name}: found {size:.3g} m between the two farthest joints, {expected}{hint}"
+
+
+def _never_seen(recording: Recording) -> list[str]:
+    """Joints that are seen in no frame of any take."""
+    seen = np.any([np.isfinite(take.positions_m).all(axis=-1).any(axis=0) for take in recording.takes], axis=0)
+    names = [recording.names[joint] for joint in np.flatnonzero(~seen)]
+    return (
+        [f"{', '.join(names)}: found in no frame, expected joints that are seen, or none of this name"] if names else []
+    )
+
+
+def _wrong_way_up(recording: Recording) -> list[str]:
+    """That bodies stand along another axis than z, all the time."""
+    names = recording.names
+    top = next((name for name in ("head", "neck") if name in names), None)
+    feet = [names.index(name) for name in ("left_ankle", "right_ankle") if name in names]
+    if top is None or not feet:
+        return []
+    up = np.concatenate(
+        [take.positions_m[:, names.index(top)] - take.positions_m[:, feet].mean(axis=1) for take in recording.takes]
+    )
+    up = up[np.isfinite(up).all(axis=-1)]
+    if not len(up):
+        return []
+    x, y, z = np.median(up / np.maximum(np.linalg.norm(up, axis=-1, keepdims=True), 1e-9), axis=0)
+    if z < -STANDING:
+        return [f"bodies stand on their heads: found the {top} below the feet along z, expected z up"]
+    if abs(z) < LYING and max(abs(x), abs(y)) > STANDING:
+        axis = "x" if abs(x) > abs(y) else "y"
+        return [
+            f"bodies stand along {axis}: found the {top} {'+' if (x if axis == 'x' else y) > 0 else '-'}{axis} of the "
+            "feet, expected z up (somebody who lies all the time passes with plausible='off')"
+        ]
+    return []
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One angle and how far it goes.
+
+    what     : the movement in words
+    joint    : where the angle is, canonical, "{side}" for both sides; ``far`` is the joint that turns about it
+    kind     : "bend", between two bones, 0 when straight; "over", a bend against its way; "behind", of the upper arm
+               behind the trunk; "lift", of the foot from its angle at the person's start, towards the shin positive
+    bones    : of a bend: the joints (from, to, from, to) of its two bones
+    low_deg, high_deg : what a body can do
+    """
+
+    what: str
+    joint: str
+    far: str
+    kind: str
+    bones: tuple[str, str, str, str]
+    low_deg: float
+    high_deg: float
+    source: str
+
+
+LIMITS = (
+    Limit(
+        "flexion", "{side}_knee", "{side}_ankle", "bend", ("{side}_hip", "{side}_knee", "{side}_knee", "{side}_ankle"),
+        0.0, 160.0, "Kapandji: 160, passive; AAOS: 135",
+    ),
+    Limit(
+        "hyperextension", "{side}_knee", "{side}_ankle", "over",
+        ("{side}_hip", "{side}_knee", "{side}_knee", "{side}_ankle"), -180.0, 10.0, "AAOS: 10; Kapandji: 5 to 10",
+    ),
+    Limit(
+        "flexion", "{side}_elbow", "{side}_wrist", "bend",
+        ("{side}_shoulder", "{side}_elbow", "{side}_elbow", "{side}_wrist"), 0.0, 160.0,
+        "Kapandji: 160, passive; AAOS: 150",
+    ),
+    Limit(
+        "bend", "{side}_wrist", "{side}_hand", "bend", ("{side}_elbow", "{side}_wrist", "{side}_wrist", "{side}_hand"),
+        0.0, 90.0, "Kapandji: 85 either way; AAOS: 80 and 70",
+    ),
+    Limit(
+        "flexion", "{side}_hip", "{side}_knee", "bend", ("spine", "pelvis", "{side}_hip", "{side}_knee"),
+        0.0, 145.0, "Kapandji: 145, passive with the knee bent; AAOS: 120",
+    ),
+    Limit(
+        "extension", "{side}_shoulder", "{side}_elbow", "behind",
+        ("{side}_shoulder", "{side}_elbow", "{side}_shoulder", "{side}_elbow"), -90.0, 60.0, "AAOS: 60; Kapandji: 50",
+    ),
+    Limit(
+        "lift", "{side}_ankle", "{side}_toe", "lift", ("{side}_knee", "{side}_ankle", "{side}_ankle", "{side}_toe"),
+        -50.0, 45.0, "down: AAOS and Kapandji: 50; up: Norkin & White: 20, 45 under the body's weight",
+    ),
+    Limit(
+        "bend", "neck", "head", "bend", ("chest", "neck", "neck", "head"), 0.0, 80.0, "Kapandji: 80; AAOS: 45",
+    ),
+    Limit(
+        "bend", "chest", "neck", "bend", ("pelvis", "spine", "chest", "neck"), 0.0, 105.0, "Kapandji: 105; AAOS: 80",
+    ),
+)  # fmt: skip
+
+
+def limits_for(names: tuple[str, ...]) -> list[Limit]:
+    """The limits of the joints that a skeleton has, each side by itself."""
+    both = [_on(limit, side) for limit in LIMITS for side in (("left", "right") if "{" in limit.far else ("",))]
+    return [limit for limit in both if {limit.joint, limit.far, *limit.bones} <= set(names)]
+
+
+def _on(limit: Limit, side: str) -> Limit:
+    bones = tuple(joint.format(side=side) for joint in limit.bones)
+    assert len(bones) == 4
+    return Limit(
+        limit.what, limit.joint.format(side=side), limit.far.format(side=side), limit.kind, bones,
+        limit.low_deg, limit.high_deg, limit.source,
+    )  # fmt: skip

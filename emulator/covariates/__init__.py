@@ -9,19 +9,19 @@ from importlib import import_module
 from typing import Any
 
 _HOME = {
-    "Agreement": "validated",
+    "Agreement": "validation",
     "Body": "body",
     "BodyError": "body",
     "CovariateModel": "model",
     "CovariateTable": "table",
-    "CovariateUse": "explained",
-    "Prediction": "explained",
-    "Validation": "validated",
-    "bone_lengths_m": "bones",
-    "icc_2_1": "agreement",
+    "CovariateUse": "model",
+    "Prediction": "model",
+    "Validation": "validation",
+    "bone_lengths_m": "body",
+    "icc_2_1": "validation",
     "leave_one_worker_out": "validation",
-    "pls1": "pls",
-    "stature_m": "bones",
+    "pls1": "regression",
+    "stature_m": "body",
     "table_of": "table",
     "validate": "validation",
 }

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.covariates.category import f_test, left_out_effects, level_effects
+from emulator.covariates.distribution import f_test, left_out_effects, level_effects
 from emulator.covariates.model import CovariateModel
-from emulator.covariates.noise import kept, noise_p
-from emulator.covariates.pls import pls1
-from emulator.covariates.ready import Ready, of_people
-from emulator.covariates.sound import mistakes_of
+from emulator.covariates.regression import kept, noise_p, pls1
+from emulator.covariates.table import Ready, mistakes_of, of_people
 
 PEOPLE_A_COMPONENT, MOST_COMPONENTS = 4, 5
 """One component for every four people: with more, six people foretold new ones worse than their mean did."""

@@ -1,4 +1,9 @@
-"""The covariates of the people in recordings, as the table that a CovariateModel takes."""
+"""The covariates of the people in recordings, as the table that a CovariateModel takes.
+
+What keeps rows from being explained: every mistake with what was found and expected.
+
+Covariates made ready for a fit: which can say something, their gaps filled, people and levels numbered.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +15,9 @@ from typing import Any
 import numpy as np
 
 from emulator.covariates.body import ALIASES, RANGES, number_mistake, sex_word
-from emulator.covariates.category import words_of_people
+from emulator.covariates.distribution import CovariateGaussian, levels_of, members, words_of_people
+from emulator.covariates.model import level_shares, logged
+from emulator.covariates.regression import Folds, summed
 from emulator.motion import Motion, MotionSet
 
 PREFIX = "cov_"
@@ -122,3 +129,126 @@ def _known_mean(rows: np.ndarray) -> list[float]:
     return [
         float(np.mean(column[~np.isnan(column)])) if np.any(~np.isnan(column)) else float("nan") for column in rows.T
     ]
+
+
+KEEPS = ("fdr", "each")
+
+
+def mistakes_of(
+    means: np.ndarray,
+    numeric: np.ndarray,
+    names: Sequence[str],
+    category: Sequence[str | None] | None,
+    groups: np.ndarray | None,
+    families: np.ndarray | None,
+    level: float,
+    keep: str,
+) -> list[str]:
+    """Lines, empty if all is well."""
+    if means.ndim != 2 or numeric.ndim != 2 or len(means) == 0:
+        return [
+            f"covariates: found means {means.shape} and numeric {numeric.shape}, expected (rows, scores), (rows, P)"
+        ]
+    wrong = []
+    if len(numeric) != len(means) or numeric.shape[1] != len(names):
+        wrong.append(f"covariates: numeric: found {numeric.shape}, expected ({len(means)}, {len(names)})")
+    if not np.all(np.isfinite(means)):
+        wrong.append(f"covariates: means: found {int(np.sum(~np.isfinite(means)))} numbers that are not finite")
+    if np.any(np.isinf(numeric)):
+        wrong.append(f"covariates: numeric: found {int(np.sum(np.isinf(numeric)))} infinite numbers")
+    wrong += [f"covariates: {name!r} is named twice" for name in dict.fromkeys(names) if list(names).count(name) > 1]
+    if "pace" in names and numeric.shape[1] == len(names) and np.any(numeric[:, list(names).index("pace")] <= 0):
+        wrong.append("covariates: pace: found 0 or less, expected ratios above 0")
+    wrong += _of_settings(means.shape[1], families, level, keep)
+    return wrong + _of_people(len(means), category, groups)
+
+
+def _of_settings(n_scores: int, families: np.ndarray | None, level: float, keep: str) -> list[str]:
+    wrong = []
+    if not 0.5 <= level < 1:
+        wrong.append(f"covariates: level: found {level}, expected a share from 0.5 to below 1")
+    if keep not in KEEPS:
+        near = get_close_matches(str(keep), KEEPS, n=1)
+        wrong.append(
+            f"covariates: keep: no {keep!r}; " + (f"did you mean {near[0]!r}?" if near else "known: fdr, each")
+        )
+    if families is not None and np.shape(families) != (n_scores,):
+        wrong.append(f"covariates: families: found {np.shape(families)}, expected ({n_scores},)")
+    return wrong
+
+
+def _of_people(n_rows: int, category: Sequence[str | None] | None, groups: np.ndarray | None) -> list[str]:
+    wrong = []
+    if category is not None and len(category) != n_rows:
+        wrong.append(f"covariates: category: found {len(category)}, expected {n_rows}")
+    if groups is None:
+        return wrong
+    groups = np.asarray(groups)
+    if groups.shape != (n_rows,) or groups.dtype.kind not in "iu":
+        return [*wrong, f"covariates: groups: found {groups.shape} {groups.dtype}, expected ({n_rows},) whole numbers"]
+    if groups.min() < 0 or len(np.unique(groups)) != groups.max() + 1:
+        return [*wrong, "covariates: groups: expected each number from 0 to the largest"]
+    if category is not None and len(category) == n_rows:
+        for g in range(int(groups.max()) + 1):
+            own = sorted({str(word) for word, of in zip(category, groups) if of == g and word is not None})
+            if len(own) > 1:
+                wrong.append(f"covariates: person {g} is of {len(own)} categories: {', '.join(own)}")
+    return wrong
+
+
+FEWEST_KNOWN = 3
+"""People of whom a covariate must be known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ready:
+    """Covariates made ready: x (R, P) without gaps; member (G, C); range of what was recorded."""
+
+    names: tuple[str, ...]
+    low: np.ndarray
+    high: np.ndarray
+    left_out: tuple[tuple[str, str], ...]
+    x: np.ndarray
+    folds: Folds
+    levels: tuple[str, ...]
+    member: np.ndarray
+    gaussian: CovariateGaussian
+
+    @classmethod
+    def of(
+        cls, numeric: np.ndarray, names: Sequence[str], category: Sequence[str | None] | None, groups: np.ndarray
+    ) -> Ready:
+        use, left_out = _usable(numeric, names, groups)
+        chosen = tuple(names[i] for i in use)
+        raw, x = numeric[:, use], logged(chosen, numeric[:, use])
+        n_people = int(groups.max()) + 1
+        people = words_of_people(category, groups) if category is not None else [None] * n_people
+        levels = levels_of(people)
+        shares = level_shares(people, levels)
+        gaussian = CovariateGaussian.fit(np.concatenate([x, shares[groups]], axis=1), n_people)
+        x = gaussian.filled(np.concatenate([x, shares[groups]], axis=1))[:, : len(use)]
+        member = members(people, levels) if levels else np.zeros((n_people, 0))
+        low, high = np.nanmin(raw, axis=0, initial=np.inf), np.nanmax(raw, axis=0, initial=-np.inf)
+        return cls(chosen, low, high, left_out, x, Folds.of(x, groups), levels, member, gaussian)
+
+
+def _usable(numeric: np.ndarray, names: Sequence[str], groups: np.ndarray) -> tuple[list[int], tuple]:
+    """Numbers of the covariates that can say something, and (name, why) of the others."""
+    use, left_out = [], []
+    for i, name in enumerate(names):
+        column = numeric[:, i]
+        count = int(np.sum(~np.isnan(of_people(column[:, None], groups))))
+        if count < FEWEST_KNOWN:
+            left_out.append((name, f"known of {count} people, {FEWEST_KNOWN} are needed"))
+        elif np.nanmax(column) - np.nanmin(column) <= 1e-9 * np.nanmax(np.abs(column)):
+            left_out.append((name, "the same for everybody"))
+        else:
+            use.append(i)
+    return use, tuple(left_out)
+
+
+def of_people(values: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """(G, ...) means over each person's rows (R, ...), of what is known; NaN where nothing is."""
+    there = ~np.isnan(values)
+    count = summed(there.astype(float), groups)
+    return np.where(count > 0, summed(np.where(there, values, 0.0), groups) / np.maximum(count, 1.0), np.nan)

@@ -10,20 +10,20 @@ from importlib import import_module
 from typing import Any
 
 _HOME = {
-    "GaussianProcess": "gp",
-    "Hyper": "hyper",
+    "GaussianProcess": "gaussian_process",
+    "Hyper": "gaussian_process",
     "PoseLatent": "latent",
-    "Poses": "pose",
-    "StateClassifier": "classifier",
-    "SwitchingDynamics": "switching",
-    "contact_of": "contact_states",
-    "contact_of_state": "contact_states",
-    "found_states": "contact_states",
-    "path_of": "pose",
-    "poses_of": "pose",
-    "positions_of": "pose",
-    "single_support": "contact_states",
-    "state_of_contact": "contact_states",
+    "Poses": "latent",
+    "StateClassifier": "gp_classifier",
+    "SwitchingDynamics": "switching_dynamics",
+    "contact_of": "contacts",
+    "contact_of_state": "contacts",
+    "found_states": "contacts",
+    "path_of": "latent",
+    "poses_of": "latent",
+    "positions_of": "latent",
+    "single_support": "contacts",
+    "state_of_contact": "contacts",
 }
 
 __all__ = sorted(_HOME)

@@ -16,18 +16,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from emulator.cyclic.asked import CONDITIONS, asked_of
-from emulator.cyclic.contact_states import contact_of_state
-from emulator.cyclic.crew import Crew, CyclicWorker
-from emulator.cyclic.guide import Guide
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.legs import Legs
+from emulator.cyclic.contacts import Legs, contact_of_state
+from emulator.cyclic.latent import Finer, PoseLatent
 from emulator.cyclic.pace import Asked, Pace, itinerary, scatter
-from emulator.cyclic.performances import CyclicPerformances
-from emulator.cyclic.rest import Finer
-from emulator.cyclic.switching import SwitchingDynamics
-from emulator.cyclic.units import Unit
-from emulator.root import RootChannel
+from emulator.cyclic.performances import CONDITIONS, CyclicPerformances, asked_of
+from emulator.cyclic.switching_dynamics import SwitchingDynamics
+from emulator.cyclic.units import Crew, CyclicWorker, Guide, Unit
+from emulator.model.decoding import RootChannel
 from emulator.skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -204,19 +199,19 @@ class CyclicEmulator:
 
     def turns(self, z: np.ndarray) -> list[int]:
         """Frames of z (T, d) at which a new cycle begins."""
-        from emulator.cyclic.beats import turns
+        from emulator.cyclic.units import turns
 
         middle = float(self.guide.usual(-1, 0.0)[0])
         return turns(z, self.rate_hz, (middle, middle - 0.12 * float(self.guide.high[0] - self.guide.low[0])))
 
     def _repr_html_(self) -> str:
-        from emulator.shown.models import emulator_html
+        from emulator.notebook import emulator_html
 
         return emulator_html(self)
 
     def save(self, path: str | Path) -> None:
         """Write a library of this one task."""
-        from emulator.library import MotionLibrary
+        from emulator.model.library import MotionLibrary
 
         MotionLibrary.of(self).save(path)
 

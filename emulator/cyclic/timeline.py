@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from emulator.cyclic.beats import FEWEST_FRAMES
-from emulator.cyclic.guide import ROOM
-from emulator.cyclic.switching import TRIES as STEP_TRIES
-from emulator.cyclic.units import Unit, chosen, joined
+from emulator.cyclic.switching_dynamics import TRIES as STEP_TRIES
+from emulator.cyclic.units import FEWEST_FRAMES, ROOM, Unit, chosen, joined
 
 if TYPE_CHECKING:
     from emulator.cyclic.model import CyclicEmulator
-    from emulator.kernels.beat import Manner
+    from emulator.kernels.switching import Manner
 
 SMOOTH_FRAMES = 1.2
 """What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching trembles."""
@@ -92,8 +90,8 @@ def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rn
 
 def _step(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
     """A step of the other foot from what the dynamics see (d,) on; None where none like the recorded ones comes."""
-    from emulator.kernels.beat import beat, made_whole
-    from emulator.kernels.beat import usual as is_usual
+    from emulator.kernels.switching import beat, made_whole
+    from emulator.kernels.switching import usual as is_usual
 
     guide, dynamics, manner = model.guide, model.dynamics, model.manner
     usual_frames = guide.frames(control)
@@ -151,7 +149,7 @@ def _clean(contact: np.ndarray, foot: int) -> np.ndarray:
 
 def manner_of(model: CyclicEmulator) -> Manner:
     """What beats are like and what smooths and completes them, for the kernel."""
-    from emulator.kernels.beat import Manner
+    from emulator.kernels.switching import Manner
 
     impulse = np.zeros((2 * int(4 * SMOOTH_FRAMES + 0.5) + 1, 1))
     impulse[len(impulse) // 2] = 1.0

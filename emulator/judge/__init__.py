@@ -6,22 +6,45 @@ all of them; the controls must be seen to fail. ``Quantization`` labels postures
 ``held_out_table`` makes one table of it all on held-out repetitions, ``paper`` the tables of the paper.
 """
 
-from emulator.judge.compare import Comparison, compare
-from emulator.judge.controls import jittered_resampler, resampler
-from emulator.judge.disco import Disco, disco
-from emulator.judge.distance import distances
-from emulator.judge.energy import energy_of_size, energy_stratified, energy_u, energy_v, pooled
-from emulator.judge.joint_angles import LIMITS_DEG, joint_angles_deg
-from emulator.judge.likelihood import LikelihoodComparison, compare_likelihood, qq_points
-from emulator.judge.mds import Mds, mds, mds_of_two
-from emulator.judge.novelty import novelty
-from emulator.judge.plausibility import Plausibility, plausibility, plausibility_rows, standing_deg
-from emulator.judge.quantization import Quantization, sampled_postures
-from emulator.judge.reconstruction import joint_reconstruction, reconstruction_error
-from emulator.judge.roughness import roughness, temporal_roughness
-from emulator.judge.transitions import transition_distance, transition_matrices, uniform_transitions
-from emulator.judge.two_level import TwoLevelRow, two_level
-from emulator.judge.variability import Variability, variability
+from emulator.judge.canonical_postures import (
+    Quantization,
+    Variability,
+    sampled_postures,
+    transition_distance,
+    transition_matrices,
+    uniform_transitions,
+    variability,
+)
+from emulator.judge.comparison import Comparison, compare, jittered_resampler, resampler
+from emulator.judge.joint_limits import (
+    LIMITS_DEG,
+    Plausibility,
+    joint_angles_deg,
+    plausibility,
+    plausibility_rows,
+    standing_deg,
+)
+from emulator.judge.likelihood import LikelihoodComparison, TwoLevelRow, compare_likelihood, qq_points, two_level
+from emulator.judge.posture_tests import (
+    Disco,
+    disco,
+    joint_reconstruction,
+    novelty,
+    reconstruction_error,
+    roughness,
+    temporal_roughness,
+)
+from emulator.judge.sequence_distances import (
+    Mds,
+    distances,
+    energy_of_size,
+    energy_stratified,
+    energy_u,
+    energy_v,
+    mds,
+    mds_of_two,
+    pooled,
+)
 
 __all__ = [
     "LIMITS_DEG",

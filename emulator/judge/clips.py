@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.footing import on_its_feet
+from emulator.model.feet import on_its_feet
+from emulator.model.performances import MotionPerformances
 from emulator.motion import Motion, MotionSet
-from emulator.performances import MotionPerformances
 from emulator.skeleton import Skeleton
 
 FEWEST_TIMES = 4

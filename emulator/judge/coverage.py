@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.align import resample
-from emulator.judge.streams import stream
-from emulator.model import MotionEmulator
+from emulator.geometry.alignment import resample
+from emulator.judge.sequence_distances import stream
+from emulator.model.emulator import MotionEmulator
 from emulator.motion import MotionSet
 
 LEVELS = (0.5, 0.9)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from emulator.judge.clips import Clips, resampled
-from emulator.judge.energy import energy_v
+from emulator.judge.sequence_distances import energy_v
 
 RATE_HZ = 30.0
 """Frames a second at which speeds are taken: between them lies what a camera shows."""
@@ -73,7 +73,7 @@ def places_and_speeds(clips: Clips) -> tuple[np.ndarray, np.ndarray]:
 def energies(a: Clips, b: Clips) -> tuple[float, float]:
     """Energy distances (V-statistics) of places, mm, and of speeds, mm/s, between two samples of movements.
 
-    Source: Rizzo & Szekely (2010); see ``emulator.judge.energy``.
+    Source: Rizzo & Szekely (2010); see ``emulator.judge.sequence_distances``.
     """
     from scipy.spatial.distance import cdist
 

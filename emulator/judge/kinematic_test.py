@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.special import expit
 
 from emulator.judge.clips import Clips
-from emulator.judge.footing import feet, footing, standing_m
+from emulator.judge.feet import feet, footing, standing_m
 
 RATE_HZ, CUT_OFF_HZ = 60.0, 6.0
 """Recorded and drawn are read alike at this rate, without what lies above the cut-off: only markers show that."""

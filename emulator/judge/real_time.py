@@ -10,10 +10,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from emulator.judge.balance import unsupported
 from emulator.judge.clips import Clips
-from emulator.judge.footing import feet, footing, standing_m
-from emulator.judge.joint_angles import joint_angles_deg
+from emulator.judge.feet import feet, footing, standing_m, unsupported
+from emulator.judge.joint_limits import joint_angles_deg
 from emulator.judge.joint_speeds import energies, median_speed_ratio, peak_ratio, peaks, share_too_fast
 from emulator.judge.kinematic_test import FEWEST, kinematic_test
 

@@ -9,15 +9,14 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.held_out import split_within_workers
-from emulator.judge.alike import draw_alike
 from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.coverage import LEVELS, QUANTITIES, PersonCovered, coverage, pooled_coverage
-from emulator.judge.footing import feet
+from emulator.judge.feet import feet
+from emulator.judge.held_out import draw_alike, split_within_workers
 from emulator.judge.joint_speeds import joint_rates
 from emulator.judge.real_time import RealTime, real_time, sentence
-from emulator.judge.streams import stream
-from emulator.model import SCHEME, MotionEmulator
+from emulator.judge.sequence_distances import stream
+from emulator.model.emulator import SCHEME, MotionEmulator
 from emulator.motion import MotionSet
 
 Progress = Callable[[int, int, str], None] | None

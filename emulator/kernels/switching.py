@@ -1,6 +1,12 @@
 """Steps through a latent space: the state of a point, mean and spread of the next, a draw that stays on the support.
 
 Their twin: naive_steps in tests/naive.py.
+
+One beat of a walk from its dynamics: drawn as far as it goes, judged, smoothed and made whole.
+
+Its twin: naive_beat in tests/naive_walk.py, which draws further and looks back.
+
+Hidden Markov chains: smoothed state probabilities and the likeliest path. Twins: naive_smoothed, naive_path.
 """
 
 from __future__ import annotations
@@ -247,3 +253,136 @@ def states_of(x, tables, out):
     scratch = np.empty(tables.border_points.shape[2])
     for i in range(x.shape[0]):
         out[i] = state_of(x[i], tables, scratch)
+
+
+class Manner(NamedTuple):
+    """What a beat is like and what is beyond the dynamics: see ``guide.Guide`` and ``rest.Finer``."""
+
+    low: np.ndarray  # (d,) least and greatest latents
+    high: np.ndarray
+    taps: np.ndarray  # (2 r + 1,) weights of the smoothing
+    points: np.ndarray  # (p, M) of the finer components, over their lengths
+    per_length: np.ndarray  # (p,)
+    weight: np.ndarray  # (M, r)
+    mean: np.ndarray  # (r,)
+    bears: np.ndarray  # (S, 2) whether each foot bears in each state
+
+
+@compiled(error_model="numpy", nogil=True)
+def beat(tables, control, noise, bears, earliest, beyond, fewest, z, state):
+    """A path z (T, d) with z[0] given and its state (T,), up to ``beyond`` frames after a foot comes down: that frame.
+
+    control (c,), noise (T - 1, R, d); bears (S,) whether the foot bears in each state. -1 where it never comes down
+    from frame ``earliest`` on after ``fewest`` frames in the air. Returns the frame and how many frames were drawn.
+    """
+    n_times, d = z.shape
+    x, scratch = np.empty(d + control.size), room(tables, d)
+    x[d:] = control
+    end, near_step = -1, 0
+    for t in range(n_times):
+        x[:d] = z[t]
+        state[t] = state_of(x, tables, scratch[0])
+        if end < 0 and t >= max(earliest, 1) and bears[state[t]]:
+            landed = True
+            for before in range(max(t - fewest, 0), t):
+                landed = landed and not bears[state[before]]
+            if landed:
+                end = t
+        if t + 1 == n_times or (end >= 0 and t >= end + beyond):
+            return end, t + 1
+        near_step = step(tables, x, z[t], state[t], noise[t], near_step, z[t + 1], scratch)[0]
+    return end, n_times
+
+
+@compiled(error_model="numpy", nogil=True)
+def usual(z, low, high, after, apart):
+    """Whether z (T, d) lies between low and high (d,) and ends within ``apart`` of ``after`` (d,)."""
+    square = 0.0
+    for c in range(z.shape[1]):
+        square += (z[-1, c] - after[c]) ** 2
+        for t in range(z.shape[0]):
+            if not low[c] <= z[t, c] <= high[c]:
+                return False
+    return square <= apart * apart
+
+
+@compiled(error_model="numpy", nogil=True)
+def made_whole(z, manner, control, whole):
+    """whole (F, D): the first F frames of z (T, d) smoothed, the ends held, and the finer components beside them."""
+    d, reach, last = z.shape[1], manner.taps.size // 2, z.shape[0] - 1
+    x, scratch = np.empty(d + control.size), np.empty(max(manner.points.shape[1], 1))
+    x[d:] = control
+    for t in range(whole.shape[0]):
+        whole[t] = 0.0
+        for k in range(manner.taps.size):
+            at = min(max(t + k - reach, 0), last)
+            for c in range(d):
+                whole[t, c] += manner.taps[k] * z[at, c]
+        if manner.mean.size:
+            x[:d] = whole[t, :d]
+            near(x, manner.points, manner.per_length, manner.points.shape[1], scratch)
+            fine = whole[t, d:]
+            fine[:] = manner.mean
+            for j in range(manner.points.shape[1]):
+                for c in range(manner.mean.size):
+                    fine[c] += scratch[j] * manner.weight[j, c]
+
+
+@compiled(error_model="numpy", nogil=True)
+def smoothed(log_emission, start, move, share, pairs):
+    """Forward and backward: writes share (T, S), adds expected transitions to pairs (S, S), returns log p(all frames).
+
+    log_emission (T, S), start (S,), move (S, S) rows summing to 1
+    """
+    n_times, n_states = log_emission.shape
+    likely = np.empty((n_times, n_states))
+    total = 0.0
+    ahead = start.copy()
+    for t in range(n_times):
+        top = log_emission[t].max()
+        whole = 0.0
+        for s in range(n_states):
+            likely[t, s] = np.exp(log_emission[t, s] - top)
+            share[t, s] = ahead[s] * likely[t, s]
+            whole += share[t, s]
+        total += top + np.log(whole)
+        for s in range(n_states):
+            share[t, s] /= whole
+        for s in range(n_states):
+            ahead[s] = 0.0
+            for before in range(n_states):
+                ahead[s] += share[t, before] * move[before, s]
+    for t in range(n_times - 2, -1, -1):
+        for s in range(n_states):
+            ahead[s] = 0.0
+            for before in range(n_states):
+                ahead[s] += share[t, before] * move[before, s]
+        back = np.zeros(n_states)
+        for before in range(n_states):
+            for s in range(n_states):
+                both = share[t, before] * move[before, s] * share[t + 1, s] / ahead[s] if ahead[s] > 0 else 0.0
+                pairs[before, s] += both
+                back[before] += both
+        share[t] = back
+    return total
+
+
+@compiled(error_model="numpy", nogil=True)
+def likeliest_path(log_emission, log_start, log_move, path):
+    """Viterbi: writes path (T,)."""
+    n_times, n_states = log_emission.shape
+    came = np.zeros((n_times, n_states), dtype=np.int64)
+    best = log_start + log_emission[0]
+    for t in range(1, n_times):
+        new = np.empty(n_states)
+        for s in range(n_states):
+            at = 0
+            for before in range(1, n_states):
+                if best[before] + log_move[before, s] > best[at] + log_move[at, s]:
+                    at = before
+            came[t, s] = at
+            new[s] = best[at] + log_move[at, s] + log_emission[t, s]
+        best = new
+    path[n_times - 1] = best.argmax()
+    for t in range(n_times - 1, 0, -1):
+        path[t - 1] = came[t, path[t]]

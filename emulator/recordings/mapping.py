@@ -1,4 +1,6 @@
-"""From a file's joints, keypoints or markers to the canonical skeleton: by rules, by a mapping file, and made anew.
+"""A user's own names of joints: lines ``file_name: joint`` or ``file_name,joint``; ``-`` leaves a joint out.
+
+From a file's joints, keypoints or markers to the canonical skeleton: by rules, by a mapping file, and made anew.
 
 Joints that mean nothing here are left out, and their children hang on the nearest ancestor that is kept. Joints without
 which no trunk and no heading can be had are made where the body tells them. Everything is said in the report.
@@ -6,6 +8,7 @@ which no trunk and no heading can be had are made where the body tells them. Eve
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from difflib import get_close_matches
@@ -14,14 +17,75 @@ from pathlib import Path
 import numpy as np
 
 from emulator.recordings import RecordingError
-from emulator.recordings.dialect import joints_of
-from emulator.recordings.hanging import depths, hung_as_bodies_are, hung_as_in_the_file, without_length
-from emulator.recordings.joint_words import bare_name, known_words
-from emulator.recordings.mapping_file import LEFT_OUT, read_mapping
-from emulator.recordings.mapping_report import MappedJoint, MappingReport
-from emulator.recordings.markers import joints_from_markers
+from emulator.recordings.joint_names import MappedJoint, MappingReport, bare_name, joints_of, known_words
+from emulator.recordings.markers import (
+    depths,
+    hung_as_bodies_are,
+    hung_as_in_the_file,
+    joints_from_markers,
+    without_length,
+)
 from emulator.recordings.take import Take
+from emulator.recordings.text import quoted, text_lines
 from emulator.skeleton import CANONICAL, EXTRA
+
+LEFT_OUT = "-"
+_HEADER = re.compile(
+    r"^(name|file_name|marker|joint|from)\s*[,:]\s*(joint|canonical|canonical_name|to)$", re.IGNORECASE
+)
+
+
+def read_mapping(path: Path, names: Sequence[str]) -> dict[str, str]:
+    """Of each joint of the file that the mapping names, its canonical name, or ``-`` where it is left out.
+
+    names : the joints there are
+    Raises RecordingError with every wrong line: its number, what was found, the nearest right word.
+    """
+    mapping: dict[str, str] = {}
+    first: dict[tuple[str, str], int] = {}
+    wrong = []
+    for number, line in text_lines(path):
+        text = line.split("#", 1)[0].strip()
+        if not text or _HEADER.match(text):
+            continue
+        name, joint = _parts(text)
+        problems = _problems(name, joint, names)
+        said = [("name", name)] + ([] if joint == LEFT_OUT else [("joint", joint)])
+        for word in said:
+            if not problems and word in first:
+                problems = [f"found the {word[0]} {quoted(word[1])} a second time, first in line {first[word]}"]
+        wrong += [f"{path}:{number}: {problem}" for problem in problems]
+        mapping[name] = joint
+        for word in said:
+            first.setdefault(word, number)
+    if not first and not wrong:
+        wrong.append(f"{path}: found no line, expected lines such as 'Bip01 L Thigh: left_hip'")
+    if wrong:
+        raise RecordingError("\n".join(wrong))
+    return mapping
+
+
+def _parts(text: str) -> tuple[str, str]:
+    """Cut at the last colon or comma: names can hold colons themselves."""
+    found = re.match(r"^(.*)[:,\t]\s*([^:,\t]*)$", text)
+    return (found.group(1).strip().strip('"'), found.group(2).strip().strip('"')) if found else (text, "")
+
+
+def _problems(name: str, joint: str, names: Sequence[str]) -> list[str]:
+    if not joint:
+        return [f"found {quoted(name)}, expected 'name in the file: joint'"]
+    problems = []
+    if name not in names:
+        problems.append(f"no joint {quoted(name)} in the recording{_near(name, names)}")
+    if joint not in (*CANONICAL, *EXTRA, LEFT_OUT):
+        problems.append(f"no joint is called {quoted(joint)}{_near(joint, (*CANONICAL, *EXTRA))}")
+    return problems
+
+
+def _near(word: str, known: Sequence[str]) -> str:
+    near = get_close_matches(word, known, n=1, cutoff=0.5)
+    return f"; did you mean {near[0]!r}?" if near else f"; known: {', '.join(list(known)[:12])}"
+
 
 NEEDED = ("pelvis", "neck", "left_hip", "right_hip", "left_shoulder", "right_shoulder")
 """Joints without which there is neither heading nor trunk."""

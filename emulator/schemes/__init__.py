@@ -1,13 +1,9 @@
 """The schemes of Chen, Park & Srivastava by name, on aligned sequences of postures. A table of contents."""
 
-from emulator.schemes.choosing import choose_scheme
-from emulator.schemes.dimensions import DimensionSearch, search_dimensions
-from emulator.schemes.mpca import MPCA
-from emulator.schemes.names import SCHEMES
-from emulator.schemes.parallel import parallel_analysis
-from emulator.schemes.scheme import Scheme
-from emulator.schemes.siem import SIEM
-from emulator.schemes.velocity import ISTVF, MTVF, STVF
+from emulator.schemes.flattening import ISTVF, MTVF, SIEM, STVF
+from emulator.schemes.reductions import MPCA, parallel_analysis
+from emulator.schemes.scheme import SCHEMES, DimensionSearch, Scheme, search_dimensions
+from emulator.schemes.scheme_choice import choose_scheme
 
 __all__ = [
     "ISTVF",

@@ -1,22 +1,133 @@
-"""A scheme of the paper by its name: fitted to aligned sequences, it draws new ones."""
+"""How many components of space and of time: by reconstruction error and a two-sample test, as in sec. 5.1.
+
+Names of schemes: Representation/DimensionReduction/StatisticalModel, as in the paper.
+
+A scheme of the paper by its name: fitted to aligned sequences, it draws new ones.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from difflib import get_close_matches
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from emulator.reduce import JointPCA
-from emulator.schemes.autoregression import VAR
-from emulator.schemes.dimensions import Representation, search_dimensions
-from emulator.schemes.names import SchemeName, parsed
-from emulator.schemes.pointwise import Pointwise
-from emulator.schemes.reductions import Reduction, fitted
-from emulator.schemes.siem import SIEM
-from emulator.schemes.vectors import VectorModel
-from emulator.schemes.velocity import ISTVF, MTVF, STVF
+from emulator.judge.posture_tests import disco, reconstruction_error
+from emulator.judge.sequence_distances import distances
+from emulator.model.reduction import JointPCA, SequentialPCA
+from emulator.schemes.densities import VAR, VectorModel
+from emulator.schemes.flattening import ISTVF, MTVF, SIEM, STVF, Pointwise
+from emulator.schemes.reductions import Reduction, fitted, spanned
+
+SPACES, TIMES = (1, 2, 3, 5, 8, 10, 12, 16, 20, 30), (1, 2, 4, 7, 10, 15, 20, 30, 40)
+GAIN, LEVEL, WITHIN, N_PERMUTATIONS = 0.04, 0.05, 1.1, 199
+
+
+class Representation(Protocol):
+    """Directions (n, T, B, 3) to flat (n, T', C) and start (n, S), and back."""
+
+    def forward(self, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]: ...
+    def inverse(self, flat: np.ndarray, start: np.ndarray) -> np.ndarray: ...
+
+
+@dataclass(frozen=True)
+class DimensionSearch:
+    """What was tried and found (the paper's figure 13).
+
+    d1, d2 : numbers tried; error : (len(d1), len(d2)) mean reconstruction error, radians (eq. 5)
+    p      : (len(d2),) of the two-sample test of originals against reconstructions at the chosen d1
+    chosen : (d1, d2)
+    """
+
+    d1: tuple[int, ...]
+    d2: tuple[int, ...]
+    error: np.ndarray
+    p: np.ndarray
+    chosen: tuple[int, int]
+
+
+def search_dimensions(
+    representation: Representation, directions: np.ndarray, rng: np.random.Generator
+) -> DimensionSearch:
+    """Numbers of components for directions (N, T, B, 3), as the paper looks for them, by a rule it does not print.
+
+    d1 is the first from which on a further component lowers the error (with all functions of time) by less than a
+    twenty-fifth of what one component leaves; d2 the first whose reconstructions the test does not tell from the
+    originals at 0.05, with an error within a tenth of that of all functions. The test alone would take one function:
+    it forgives what each reconstruction has in common with its original.
+    """
+    flat, start = representation.forward(directions)
+    most = spanned(flat, SPACES[-1], TIMES[-1])
+    d1, d2 = _upto(SPACES, most[0]), _upto(TIMES, most[1])
+    whole = SequentialPCA.fit(flat, d1[-1], d2[-1])
+
+    def rebuilt(i: int, j: int) -> np.ndarray:
+        part = SequentialPCA(whole.mean, whole.spatial[:i], whole.temporal_mean[:i], whole.temporal[:i, :j])
+        return representation.inverse(part.inverse(part.forward(flat)), start)
+
+    error = np.array([[reconstruction_error(directions, rebuilt(i, j)) for j in d2] for i in d1])
+    gain = -np.diff(error[:, -1]) / np.diff(d1)
+    at = int(np.argmax(np.append(gain < GAIN * error[0, -1], True)))
+    p = np.array([_p(directions, rebuilt(d1[at], j), rng) for j in d2])
+    good = (p > LEVEL) & (error[at] <= WITHIN * error[at, -1])
+    return DimensionSearch(d1, d2, error, p, (d1[at], d2[int(np.argmax(good))] if good.any() else d2[-1]))
+
+
+def _p(directions: np.ndarray, rebuilt: np.ndarray, rng: np.random.Generator) -> float:
+    both = distances(np.concatenate([directions, rebuilt]))
+    return disco(both, len(directions), rng, N_PERMUTATIONS).p
+
+
+def _upto(tried: tuple[int, ...], largest: int) -> tuple[int, ...]:
+    return (*(d for d in tried if d < largest), largest) if largest <= tried[-1] else tried
+
+
+REPRESENTATIONS = ("SIEM", "SIEM-first", "SIEM-moving", "IS-TVF", "S-TVF", "M-TVF")
+VECTOR_REDUCTIONS, VECTOR_MODELS = ("SequentialPCA", "MPCA", "JointPCA"), ("MVG", "IG", "Kernel")
+SERIES_REDUCTION, SERIES_MODELS = "SpatialPCA", ("VAR", "VAR-pooled")
+POINTWISE = ("PWI", "PWI/shared")
+
+SCHEMES: tuple[str, ...] = (
+    *(f"{r}/{d}/{m}" for r in REPRESENTATIONS for d in VECTOR_REDUCTIONS for m in VECTOR_MODELS),
+    *(f"{r}/{SERIES_REDUCTION}/{m}" for r in REPRESENTATIONS for m in SERIES_MODELS),
+    *POINTWISE,
+)
+"""All schemes there are."""
+
+
+class SchemeName(NamedTuple):
+    representation: str
+    reduction: str
+    model: str
+
+
+def parsed(name: str) -> SchemeName:
+    """The parts of a scheme's name; PWI is the moving mean without reduction.
+
+    Raises ValueError that names every part that is not known, with the nearest word, or parts that do not go together.
+    """
+    if name in POINTWISE:
+        return SchemeName("SIEM-moving", "", name)
+    parts = name.split("/")
+    if len(parts) != 3:
+        raise ValueError(f"scheme: {_unknown(name, SCHEMES)}; expected Representation/DimensionReduction/Model")
+    known = (REPRESENTATIONS, (*VECTOR_REDUCTIONS, SERIES_REDUCTION), (*VECTOR_MODELS, *SERIES_MODELS))
+    wrong = [_unknown(part, words) for part, words in zip(parts, known) if part not in words]
+    if wrong:
+        raise ValueError(f"scheme {name!r}: " + "; ".join(wrong))
+    if name not in SCHEMES:
+        goes = VECTOR_MODELS if parts[1] in VECTOR_REDUCTIONS else SERIES_MODELS
+        raise ValueError(f"scheme {name!r}: {parts[2]} does not go with {parts[1]}, which goes with {', '.join(goes)}")
+    return SchemeName(*parts)
+
+
+def _unknown(word: str, known: tuple[str, ...]) -> str:
+    folded = {k.lower(): k for k in known}
+    near = get_close_matches(word.lower(), folded, n=1)
+    return f"no {word!r}" + (f", did you mean {folded[near[0]]!r}?" if near else f", known: {', '.join(known)}")
+
 
 START_SHARE = 0.99
 """Share of the start posture's variance that is modelled."""

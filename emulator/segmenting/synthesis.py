@@ -1,6 +1,10 @@
 """Synthesis: a cycle repeated, units joined at common postures with continuous speed.
 
-Source: spatio-temporal LTSA (seed 003), end of sec. 4. The joining itself is ``emulator.joined``.
+Source: spatio-temporal LTSA (seed 003), end of sec. 4. The joining itself is ``emulator.composite.joining``.
+
+New frames onto the manifold and back, by the affine map of the neighbourhood they fall into.
+
+Source: spatio-temporal LTSA (seed 003), sec. 2.4: what maps a frame's neighbours maps what lies close to it.
 """
 
 from __future__ import annotations
@@ -10,9 +14,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from emulator.joined import BLEND_S, joined
+from emulator.composite.joining import BLEND_S, joined
 from emulator.motion import Motion, motion_from_positions
 from emulator.recordings.take import Take
+from emulator.segmenting.ltsa import Embedding
 from emulator.skeleton import Skeleton
 
 ALIKE_RAD, MOST_RAD = 0.05, 0.25
@@ -108,3 +113,43 @@ def _state(motion: Motion) -> np.ndarray:
     """(T, 6 B): directions, and how far they come in 0.05 s at their speed."""
     speed = np.gradient(motion.directions, motion.time_s, axis=0)
     return np.concatenate([motion.directions, 0.05 * speed], axis=1).reshape(len(motion.time_s), -1)
+
+
+def to_manifold(embedding: Embedding, points: np.ndarray, near_frame: np.ndarray | None = None) -> np.ndarray:
+    """Coordinates (p, d) of new points (p, m).
+
+    near_frame : (p,) frames of the embedding, also between frames, that each lies next to in time;
+                 None: the nearest in space is taken
+    """
+    nearest = _nearest(embedding.points, points, near_frame)
+    return _mapped(embedding, points, nearest, embedding.points, embedding.coordinates, embedding.d)
+
+
+def to_postures(embedding: Embedding, coordinates: np.ndarray, near_frame: np.ndarray | None = None) -> np.ndarray:
+    """Points (p, m) of posture space at coordinates (p, d) on the manifold."""
+    nearest = _nearest(embedding.coordinates, coordinates, near_frame)
+    return _mapped(embedding, coordinates, nearest, embedding.coordinates, embedding.points, embedding.d)
+
+
+def _nearest(known: np.ndarray, new: np.ndarray, near_frame: np.ndarray | None) -> np.ndarray:
+    if near_frame is not None:
+        return np.clip(np.rint(near_frame).astype(int), 0, len(known) - 1)
+    from scipy.spatial import cKDTree
+
+    return np.asarray(cKDTree(known).query(new)[1])
+
+
+def _mapped(
+    embedding: Embedding, new: np.ndarray, nearest: np.ndarray, source: np.ndarray, target: np.ndarray, d: int
+) -> np.ndarray:
+    """The least-squares affine map from ``source`` to ``target`` on each neighbourhood, through its own frame."""
+    found = np.empty((len(new), target.shape[1]))
+    for frame in np.unique(nearest):
+        members = np.append(embedding.neighbours[frame], frame)
+        here, there = source[members], target[members]
+        left, size, right = np.linalg.svd(here - source[frame], full_matrices=False)
+        keep = min(d, int(np.sum(size > 1e-10 * max(float(size[0]), 1e-300))))
+        inverse = (left[:, :keep] / size[:keep]).T @ (there - target[frame])
+        rows = nearest == frame
+        found[rows] = target[frame] + (new[rows] - source[frame]) @ right[:keep].T @ inverse
+    return found

@@ -26,7 +26,7 @@ NOTHING = "-"
 
 def in_real_time(motions: Any, schemes: Sequence[str], n_splits: int, seed: int) -> list[Any]:
     """One ``RealTimeHalves`` for each emulator among the schemes. Raises ValueError where it cannot be fitted."""
-    from emulator.judge.drawers import USUAL, kind
+    from emulator.judge.held_out import USUAL, kind
     from emulator.judge.real_time_halves import judge_real_time
     from opsim.cli.progress import progress
 

@@ -44,7 +44,7 @@ def print_meaning(real_time: bool = False) -> None:
     """One line a column; of the table in real time, too, if one was shown."""
     import click
 
-    from emulator.judge.held_out_meaning import MEANING
+    from emulator.judge.held_out_table import MEANING
 
     click.echo()
     for name, (heading, _) in COLUMNS.items():
@@ -73,7 +73,7 @@ def table_file(out: Path | None) -> Path | None:
 
 def write_judged(path: Path, judged: Sequence[Any]) -> None:
     """A row for each drawer of each task over all splits, and one for each split; empty where there is no figure."""
-    from emulator.judge.drawers import kind
+    from emulator.judge.held_out import kind
 
     rows = [
         {"task": one.task, "name": name, "kind": kind(name), "split": split}
@@ -90,7 +90,7 @@ def write_judged(path: Path, judged: Sequence[Any]) -> None:
 
 def as_plain(judged: Any) -> dict[str, Any]:
     """For JSON."""
-    from emulator.judge.drawers import kind
+    from emulator.judge.held_out import kind
 
     rows = [{"name": name, "kind": kind(name), **asdict(figures)} for name, figures in judged.rows.items()]
     passing = judged.passing_controls

@@ -57,8 +57,7 @@ def _reported(sets: Sequence[Any], seed: int, report: Callable[..., None]) -> It
 
 def sections(sets: Sequence[Any], seed: int) -> Iterator[Any]:
     """Sections as they are made, and before each step its name."""
-    from emulator.judge.paper.prepared import prepared
-    from emulator.judge.paper.tables import quantized
+    from emulator.judge.paper import prepared, quantized
 
     classes = []
     for motions in sets:
@@ -73,8 +72,7 @@ def sections(sets: Sequence[Any], seed: int) -> Iterator[Any]:
 
 
 def _of_class(c: Any, postures: Any) -> Iterator[Any]:
-    from emulator.judge.paper.drawn import draws_of
-    from emulator.judge.paper.tables import level_two, table_1, table_2, table_3, tables_4_and_5
+    from emulator.judge.paper import draws_of, level_two, table_1, table_2, table_3, tables_4_and_5
     from opsim.report.paper.drawn import figure_19
     from opsim.report.paper.write import Section
 
@@ -94,7 +92,7 @@ def _of_class(c: Any, postures: Any) -> Iterator[Any]:
 
 
 def _flattened(c: Any) -> Iterator[Any]:
-    from emulator.judge.paper import flattening as found
+    from emulator.judge import paper as found
     from opsim.report.paper import flattening as pictures
 
     yield pictures.figure_4(found.fields(c))
@@ -107,7 +105,7 @@ def _flattened(c: Any) -> Iterator[Any]:
 
 
 def _drawn(c: Any, draws: Any) -> Iterator[Any]:
-    from emulator.judge.paper import drawn as found
+    from emulator.judge import paper as found
     from opsim.report.paper import drawn as pictures
 
     yield pictures.figure_14(found.people(c, draws), c.motions.skeleton)

@@ -83,7 +83,7 @@ def _standing(motion: Any) -> Any:
     NOTE: rigid bones hung from the recorded pelvis would lift the feet of a squat by 5 to 9 cm, since markers on the
     skin make bones that breathe.
     """
-    from emulator.footing import on_its_feet
+    from emulator.model.feet import on_its_feet
 
     return on_its_feet(motion).positions_m()
 
@@ -128,7 +128,7 @@ def seen(report: Any, real: list[Any], file: str) -> str:
     It is known where the library names this file, and where its choice gives as many repetitions of it as were fitted.
     """
     from emulator import read_motions
-    from emulator.recordings.where import WhereError
+    from emulator.recordings.selection import WhereError
 
     everything = read_motions(file, where=None).motions
     unknown = "not known: the library does not say which repetitions it was fitted to; these may be among them"
@@ -146,6 +146,6 @@ def seen(report: Any, real: list[Any], file: str) -> str:
 def _chosen_by(where: str, motions: Any) -> int:
     """How many of the motions fulfil ``where``, a report's choice of repetitions. Raises WhereError."""
     from emulator.motion import table_of
-    from emulator.recordings.where import rows_where
+    from emulator.recordings.selection import rows_where
 
     return len(motions) if where == "all" else int(rows_where(where, table_of(motions)).sum())

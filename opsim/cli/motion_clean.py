@@ -70,7 +70,7 @@ def _asked(file: str, out: Path, repairs: Path | None, given: tuple[str, ...]) -
     """Settings and recording. Raises ValueError with everything that speaks against the call."""
     from emulator.cleaning import settings_of
     from emulator.cleaning.settings import beyond_rate
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
     from opsim.cli.motion_files import of_another_kind, overwritten
 
     wrong = [] if out.suffix.lower() == ".npz" else [f"{out}: found the ending {out.suffix!r}, expected .npz"]
@@ -153,7 +153,7 @@ def _kept(done: Any, drop_bad: bool) -> tuple[Any, list[str]]:
 
 def _write(done: Any, recording: Any, file: str, out: Path, repairs: Path | None, pictures: list[Path]) -> None:
     """The recording, then the repairs, then the pictures; a stop says which of them are there."""
-    from emulator.recordings.takes_npz import write_recording
+    from emulator.recordings.npz import write_recording
     from opsim.cli.stopping import stopped, stops_once, written_so_far
 
     wanted = [out, *([] if repairs is None else [repairs]), *pictures]

@@ -112,7 +112,7 @@ def _named_wrongly(files: Sequence[str], task: str | None) -> list[str]:
 
 
 def _wrong_scheme(scheme: str | None) -> list[str]:
-    from emulator.fit_settings import unknown_scheme
+    from emulator.fitting.settings import unknown_scheme
 
     return [] if scheme is None else unknown_scheme(scheme)
 

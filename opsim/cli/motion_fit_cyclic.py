@@ -12,7 +12,7 @@ def read_cyclic(
     files: Sequence[str], task: str | None, where: str | None, wrong: Sequence[str], mapping_file: Path | None = None
 ) -> list[tuple[str, Any]]:
     """(task, recording) of each file, of the takes that ``where`` chooses. Raises ValueError with all mistakes."""
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
 
     wrong, found = [*wrong], []
     for file in files:
@@ -49,7 +49,7 @@ def cyclic_model(task: str, recording: Any, components: int | float | None, seed
 
 def _chosen(recording: Any, where: str | None) -> Any:
     """The takes that fulfil the expression; None or "all": every one."""
-    from emulator.recordings.where import rows_where
+    from emulator.recordings.selection import rows_where
 
     if where in (None, "all"):
         return recording

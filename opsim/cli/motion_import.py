@@ -89,7 +89,7 @@ def _said_of(file: str, error: Exception) -> str:
 
 
 def _write(found: Sequence[Any], recording: Any, out: Path, picture: Path) -> None:
-    from emulator.recordings.takes_npz import write_recording
+    from emulator.recordings.npz import write_recording
     from opsim.report.import_picture import Shown, draw_import
 
     shown = [

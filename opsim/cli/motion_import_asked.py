@@ -22,9 +22,9 @@ class ImportAsked:
 
 def asked_of(files: Sequence[str], out: Path, given: dict[str, Any]) -> ImportAsked:
     """The options as the readers take them. Raises ValueError with all that is wrong."""
-    from emulator.recordings.axes import AXES
-    from emulator.recordings.file_names import wrong_pattern
     from emulator.recordings.importing import SIDES
+    from emulator.recordings.orientation import AXES
+    from emulator.recordings.take import wrong_pattern
 
     wrong = _wrong_files(files, out, given)
     unit_m, wrong_unit = _unit(given["unit"])
@@ -82,7 +82,7 @@ def _twice(files: Sequence[str]) -> list[str]:
 
 def _unit(text: str | None) -> tuple[float | None, list[str]]:
     """Metres of one unit by its name, or as a number."""
-    from emulator.recordings.axes import UNITS_M
+    from emulator.recordings.orientation import UNITS_M
 
     if text is None or text.lower() in UNITS_M:
         return (None if text is None else UNITS_M[text.lower()]), []

@@ -86,7 +86,7 @@ def _written(target: Path | None) -> Iterator[None]:
 def _misfits(schemes: Sequence[str], paper: bool, out: Path | None, splits: int | None, page: Path | None) -> list[str]:
     """Options that are wrong, or do not go together."""
     if not paper:
-        from emulator.judge.drawers import unknown_names
+        from emulator.judge.held_out import unknown_names
         from opsim.cli.judged_table import wrong_table
 
         wrong_page = [f"{page}: expected a .html file for --page"] if page and page.suffix.lower() != ".html" else []

@@ -36,8 +36,8 @@ def _takes(names: list[str], n_takes: int) -> str:
 
 def _why_refused(take: Any) -> Iterator[tuple[str, str]]:
     """What is found and what is expected: takes of which the same is expected are one sentence."""
-    from emulator.recordings.axes import LONGEST_M, SHORTEST_M, body_size
-    from emulator.recordings.plausible_body import PART_SHARE, SPREAD_SHARE, stands_along
+    from emulator.recordings.orientation import LONGEST_M, SHORTEST_M, body_size
+    from emulator.recordings.plausibility import PART_SHARE, SPREAD_SHARE, stands_along
 
     if not np.isfinite(take.positions_m).any():
         return
@@ -62,7 +62,7 @@ def seen_joints(recording: Any) -> tuple[str, ...]:
 
 def gaps(recording: Any) -> Iterator[str]:
     """Sentences on bodies that lie or hang, takes without any position, and joints that are not seen all the time."""
-    from emulator.recordings.plausible_body import lies_all_along
+    from emulator.recordings.plausibility import lies_all_along
 
     lying = [take.name for take in recording.takes if np.isfinite(take.positions_m).any() and lies_all_along(take)]
     if lying:

@@ -42,7 +42,7 @@ def _is_library(file: Path) -> bool:
 def _takes(file: Path, wrong: Sequence[str]) -> Any:
     """The takes of a recording, gaps and all."""
     from emulator.recordings.importing import imported, together
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
     from opsim.cli.motion_score_bodies import wrong_bodies
 
     mistakes = list(wrong)

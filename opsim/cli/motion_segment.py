@@ -57,9 +57,9 @@ def command(file: str, out: Path, kind: str | None, cuts: Path | None, k: int | 
 
 def _read(file: str, out: Path, cuts: Path | None, kind: str | None) -> tuple[Any, Any]:
     """The recording, and the cuts of each of its takes where they are given. Raises ValueError, everything at once."""
-    from emulator.recordings.takes_npz import read_recording
-    from emulator.segmenting.cut_times import parse_cut_times
-    from emulator.segmenting.postures import postures
+    from emulator.recordings.npz import read_recording
+    from emulator.segmenting.repetitions import postures
+    from emulator.segmenting.segment import parse_cut_times
     from opsim.cli.motion_files import of_another_kind, overwritten
 
     read: dict[str, list[str | Path]] = {"recording": [file], "cut_times": [] if cuts is None else [cuts]}
@@ -92,7 +92,7 @@ def _read(file: str, out: Path, cuts: Path | None, kind: str | None) -> tuple[An
 
 def _edited(beside: Path) -> list[str]:
     """What speaks against writing cut times: those that somebody has corrected are there."""
-    from emulator.segmenting.cut_times import was_edited
+    from emulator.segmenting.segment import was_edited
 
     if not beside.is_file() or not was_edited(beside.read_text(encoding="utf-8", errors="replace")):
         return []
@@ -136,9 +136,8 @@ def _found(recording: Any, asked: Any, kind: str, k: int | None) -> tuple[list[A
 
 def _write(recording: Any, found: list[Any], file: str, out: Path, cuts: Path | None) -> dict[str, str]:
     """The pieces, the cut times (where they were not given) and the picture; where each of them is."""
-    from emulator.recordings.takes_npz import write_recording
-    from emulator.segmenting.cut_times import cut_times_text
-    from emulator.segmenting.pieces import cut_recording
+    from emulator.recordings.npz import write_recording
+    from emulator.segmenting.segment import cut_recording, cut_times_text
     from opsim.cli.motion_segment_view import picture
     from opsim.cli.stopping import stopped, stops_once, written_so_far
     from opsim.whole import whole_file

@@ -51,8 +51,7 @@ def _curve(segments: Any) -> tuple[np.ndarray, str]:
         return segments.cycles.smooth, "coordinate on the manifold,\nno unit"
     found = segments.repetitions
     if found is None:
-        from emulator.segmenting.postures import postures
-        from emulator.segmenting.repetitions import repetitions
+        from emulator.segmenting.repetitions import postures, repetitions
 
         try:
             found = repetitions(postures(segments.take), segments.take.rate_hz)

@@ -56,7 +56,7 @@ def command(library: str, task: str | None, seed: int, as_json: bool, **options:
 
 
 def _strips(model: Any, out: Path, asked: Asked, seed: int, title: str) -> dict[str, Any]:
-    from emulator.mean_performance import mean_performance
+    from emulator.model.mean_performance import mean_performance
     from opsim.report.strips import draw_strips, strips_of
     from opsim.report.view import Strip
 

@@ -15,7 +15,7 @@ def video(model: Any, *, n: int, people: str, person: str | None, seed: int) -> 
     person : draws all by this person of the fit and shows this person's own mean; None: as ``people`` says
     Raises ValueError for an unknown person.
     """
-    from emulator.mean_performance import mean_performance
+    from emulator.model.mean_performance import mean_performance
 
     mean = mean_performance(model, person)
     drawn = _as(model, person, n, seed) if person else _drawn(model, n, people, seed)

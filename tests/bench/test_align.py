@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from bench.cpu import best_s, multiply_adds_per_s
 
-from emulator import elastic
-from emulator.align import align
+from emulator.geometry import elastic
+from emulator.geometry.alignment import align
 from tests.made import made_sequences
 from tests.naive import naive_elastic
 
@@ -43,7 +43,7 @@ def repeat(work, times):
 
 def worth(q1, q2, gamma):
     """The inner product of q1 with q2 warped by a path on the grid."""
-    from emulator.fields import warped_numpy
+    from emulator.geometry.elastic import warped_numpy
 
     return float(np.sum(q1 * warped_numpy(q2[None], gamma[None])[0])) / len(q1)
 

@@ -12,7 +12,7 @@ from bench.cpu import best_s
 
 from emulator.recordings.bvh import bvh_positions, read_bvh, read_bvh_file
 from emulator.recordings.bvh_write import write_bvh
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 SIZE = 100e6
 TIMES = "Frame Time: "

@@ -8,16 +8,12 @@ import pytest
 from bench.cpu import best_s
 from scipy.linalg import cholesky
 
-from emulator.cyclic.contact_states import single_support
-from emulator.cyclic.gp import GaussianProcess
-from emulator.cyclic.hyper import log_likelihood
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.pose import poses_of
-from emulator.cyclic.projected import Projected
-from emulator.cyclic.support import distance
-from emulator.cyclic.switching import SwitchingDynamics
-from emulator.library import MotionLibrary
-from emulator.recordings.takes_npz import read_recording
+from emulator.cyclic.contacts import single_support
+from emulator.cyclic.gaussian_process import GaussianProcess, Projected, log_likelihood
+from emulator.cyclic.latent import PoseLatent, poses_of
+from emulator.cyclic.switching_dynamics import SwitchingDynamics, distance
+from emulator.model.library import MotionLibrary
+from emulator.recordings.npz import read_recording
 from emulator.skeleton import Skeleton
 from tests.recordings import recording
 

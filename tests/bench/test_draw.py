@@ -11,11 +11,11 @@ import pytest
 from bench.cpu import best_s
 from scipy.interpolate import CubicSpline
 
-from emulator import decode
-from emulator.align import align
-from emulator.clean import turn
-from emulator.model import MotionEmulator
-from emulator.synthetic import make
+from emulator.geometry.alignment import align
+from emulator.model import decoding as decode
+from emulator.model.emulator import MotionEmulator
+from emulator.motion import turn
+from emulator.synthetic.tasks import make
 
 N, N_TIMES = 1000, 301
 
@@ -144,8 +144,8 @@ def test_a_fit_of_80_sequences_costs_three_times_its_alignment():
 PEAK = """
 import re
 import numpy as np
-from emulator.model import MotionEmulator
-from emulator.synthetic import make
+from emulator.model.emulator import MotionEmulator
+from emulator.synthetic.tasks import make
 def peak():
     return re.search(r"VmHWM:\\s*(\\d+) kB", open("/proc/self/status").read())[1]
 model = MotionEmulator.fit(make("lift", 30, 10, seed=4)[0], n_times=301)

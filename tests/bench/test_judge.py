@@ -11,7 +11,7 @@ from bench.cpu import best_s
 from scipy.spatial.distance import cdist
 
 from emulator.judge import Quantization, disco, distances, energy_v, sampled_postures
-from emulator.judge.distance import distances_numpy
+from emulator.judge.sequence_distances import distances_numpy
 from tests.made import made_sequences
 
 

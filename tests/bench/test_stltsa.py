@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from bench.cpu import best_s
 
-from emulator.segmenting.stltsa import stltsa
+from emulator.segmenting.ltsa import stltsa
 
 K, D = 20, 3
 

@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
 from emulator.recordings import read_motions
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.recordings import recording
 
 

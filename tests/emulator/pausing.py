@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from emulator import sphere
+from emulator.geometry import sphere
 from emulator.motion import MotionSet
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 CLOCK = np.linspace(0, 1, 201)
 

@@ -3,8 +3,9 @@ import re
 import numpy as np
 import pytest
 
-from emulator import alignable, sphere
-from emulator.alignable import ROOM_RAD, Labels, base_points, checked, mean_posture
+from emulator.geometry import base_points as alignable
+from emulator.geometry import sphere
+from emulator.geometry.base_points import ROOM_RAD, Labels, base_points, checked, mean_posture
 
 ARC = np.stack([[[np.cos(a), np.sin(a), 0.0], [0, 0, 1.0]] for a in np.linspace(0, 1, 41)])
 NAMED = Labels(["ana/1", "ben/2"], ["left_knee", "head"])

@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator import sphere, warp
-from emulator.align import align
-from emulator.model import MotionEmulator
+from emulator.geometry import sphere
+from emulator.geometry import warps as warp
+from emulator.geometry.alignment import align
+from emulator.model.emulator import MotionEmulator
 from emulator.motion import motion_from_positions
 from emulator.skeleton import Skeleton
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.made import made_sequences
 from tests.opsim.cli.calls import one_person, opsim
 

@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from emulator.bandwidth import NEARER, Curves, smoothed, told_by_curves
-from emulator.margin import within_worker
-from emulator.smoothed import less_told
+from emulator.model.joint_coordinates import within_worker
+from emulator.model.smoothed import NEARER, Curves, less_told, smoothed, told_by_curves
 
 OWNERS = 5
 

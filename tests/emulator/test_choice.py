@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.choice import Choice, chosen, dealt_folds, energy_scores, people_folds
+from emulator.judge.prediction import Choice, chosen, dealt_folds, energy_scores, people_folds
 
 
 def scored(draws, real):

@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.choreography import TASKS, pose_at
-from emulator.clean import IMPOSSIBLE_M_PER_S, glitch, heading_rad, top_speed_m_per_s, turn
-from emulator.kinematics import Body, joints_m
+from emulator.motion import IMPOSSIBLE_M_PER_S, glitch, heading_rad, top_speed_m_per_s, turn
 from emulator.skeleton import standard_skeleton
+from emulator.synthetic.choreography import TASKS, Body, joints_m, pose_at
 
 
 @pytest.fixture(scope="module")

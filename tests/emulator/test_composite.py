@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.clean import turn
-from emulator.composite import CompositeEmulator, Part
+from emulator.composite.task import CompositeEmulator, Part
+from emulator.geometry import sphere
+from emulator.motion import turn
 from emulator.skeleton import Skeleton
 from tests.emulator.fitted import made
 

@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from emulator import decode, sphere
-from emulator.flatten import SIEM
-from emulator.kernels.decode import PITCH
-from emulator.reduce import JointPCA
+from emulator.geometry import sphere
+from emulator.geometry.flattening import SIEM
+from emulator.kernels.sphere import PITCH
+from emulator.model import decoding as decode
+from emulator.model.reduction import JointPCA
 from tests.made import random_warp
 
 RNG = np.random.default_rng(5)

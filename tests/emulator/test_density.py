@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.density import LowRankNormal
+from emulator.model.gaussian import LowRankNormal
 
 
 def scores(n=40, k=5):

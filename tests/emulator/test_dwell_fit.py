@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from emulator.dwell_fit import _latent, _sites, fit_dwells, predictors, said
-from emulator.dwells import NONE
-from emulator.holds import Hold, cut
-from emulator.margin import fit_margin
+from emulator.geometry.pauses import Hold, cut
+from emulator.model.dwell_fit import _latent, _sites, fit_dwells, predictors, said
+from emulator.model.dwell_times import NONE
+from emulator.model.joint_coordinates import fit_margin
 from tests.emulator.pausing import paused_work
 
 IDENTITY = np.tile(np.linspace(0, 1, 11), (4, 1))

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from emulator.library import LibraryError, MotionLibrary
-from emulator.model import MotionEmulator
-from emulator.synthetic import make
+from emulator.model.emulator import MotionEmulator
+from emulator.model.library import LibraryError, MotionLibrary
+from emulator.synthetic.tasks import make
 from tests.emulator.fitted import made
 from tests.emulator.pausing import pause, paused_work
 from tests.emulator.test_library import changed, npy, with_header

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.special import ndtri
 
-from emulator.dwells import NONE, Dwells
-from emulator.margin import Margin
+from emulator.model.dwell_times import NONE, Dwells
+from emulator.model.joint_coordinates import Margin
 
 NORMAL = Margin(np.zeros(1), np.array([0.3]), 0.25)
 TWO = Dwells(np.array([0.2, 0.7]), np.array([0.6, 0.0]), (NORMAL, NORMAL), np.zeros((0, 2)))

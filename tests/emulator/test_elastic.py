@@ -4,7 +4,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from emulator import elastic, sphere
+from emulator.geometry import elastic, sphere
 from tests.made import made_sequences
 from tests.naive import naive_edge, naive_elastic, naive_tsrvf
 from tests.recordings import reference

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.fields import warped, warped_numpy
+from emulator.geometry.elastic import warped, warped_numpy
 from tests.made import random_warp
 
 RNG = np.random.default_rng(9)
@@ -28,7 +28,7 @@ def test_the_compiled_fields_are_the_numpy_fields(n_times):
 
 
 def test_warping_by_a_path_of_the_grid_keeps_the_inner_product():
-    from emulator import elastic
+    from emulator.geometry import elastic
 
     q1, q2 = FIELDS[0], FIELDS[1]
     gamma, inner = elastic.best_warp(q1, q2)

@@ -3,10 +3,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from emulator.fit_settings import FitSettings
-from emulator.model import SCHEME, SCHEMES, MotionEmulator
-from emulator.registered import registered
-from emulator.synthetic import make
+from emulator.fitting.registration import registered
+from emulator.fitting.settings import FitSettings
+from emulator.model.emulator import SCHEME, SCHEMES, MotionEmulator
+from emulator.synthetic.tasks import make
 
 
 @cache

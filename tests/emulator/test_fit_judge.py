@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.fit_judge import reconstruction_deg, strangers
+from emulator.fitting.summary import reconstruction_deg, strangers
 from tests.emulator.fitted import made
 
 

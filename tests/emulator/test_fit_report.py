@@ -1,7 +1,7 @@
 import json
 from dataclasses import replace
 
-from emulator.fit_report import FitReport
+from emulator.fitting.report import FitReport
 from tests.emulator.fitted import made
 
 

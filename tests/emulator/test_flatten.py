@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.align import align
-from emulator.flatten import SIEM
+from emulator.geometry import sphere
+from emulator.geometry.alignment import align
+from emulator.geometry.flattening import SIEM
 from tests.emulator.fitted import made, recorded
 
 

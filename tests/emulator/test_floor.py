@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.floor import floor_notes
+from emulator.fitting.preprocessing import floor_notes
 from emulator.motion import motion_from_positions
 from emulator.skeleton import Skeleton
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 LIFTS = make("lift", 3, 6, seed=2)[0]
 SKELETON = LIFTS.skeleton

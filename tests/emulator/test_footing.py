@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.footing import Footing, Legs, bend, on_its_feet, prints, standing, stood
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
+from emulator.model.feet import Footing, Legs, bend, on_its_feet, prints, standing, stood
 from emulator.skeleton import Skeleton
 from tests import naive_footing
 from tests.emulator.fitted import made, recorded

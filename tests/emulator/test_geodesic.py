@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from emulator import geodesic, sphere
+from emulator.geometry import flattening as geodesic
+from emulator.geometry import sphere
 from tests.made import made_sequences
 
 RNG = np.random.default_rng(2)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.held_out import held_out_rows, holm, resampled_rows, split_within_workers, table_text
+from emulator.judge.held_out import held_out_rows, holm, resampled_rows, split_within_workers, table_text
 from tests.emulator.fitted import made, recorded
 
 CLASSES = ("deep_squat", "sit_to_stand", "side_lunge", "shoulder_abduction", "shoulder_scaption")

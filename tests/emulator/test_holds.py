@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from emulator import warp
-from emulator.align import align
-from emulator.holds import cut
+from emulator.geometry import warps as warp
+from emulator.geometry.alignment import align
+from emulator.geometry.pauses import cut
 from emulator.motion import MotionSet
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.emulator.pausing import CLOCK, pause, paused_work
 
 

@@ -6,10 +6,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from emulator.joined import JoinError, joined, most_gap_rad, posture_gap_rad
+from emulator.composite.joining import JoinError, joined, most_gap_rad, posture_gap_rad
 from emulator.motion import motion_from_positions
 from emulator.skeleton import Skeleton
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 RATE_HZ = 50.0
 

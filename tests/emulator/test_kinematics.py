@@ -1,7 +1,7 @@
 import numpy as np
 
-from emulator.kinematics import REST, Body, joints_m, soft_target, two_bones
 from emulator.skeleton import standard_skeleton
+from emulator.synthetic.choreography import REST, Body, joints_m, soft_target, two_bones
 
 SKELETON = standard_skeleton()
 

@@ -3,13 +3,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from emulator import sphere, warp
-from emulator.align import align
-from emulator.choreography import TASKS
-from emulator.landmarks import channels
-from emulator.model import MotionEmulator
+from emulator.geometry import sphere
+from emulator.geometry import warps as warp
+from emulator.geometry.alignment import align
+from emulator.geometry.elastic import channels
+from emulator.model.emulator import MotionEmulator
 from emulator.recordings import read_motions
-from emulator.synthetic import make
+from emulator.synthetic.choreography import TASKS
+from emulator.synthetic.tasks import make
 from tests.made import made_sequences
 from tests.recordings import recording
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.density import LowRankNormal
-from emulator.law import Law, chosen, placed
+from emulator.model.gaussian import Law, LowRankNormal, chosen, placed
 
 
 def normal(k=3, seed=1, mean=None):

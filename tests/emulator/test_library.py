@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from emulator.archive import FORMAT
-from emulator.library import LibraryError, MotionLibrary, file_sha256, read_header
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
+from emulator.model.library import LibraryError, MotionLibrary, file_sha256, read_header
 from tests.emulator.fitted import made, recorded
 from tests.emulator.test_members import huge_npy, npy
 

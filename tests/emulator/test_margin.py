@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.margin import Margin, fit_margin, inverse_all, within_worker
+from emulator.model.joint_coordinates import Margin, fit_margin, inverse_all, within_worker
 
 
 def test_the_mean_of_a_lognormal_margin_is_the_formula():

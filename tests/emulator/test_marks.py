@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.marks import clock_to_coordinates, coordinates_to_clock
+from emulator.geometry.warps import clock_to_coordinates, coordinates_to_clock
 
 
 def test_a_mark_in_the_middle_has_coordinate_zero():

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.library import MotionLibrary
-from emulator.mean_performance import mean_performance
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
+from emulator.model.library import MotionLibrary
+from emulator.model.mean_performance import mean_performance
 from tests.emulator.fitted import made
 from tests.emulator.pausing import paused_work
 

@@ -5,7 +5,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from emulator.members import MemberError, open_members, read_member
+from emulator.archive import MemberError, open_members, read_member
 
 
 def npy(array, **settings):

@@ -13,12 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator import elastic, sphere
-from emulator.align import resample
-from emulator.clean import turn
-from emulator.model import SCHEMES, MotionEmulator
-from emulator.motion import motion_from_positions
-from emulator.synthetic import make
+from emulator.geometry import elastic, sphere
+from emulator.geometry.alignment import resample
+from emulator.model.emulator import SCHEMES, MotionEmulator
+from emulator.motion import motion_from_positions, turn
+from emulator.synthetic.tasks import make
 from tests.made import made_sequences
 
 ROUNDING = 1e-6

@@ -4,10 +4,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
 from emulator.motion import MotionSet
-from emulator.synthetic import make
-from emulator.workforce import WorkerEffect
+from emulator.people.workers import WorkerEffect
+from emulator.synthetic.tasks import make
 from tests.emulator.fitted import made
 
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.clean import glitch, heading_rad, turn
-from emulator.motion import MotionSet, motion_from_positions
+from emulator.motion import MotionSet, glitch, heading_rad, motion_from_positions, turn
 from emulator.skeleton import standard_skeleton
 
 BODY = standard_skeleton()

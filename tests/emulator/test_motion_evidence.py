@@ -11,11 +11,11 @@ from motion_evidence.judged import Split, judge_split
 from motion_evidence.table import lines
 from motion_evidence.verdicts import failures, figures
 
-from emulator.fit_settings import FitSettings
-from emulator.held_out import HeldOutRow
+from emulator.fitting.registration import registered
+from emulator.fitting.settings import FitSettings
 from emulator.judge import Comparison
-from emulator.model import SCHEME
-from emulator.registered import registered
+from emulator.judge.held_out import HeldOutRow
+from emulator.model.emulator import SCHEME
 from tests.recordings import recording
 
 GOOD = Comparison(energy=0.01, energy_stratified=0.02, p=0.5, novelty=1.0, temporal_roughness=1.0, roughness=1.0)

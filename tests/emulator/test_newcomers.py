@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.covariates.body import BodyError
-from emulator.model import MotionEmulator
-from emulator.synthetic import make
+from emulator.model.emulator import MotionEmulator
+from emulator.synthetic.tasks import make
 from tests.emulator.fitted import made
 
 

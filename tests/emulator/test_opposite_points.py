@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.alignable import NEARLY_OPPOSITE_RAD, ROOM_RAD, base_points
-from emulator.decode import Decoder, directions_numpy
-from emulator.flatten import SIEM
-from emulator.opposite_points import led_around, led_over
-from emulator.reduce import JointPCA
-from emulator.synthetic import make
+from emulator.geometry import sphere
+from emulator.geometry.base_points import NEARLY_OPPOSITE_RAD, ROOM_RAD, base_points
+from emulator.geometry.flattening import SIEM
+from emulator.geometry.opposite_points import led_around, led_over
+from emulator.model.decoding import Decoder, directions_numpy
+from emulator.model.reduction import JointPCA
+from emulator.synthetic.tasks import make
 
 LIFT = make("lift", 1, 1, seed=2)[0].motions[0]
 N, BONE = len(LIFT.time_s), 8

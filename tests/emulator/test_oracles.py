@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from emulator import elastic, sphere
-from emulator.align import resample
-from emulator.flatten import SIEM
-from emulator.schemes.velocity import ISTVF, STVF
+from emulator.geometry import elastic, sphere
+from emulator.geometry.alignment import resample
+from emulator.geometry.flattening import SIEM
+from emulator.schemes.flattening import ISTVF, STVF
 from emulator.skeleton import standard_skeleton
 from tests.made import made_sequences, random_warp
 from tests.recordings import reference

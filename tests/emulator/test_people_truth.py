@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from emulator import synthetic
-from emulator.anova import intraclass_correlation
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
+from emulator.people.variance_components import intraclass_correlation
+from emulator.synthetic import tasks as synthetic
 
 N_SETS, TRUE_ICC = 20, 0.8
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from emulator.clean import turn
-from emulator.decode import directions_numpy
-from emulator.model import MotionEmulator
+from emulator.model.decoding import directions_numpy
+from emulator.model.emulator import MotionEmulator
+from emulator.motion import turn
 from tests.emulator.fitted import made
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError, read_motions
-from emulator.recordings.where import WhereError, rows_where
+from emulator.recordings.selection import WhereError, rows_where
 from emulator.skeleton import CANONICAL, standard_skeleton
 from tests.emulator.test_members import huge_npy
 from tests.recordings import recording

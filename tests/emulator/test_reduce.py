@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.reduce import JointPCA, SequentialPCA
+from emulator.model.reduction import JointPCA, SequentialPCA
 
 
 def sequences(n=12, p=40, rank=5):

@@ -3,12 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator import sphere
+from emulator.fitting.preprocessing import jumps, repaired
+from emulator.geometry import sphere
 from emulator.motion import MotionSet
 from emulator.recordings import read_motions
 from emulator.recordings.npz import read_npz
-from emulator.repair import jumps, repaired
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.recordings import recording
 
 LIFTS = make("lift", 2, 2, seed=1)[0]

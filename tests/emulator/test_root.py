@@ -1,8 +1,8 @@
 import numpy as np
 
-from emulator.footing import on_its_feet
-from emulator.model import MotionEmulator
-from emulator.root import RootChannel
+from emulator.model.decoding import RootChannel
+from emulator.model.emulator import MotionEmulator
+from emulator.model.feet import on_its_feet
 from emulator.skeleton import Skeleton
 from tests.emulator.fitted import made, recorded
 

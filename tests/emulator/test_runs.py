@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.runs import stretches
+from emulator.motion import stretches
 
 
 def test_stretches_stop_one_beyond_their_last_frame():

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from emulator import seams, sphere
-from emulator.seams import End
+from emulator.composite import transitions as seams
+from emulator.composite.transitions import End
+from emulator.geometry import sphere
 
 
 def ends(rng, n=3, n_bones=4):

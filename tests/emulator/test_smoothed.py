@@ -2,8 +2,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from emulator.smoothed import SmoothedScores, less_told, partners, room
-from emulator.workforce import WorkerEffect, Workforce
+from emulator.model.smoothed import SmoothedScores, less_told, partners, room
+from emulator.people.workers import WorkerEffect, Workforce
 
 K = 4
 

@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from emulator import sphere
+from emulator.geometry import sphere
 from tests.recordings import reference
 
 RNG = np.random.default_rng(0)

@@ -3,10 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.choreography import TASKS
+from emulator.geometry.pauses import find, moves
 from emulator.recordings import read_motions
-from emulator.stillness import find, moves
-from emulator.synthetic import make
+from emulator.synthetic.choreography import TASKS
+from emulator.synthetic.tasks import make
 from tests.emulator.pausing import pause, shaken
 from tests.recordings import recording
 

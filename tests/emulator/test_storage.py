@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.storage import bits, decode, encode, on_grid
+from emulator.model.joint_coordinates import bits, decode, encode, on_grid
 
 
 def rows():

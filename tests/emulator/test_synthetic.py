@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.choreography import TASKS
-from emulator.model import MotionEmulator
-from emulator.synthetic import RATE_HZ, main, make
+from emulator.model.emulator import MotionEmulator
+from emulator.synthetic.choreography import TASKS
+from emulator.synthetic.tasks import RATE_HZ, main, make
 
 
 @pytest.mark.parametrize("task", TASKS)
@@ -122,7 +122,7 @@ def _height(positions, skeleton):
 
 @pytest.mark.slow
 def test_the_command_writes_the_library_of_bench_work(tmp_path, capsys):
-    from emulator.library import MotionLibrary
+    from emulator.model.library import MotionLibrary
 
     main(["-o", str(tmp_path / "bench_work.npz"), "--seed", "3"])
     library = MotionLibrary.load(tmp_path / "bench_work.npz")

@@ -1,14 +1,14 @@
 import numpy as np
 import pytest
 
-from emulator.align import resample
-from emulator.choreography import TASKS
 from emulator.covariates.model import CovariateModel
 from emulator.covariates.table import table_of
-from emulator.flatten import SIEM
-from emulator.margin import within_worker
-from emulator.reduce import JointPCA
-from emulator.synthetic_cohort import (
+from emulator.geometry.alignment import resample
+from emulator.geometry.flattening import SIEM
+from emulator.model.joint_coordinates import within_worker
+from emulator.model.reduction import JointPCA
+from emulator.synthetic.choreography import TASKS
+from emulator.synthetic.cohort import (
     BETWEEN,
     COVARIATES,
     EFFECTS,

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.feet import foot_skate_m, path_from_contacts
-from emulator.kinematics import Body
+from emulator.cyclic.contacts import foot_skate_m, path_from_contacts
 from emulator.skeleton import standard_skeleton
-from emulator.synthetic_cycles import make_cycles
-from emulator.synthetic_walk import make_walks
-from emulator.walk_plan import double_support, leg_m, step_length_m
+from emulator.synthetic.choreography import Body
+from emulator.synthetic.cycles import make_cycles
+from emulator.synthetic.gait import double_support, leg_m, step_length_m
+from emulator.synthetic.walking import make_walks
 
 
 @pytest.fixture(scope="module")

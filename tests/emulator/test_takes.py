@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from emulator import read_motions
+from emulator.recordings.npz import read_recording, write_recording
 from emulator.recordings.take import Recording, Take
-from emulator.recordings.takes_npz import read_recording, write_recording
 from emulator.skeleton import standard_skeleton
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 
 def recording(n=3):

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from emulator.choreography import TASKS
 from emulator.covariates.body import Body
 from emulator.covariates.table import CovariateTable
-from emulator.fit_people import told_of
-from emulator.model import MotionEmulator
-from emulator.synthetic_cohort import COVARIATES, WITHIN, draw_cohort, make_cohort, units
-from emulator.told import Told
-from emulator.workforce import Workforce, shrinkages
+from emulator.fitting.steps import told_of
+from emulator.model.emulator import MotionEmulator
+from emulator.people.workers import Told, Workforce, shrinkages
+from emulator.synthetic.choreography import TASKS
+from emulator.synthetic.cohort import COVARIATES, WITHIN, draw_cohort, make_cohort, units
 
 N_PEOPLE = 18
 

@@ -9,13 +9,13 @@ from itertools import product
 import numpy as np
 import pytest
 
-from emulator import synthetic
-from emulator.align import resample
-from emulator.anova import anova
-from emulator.held_out import holm
-from emulator.model import MotionEmulator
-from emulator.population import predictive_sizes
-from emulator.sphere import angle
+from emulator.geometry.alignment import resample
+from emulator.geometry.sphere import angle
+from emulator.judge.held_out import holm
+from emulator.model.emulator import MotionEmulator
+from emulator.people.population import predictive_sizes
+from emulator.people.variance_components import anova
+from emulator.synthetic import tasks as synthetic
 from tests.emulator import truths
 from tests.emulator.truths import BOTH, Crew
 

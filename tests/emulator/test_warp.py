@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator import warp
+from emulator.geometry import warps as warp
 from tests.made import random_warp
 
 RNG = np.random.default_rng(3)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from emulator.anova import anova, intraclass_correlation
-from emulator.workforce import Workforce, shrinkages
+from emulator.people.variance_components import anova, intraclass_correlation
+from emulator.people.workers import Workforce, shrinkages
 
 # Shrout & Fleiss (1979), table 2: six targets, four judges. Their table 4: ICC(1,1) = .17.
 RATINGS = np.array([[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7.0]])

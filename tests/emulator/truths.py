@@ -5,11 +5,11 @@ from functools import cache
 
 import numpy as np
 
-from emulator import sphere, synthetic
-from emulator.choreography import TASKS
-from emulator.joint import BLOCKS
-from emulator.margin import within_worker
-from emulator.model import SCHEME, SCHEMES, MotionEmulator
+from emulator.geometry import sphere
+from emulator.model.emulator import SCHEME, SCHEMES, MotionEmulator
+from emulator.model.joint_coordinates import BLOCKS, within_worker
+from emulator.synthetic import tasks as synthetic
+from emulator.synthetic.choreography import TASKS
 
 
 @dataclass(frozen=True)

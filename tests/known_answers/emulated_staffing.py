@@ -14,7 +14,8 @@ N_PEOPLE, N_EACH = 300, 6
 
 def library(n_people: int = N_PEOPLE, n_each: int = N_EACH):
     """A reach at each share, fitted to made repetitions; name of the variant -> emulator."""
-    from emulator import MotionEmulator, MotionLibrary, synthetic
+    from emulator import MotionEmulator, MotionLibrary
+    from emulator.synthetic import tasks as synthetic
 
     made = MotionLibrary.of()
     for name, share in SHARE.items():

@@ -8,8 +8,8 @@ import numpy as np
 from motion_evidence.halves import Halves
 
 from emulator.judge import jittered_resampler, resampler
-from emulator.judge.alike import draw_alike
-from emulator.model import MotionEmulator
+from emulator.judge.held_out import draw_alike
+from emulator.model.emulator import MotionEmulator
 from emulator.schemes import Scheme
 
 Drawer = Callable[[int, np.random.Generator], np.ndarray]

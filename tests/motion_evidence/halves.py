@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from recordings import data_folder
 
-from emulator.judge.halves import N_KNOTS, N_TIMES, Halves, in_halves
+from emulator.judge.held_out import N_KNOTS, N_TIMES, Halves, in_halves
 from emulator.recordings import read_motions
 
 __all__ = ["CLASSES", "N_KNOTS", "N_TIMES", "Halves", "halves", "path_of"]

@@ -10,8 +10,7 @@ from motion_evidence.drawers import REAL, Drawer, drawers
 from motion_evidence.halves import N_TIMES, Halves, halves
 from threadpoolctl import threadpool_limits
 
-from emulator.align import resample
-from emulator.held_out import HeldOutRow, emulated_rows, resampled_rows
+from emulator.geometry.alignment import resample
 from emulator.judge import (
     Comparison,
     compare,
@@ -19,8 +18,8 @@ from emulator.judge import (
     reconstruction_error,
     roughness,
 )
-from emulator.judge.alike import draw_alike
-from emulator.model import MotionEmulator
+from emulator.judge.held_out import HeldOutRow, draw_alike, emulated_rows, resampled_rows
+from emulator.model.emulator import MotionEmulator
 from emulator.schemes import Scheme
 
 N_OWN_TIME = 200

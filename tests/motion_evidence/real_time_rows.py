@@ -11,17 +11,16 @@ from recordings import data_folder
 from threadpoolctl import threadpool_limits
 
 from emulator import MotionEmulator, read_motions
-from emulator.held_out import split_within_workers
 from emulator.judge import compare
 from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.coverage import LEVELS, QUANTITIES, covered
-from emulator.judge.halves import in_halves
+from emulator.judge.held_out import in_halves, split_within_workers
 from emulator.judge.joint_speeds import energies, peak_ratio, share_too_fast_left_out
 from emulator.judge.kinematic_test import FEWEST, kinematic_test
 from emulator.judge.real_time import real_time
-from emulator.judge.streams import stream
+from emulator.judge.sequence_distances import stream
+from emulator.model.performances import MotionPerformances
 from emulator.motion import MotionSet
-from emulator.performances import MotionPerformances
 from emulator.schemes import Scheme
 
 Row = dict[str, float]

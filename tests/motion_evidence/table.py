@@ -9,7 +9,7 @@ from motion_evidence.drawers import COPIER, OURS, PAPER, REAL, SHAKER
 from motion_evidence.judged import Split
 from motion_evidence.verdicts import Figures, figures
 
-from emulator.held_out import QUANTILES, HeldOutRow, holm
+from emulator.judge.held_out import QUANTILES, HeldOutRow, holm
 
 _HEAD = (
     f"{'class':19} {'drawer':12} {'energy':>8} {'ratio':>6} {'of med.':>7} {'strat.':>6} "

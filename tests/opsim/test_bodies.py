@@ -1,7 +1,7 @@
 from types import SimpleNamespace
 
 from emulator.covariates.body import RANGES
-from emulator.newcomers import BODY_KEYS as EMULATOR_KEYS
+from emulator.people.new_people import BODY_KEYS as EMULATOR_KEYS
 from opsim.bodies import BODY_KEYS, BODY_RANGES, keys_read
 from opsim.plan.worker import Body
 from opsim.task_models import library_model

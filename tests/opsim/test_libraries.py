@@ -31,7 +31,7 @@ def test_a_library_outside_the_folder_is_refused(tmp_path):
 
 def test_the_tasks_come_from_the_header_of_the_file_as_it_is_now(tmp_path, monkeypatch):
     headers = {b"one": {"tasks": {"lift": {}}}, b"two": {"tasks": {"lift": {}, "carry": {}}}, b"other": {}}
-    monkeypatch.setattr("emulator.library.read_header", lambda path: headers[path.read_bytes()])
+    monkeypatch.setattr("emulator.model.library.read_header", lambda path: headers[path.read_bytes()])
     file = tmp_path / "moves.npz"
     file.write_bytes(b"one")
     assert library_tasks(file) == ["lift"]
@@ -59,7 +59,7 @@ def test_the_people_of_a_library_stand_in_its_header():
 
 def test_a_task_whose_people_are_not_named_has_none(tmp_path, monkeypatch):
     header = {"tasks": {"lift": {}, "carry": {"workers": "ana"}, "turn": ["ana"], "walk": {"workers": ["ana", 7]}}}
-    monkeypatch.setattr("emulator.library.read_header", lambda path: header)
+    monkeypatch.setattr("emulator.model.library.read_header", lambda path: header)
     (tmp_path / "moves.npz").write_bytes(b"")
     assert library_people(tmp_path / "moves.npz") == {"lift": (), "carry": (), "turn": (), "walk": ("ana", "7")}
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from emulator.cleaning import Cleaned, cleaned
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
 from opsim.cli.motion_clean_told import change_mm, notes_of, verdicts_of
 from opsim.cli.motion_clean_view import view_of
 from opsim.report.cleaned_picture import write_cleaned

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from emulator.composite import CompositeEmulator, Part
-from emulator.joined import JoinError, joined, posture_gap_rad
-from emulator.library import MotionLibrary
+from emulator.composite.joining import JoinError, joined, posture_gap_rad
+from emulator.composite.task import CompositeEmulator, Part
+from emulator.model.library import MotionLibrary
 from emulator.motion import Motion, motion_from_positions
 from emulator.recordings import read_motions
 from opsim.report.strips import draw_strips
@@ -102,7 +102,7 @@ def _walk() -> Any:
     if file.exists():
         return MotionLibrary.load(file)["walk"]
     from emulator.cyclic.model import CyclicEmulator
-    from emulator.synthetic_walk import make_walks
+    from emulator.synthetic.walking import make_walks
 
     return CyclicEmulator.fit(make_walks(4, 3, seed=1)[0])
 

@@ -8,15 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from emulator.clean import turn
-from emulator.cyclic.contact_states import contact_of, contact_of_state, found_states, single_support
-from emulator.cyclic.feet import foot_skate_m, path_from_contacts
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.pose import Poses, leg_length_m, path_of, poses_of, positions_of
-from emulator.cyclic.support import distance
-from emulator.cyclic.switching import SwitchingDynamics
+from emulator.cyclic.contacts import (
+    contact_of,
+    contact_of_state,
+    foot_skate_m,
+    found_states,
+    path_from_contacts,
+    single_support,
+)
+from emulator.cyclic.latent import PoseLatent, Poses, leg_length_m, path_of, poses_of, positions_of
+from emulator.cyclic.switching_dynamics import SwitchingDynamics, distance
+from emulator.motion import turn
+from emulator.recordings.npz import read_recording
 from emulator.recordings.take import Take
-from emulator.recordings.takes_npz import read_recording
 from emulator.skeleton import Skeleton, standard_skeleton
 from tests.made_rowing import RATE_HZ, made_rowing
 from tests.take_evidence import cyclic_figures as figures

@@ -27,7 +27,7 @@ def evidence(motion: Path, out: Path) -> Iterator[tuple[str, str, bool]]:
 def _imported(path: Path, out: Path, options: dict[str, Any]) -> tuple[str, str, bool]:
     """As ``opsim motion import`` does it, by its own functions."""
     from emulator.recordings.importing import imported, together
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
     from opsim.cli.motion_import import _write
 
     found = list(imported(path, **options))
@@ -43,8 +43,8 @@ def _imported(path: Path, out: Path, options: dict[str, Any]) -> tuple[str, str,
 
 
 def _markers(motion: Path) -> tuple[str, str, bool]:
+    from emulator.recordings.importing import read_take
     from emulator.recordings.mapping import mapped
-    from emulator.recordings.raw import read_take
 
     path = motion / "raw" / "uiprmd_vicon_m05_s01_e02_positions.csv"
     take, _ = mapped(read_take(path, columns="plug-in-gait", rate_hz=100.0))
@@ -52,8 +52,8 @@ def _markers(motion: Path) -> tuple[str, str, bool]:
 
 
 def _amc(motion: Path) -> tuple[str, str, bool]:
+    from emulator.recordings.importing import read_take
     from emulator.recordings.mapping import mapped
-    from emulator.recordings.raw import read_take
 
     take, _ = mapped(read_take(motion / "raw" / "HDM_bd_depositFloorR_001_120.amc"))
     return _alike("the AMC", take, _take(motion / "hdm05_deposit_floor.npz", "bd/001"))
@@ -68,15 +68,15 @@ def _alike(what: str, take: Any, known: Any) -> tuple[str, str, bool]:
 
 
 def _take(path: Path, name: str) -> Any:
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
 
     return next(take for take in read_recording(path).takes if take.name == name)
 
 
 def _all_recordings(motion: Path) -> Iterator[tuple[str, str, bool]]:
-    from emulator.recordings.axes import UNITS_M, found_unit_m, found_up, turned_up
-    from emulator.recordings.sides import checked_sides, mirrored, swapped_names
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
+    from emulator.recordings.orientation import UNITS_M, found_unit_m, found_up, turned_up
+    from emulator.recordings.plausibility import checked_sides, mirrored, swapped_names
 
     units = placed = accused = found = n = 0
     for path in sorted(motion.glob("*.npz")):

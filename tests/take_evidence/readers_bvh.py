@@ -11,7 +11,7 @@ import numpy as np
 
 from emulator.motion import Motion
 from emulator.recordings import read_motions
-from emulator.recordings.asf_amc import read_amc
+from emulator.recordings.amc import read_amc
 from emulator.recordings.bvh import read_bvh, read_bvh_file
 from emulator.recordings.bvh_write import write_bvh, write_bvh_file
 from emulator.recordings.take import Take

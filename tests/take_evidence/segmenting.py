@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from emulator.joined import joined
+from emulator.composite.joining import joined
+from emulator.recordings.npz import read_recording
 from emulator.recordings.take import Take
-from emulator.recordings.takes_npz import read_recording
-from emulator.segmenting.postures import postures
-from emulator.segmenting.repetitions import repetitions
+from emulator.segmenting.repetitions import postures, repetitions
 from emulator.segmenting.segment import Segments, segment
 from emulator.segmenting.synthesis import motion_of, take_of
 from tests.long_take import long_take, plain, usual_ends
@@ -201,7 +200,7 @@ def within_ten(take: Take, truth: np.ndarray) -> int | None:
 
 
 def _made_takes() -> Iterator[Line]:
-    from emulator.synthetic import make
+    from emulator.synthetic.tasks import make
 
     within: dict[str, int | None] = {}
     for task in MADE:

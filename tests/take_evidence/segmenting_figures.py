@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from emulator.segmenting.denoise import denoised, fitted_curve
+from emulator.segmenting.cycles import denoised, fitted_curve
+from emulator.segmenting.ltsa import stltsa
 from emulator.segmenting.segment import Segments
-from emulator.segmenting.stltsa import stltsa
 from emulator.skeleton import Skeleton
 from opsim.report.palette import ACCENT, GRID, INK, MUTED
 from opsim.report.person import draw_person

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.runs import stretches
+from emulator.motion import stretches
 
 SPEEDS_M_PER_S, HEIGHTS_M = (0.7, 1.2, 1.7), (1.55, 1.90)
 WALKS, LONG_M = 240, 3000.0
@@ -16,7 +16,7 @@ SHIPPED = Path(__file__).parents[2] / "scenarios" / "libraries" / "walking.npz"
 
 def evidence(motion: Path, out: Path) -> Iterator[tuple[str, str, bool]]:
     """Claims about the shipped walking, and about a fit of the recorded walks in ``motion``."""
-    from emulator.library import MotionLibrary
+    from emulator.model.library import MotionLibrary
 
     model = MotionLibrary.load(SHIPPED)["walk"]
     yield from _planted(model, out)
@@ -37,7 +37,7 @@ def _walks(model, distance_m=4.0):
 
 
 def _planted(model, out):
-    from emulator.cyclic.feet import foot_skate_m
+    from emulator.cyclic.contacts import foot_skate_m
     from opsim.report.walks import draw_walks, walk_of
 
     slid, stretched, rows = [], [], []
@@ -54,7 +54,7 @@ def _planted(model, out):
 
 def _near(model):
     """Draws beside the model's own training poses, in the latents that the dynamics move: nearest distances."""
-    from emulator.cyclic.support import distance, held_out_distances
+    from emulator.cyclic.switching_dynamics import distance, held_out_distances
 
     takes = _training(model)
     frames = np.concatenate(takes)
@@ -81,8 +81,8 @@ def _near(model):
 
 def _training(model):
     """Latents (T, d) of the takes that the shipped library is fitted to, without the workers' own offsets."""
-    from emulator.cyclic.prepare import prepared
-    from emulator.synthetic_walk import make_walks
+    from emulator.cyclic.preparation import prepared
+    from emulator.synthetic.walking import make_walks
 
     recording, _ = make_walks(len(model.workers), model.report.n_sequences // len(model.workers), seed=0)
     assert len(recording.takes) == model.report.n_sequences
@@ -132,7 +132,7 @@ def _steps(model, out):
     """Of the typical worker, long ways: step length against the walk ratio that the made walks were given."""
     from matplotlib.figure import Figure
 
-    from emulator.walk_plan import step_length_m
+    from emulator.synthetic.gait import step_length_m
     from opsim.report.person import LEFT, RIGHT
 
     figure = Figure(figsize=(7.0, 4.2), facecolor="white")
@@ -187,7 +187,7 @@ def _speed(model):
 def _recorded(motion, out):
     """Fitted to recordings, from which nothing is shipped."""
     from emulator.cyclic.model import CyclicEmulator
-    from emulator.recordings.takes_npz import read_recording
+    from emulator.recordings.npz import read_recording
     from opsim.report.walks import draw_walks, walk_of
 
     model = CyclicEmulator.fit(read_recording(motion / "bandai2_walk.npz"))

@@ -1,4 +1,4 @@
-"""Figures 14, 15, 16 and 19, drawn from plain arrays (see ``emulator.judge.paper.drawn``)."""
+"""Figures 14, 15, 16 and 19, drawn from plain arrays (see ``emulator.judge.paper``)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures 4, 5, 7, 8, 9, 10 and 13, drawn from plain arrays (see ``emulator.judge.paper.flattening``)."""
+"""Figures 4, 5, 7, 8, 9, 10 and 13, drawn from plain arrays (see ``emulator.judge.paper``)."""
 
 from __future__ import annotations
 

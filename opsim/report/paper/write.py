@@ -24,7 +24,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """What was found of one class (or of all together): tables (see ``emulator.judge.paper.tables``) and pictures."""
+    """What was found of one class (or of all together): tables (see ``emulator.judge.paper``) and pictures."""
 
     name: str
     words: str

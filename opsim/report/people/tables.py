@@ -51,7 +51,7 @@ FILES: dict[str, tuple[Sequence[str], Callable[[Any], Iterator[Row]]]] = {
 
 
 def write_tables(folder: Path, found: Sequence[Any]) -> None:
-    """Write each of ``FILES`` for all tasks (``emulator.judge.people_found.People``); what is NaN stays empty."""
+    """Write each of ``FILES`` for all tasks (``emulator.judge.people.People``); what is NaN stays empty."""
     for name, (columns, rows) in FILES.items():
         out = io.StringIO()
         writer = csv.writer(out, lineterminator="\n")

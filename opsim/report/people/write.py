@@ -16,7 +16,7 @@ PAGE, PICTURE = "index.html", "people.svg"
 
 
 def write_people(folder: Path, found: Sequence[Any], seed: int) -> Path:
-    """Write all of the tasks found so far (``emulator.judge.people_found.People``); returns where the page is."""
+    """Write all of the tasks found so far (``emulator.judge.people.People``); returns where the page is."""
     drawn = picture(found)
     write_tables(folder, found)
     write_text(folder / PICTURE, drawn)

@@ -6,11 +6,16 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings
-from emulator.cleaning.angles import angle_deg, beyond, turned
-from emulator.cleaning.bones import median_lengths_m
-from emulator.cleaning.extremes import neutral_angles, within_limits
-from emulator.cleaning.limits import LIMITS, limits_for
-from emulator.cleaning.offsets import without_offsets
+from emulator.cleaning.bones_and_angles import (
+    angle_deg,
+    beyond,
+    median_lengths_m,
+    neutral_angles,
+    turned,
+    within_limits,
+)
+from emulator.cleaning.marker_errors import without_offsets
+from emulator.cleaning.settings import LIMITS, limits_for
 from tests.made_takes import clean, error_m
 
 

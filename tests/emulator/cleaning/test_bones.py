@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings
-from emulator.cleaning.bones import median_lengths_m, with_even_bones
+from emulator.cleaning.bones_and_angles import median_lengths_m, with_even_bones
 from emulator.skeleton import Skeleton
 from tests.made_takes import clean, spoilt
 

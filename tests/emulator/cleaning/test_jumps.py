@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings, cleaned
-from emulator.cleaning.jumps import without_jumps
-from emulator.cleaning.violent import violent_steps
+from emulator.cleaning.spikes import violent_steps, without_jumps
 from emulator.skeleton import Skeleton
 from tests.made_takes import clean, error_m, spoilt
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings
-from emulator.cleaning.low_pass import coordinate_noise_m, filtered, highest_hz, residual_analysis, smoothed
+from emulator.cleaning.smoothing import coordinate_noise_m, filtered, highest_hz, residual_analysis, smoothed
 from tests.made_takes import clean
 
 

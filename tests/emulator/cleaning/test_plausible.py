@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings, cleaned
-from emulator.cleaning.plausible import mistakes, size_m
+from emulator.cleaning.settings import mistakes, size_m
 from tests.made_takes import clean
 
 

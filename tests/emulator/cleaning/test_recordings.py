@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import cleaned
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
 from tests.made_takes import same
 from tests.recordings import recording
 

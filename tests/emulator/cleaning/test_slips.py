@@ -1,8 +1,8 @@
 import numpy as np
 
 from emulator.cleaning import CleaningSettings
-from emulator.cleaning.bones import median_lengths_m
-from emulator.cleaning.slips import without_slips
+from emulator.cleaning.bones_and_angles import median_lengths_m
+from emulator.cleaning.marker_errors import without_slips
 from tests.made_takes import clean, error_m, spoilt
 
 

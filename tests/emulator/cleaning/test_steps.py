@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.cleaning.steps import largest_beside, surprise_m, surprise_vectors_m
+from emulator.cleaning.spikes import largest_beside, surprise_m, surprise_vectors_m
 
 
 def way(values):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import CleaningSettings
-from emulator.cleaning.swaps import mirrored, without_swaps
+from emulator.cleaning.marker_errors import mirrored, without_swaps
 from tests.made_takes import clean, error_m, spoilt
 
 

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.clean import turn
 from emulator.cleaning import CleaningSettings, Repair, verdict_of
-from emulator.cleaning.told import impossible, told
+from emulator.cleaning.report import impossible, told
+from emulator.motion import turn
 from tests.made_takes import clean
 
 

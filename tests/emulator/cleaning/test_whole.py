@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.choreography import TASKS
-from emulator.clean import turn
 from emulator.cleaning import CleaningSettings, cleaned
+from emulator.motion import turn
 from emulator.recordings.take import Recording
+from emulator.synthetic.choreography import TASKS
 from tests.made_takes import clean, error_m, same, spoilt
 
 EVERYTHING = CleaningSettings(bones="mend", offsets="mend", angles="mend")

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.covariates.agreement import icc_2_1, icc_of_the_paper, rms, sem
+from emulator.covariates.validation import icc_2_1, icc_of_the_paper, rms, sem
 
 CURVE = 30 * np.sin(np.linspace(0, 6, 80))
 

@@ -1,10 +1,16 @@
 import numpy as np
 import pytest
 
-from emulator.covariates.body import BodyError
-from emulator.covariates.bones import HEIGHT_SHARES, LENGTH_SHARES, bone_lengths_m, not_in_the_table, stature_m
-from emulator.kinematics import REST, STATURE_M, Body, joints_m
+from emulator.covariates.body import (
+    HEIGHT_SHARES,
+    LENGTH_SHARES,
+    BodyError,
+    bone_lengths_m,
+    not_in_the_table,
+    stature_m,
+)
 from emulator.skeleton import CANONICAL, Skeleton, standard_skeleton
+from emulator.synthetic.choreography import REST, STATURE_M, Body, joints_m
 
 SKELETON = standard_skeleton()
 MADE_M = SKELETON.bone_lengths(joints_m({name: value[None] for name, value in REST.items()}, Body()))[0]

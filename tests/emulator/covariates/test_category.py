@@ -1,7 +1,7 @@
 import numpy as np
 from scipy.stats import f_oneway
 
-from emulator.covariates.category import f_test, left_out_effects, level_effects, levels_of, members
+from emulator.covariates.distribution import f_test, left_out_effects, level_effects, levels_of, members
 
 WORDS = ["f", "m", "f", None, "m", "x", "f", "m", "f"]
 

@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.covariates.gaussian import CovariateGaussian
+from emulator.covariates.distribution import CovariateGaussian
 from tests.emulator.covariates.cases import people
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.covariates.left_out import Folds
+from emulator.covariates.regression import Folds
 from tests.emulator.covariates.cases import naive_left_out_r2, people
 
 GROUPS = {

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from emulator.covariates.left_out import Folds
-from emulator.covariates.noise import best_r2, common_share, kept, noise_p, noise_r2, p_of_noise
+from emulator.covariates.regression import Folds, best_r2, common_share, kept, noise_p, noise_r2, p_of_noise
 from tests.emulator.covariates.cases import people
 
 

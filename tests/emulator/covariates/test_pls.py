@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.covariates.pls import pls1
+from emulator.covariates.regression import pls1
 from tests.emulator.covariates.cases import formula_case, naive_pls1, people
 
 SKLEARN = {

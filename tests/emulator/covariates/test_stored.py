@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from emulator.covariates.model import CovariateModel
-from emulator.covariates.stored import pack, unpack
+from emulator.covariates.serialise import pack, unpack
 from tests.emulator.covariates.cases import NAMES, people
 
 

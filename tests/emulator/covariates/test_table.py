@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.covariates.table import table_of
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 
 def with_covariates(*rows):

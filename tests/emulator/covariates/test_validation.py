@@ -3,10 +3,10 @@ import pytest
 
 from emulator.covariates.table import CovariateTable
 from emulator.covariates.validation import leave_one_worker_out, validate
-from emulator.judge.joint_angles import joint_angles_deg
-from emulator.kinematics import REST, Body, joints_m
+from emulator.judge.joint_limits import joint_angles_deg
 from emulator.skeleton import standard_skeleton
-from emulator.synthetic_cohort import make_cohort
+from emulator.synthetic.choreography import REST, Body, joints_m
+from emulator.synthetic.cohort import make_cohort
 
 SKELETON = standard_skeleton()
 

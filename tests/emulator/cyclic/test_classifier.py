@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.classifier import StateClassifier, telling_points
-from emulator.cyclic.hyper import Hyper, kernel
-from emulator.cyclic.laplace import log_evidence, mode_of
+from emulator.cyclic.gaussian_process import Hyper, kernel
+from emulator.cyclic.gp_classifier import StateClassifier, log_evidence, mode_of, telling_points
 from tests.emulator.cyclic.formulas import NEW, POSITIVE, THREE, X, differences
 
 HYPER = Hyper(np.array([0.8, 1.3, 2.0]), 1.7, 0.1)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.chain import Chain
-from emulator.cyclic.contact_states import (
+from emulator.cyclic.contacts import (
+    Chain,
     contact_of,
     contact_of_state,
     contact_speed_m_per_s,
@@ -13,9 +13,8 @@ from emulator.cyclic.contact_states import (
     state_of_contact,
     without_flicker,
 )
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.pose import poses_of
-from emulator.recordings.takes_npz import read_recording
+from emulator.cyclic.latent import PoseLatent, poses_of
+from emulator.recordings.npz import read_recording
 from emulator.skeleton import standard_skeleton
 from tests.made_rowing import RATE_HZ, made_rowing
 from tests.naive import naive_chain
@@ -81,7 +80,7 @@ def test_one_state_is_found_without_looking():
 
 
 def test_smoothing_and_path_are_those_over_all_paths():
-    from emulator.kernels.chain import likeliest_path, smoothed
+    from emulator.kernels.switching import likeliest_path, smoothed
 
     rng = np.random.default_rng(3)
     log_emission = rng.normal(size=(6, 3))

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.feet import foot_skate_m, path_from_contacts, shares
-from emulator.cyclic.legs import Legs, stand_on, wanting_m
-from emulator.runs import stretches
+from emulator.cyclic.contacts import Legs, foot_skate_m, path_from_contacts, shares, stand_on, wanting_m
+from emulator.motion import stretches
 from emulator.skeleton import standard_skeleton
-from emulator.synthetic_walk import make_walks
+from emulator.synthetic.walking import make_walks
 
 SKELETON = standard_skeleton()
 

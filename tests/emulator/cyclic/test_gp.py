@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.gp import THINNED, GaussianProcess, gradient_of
-from emulator.cyclic.hyper import Factorisations, Hyper
+from emulator.cyclic.gaussian_process import THINNED, Factorisations, GaussianProcess, Hyper, gradient_of
 from tests.emulator.cyclic.formulas import NEW, X, Y
 from tests.naive import naive_gaussian_process
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.hyper import Factorisations, Hyper, fitted_hyper, kernel, log_likelihood
+from emulator.cyclic.gaussian_process import Factorisations, Hyper, fitted_hyper, kernel, log_likelihood
 from tests.emulator.cyclic.formulas import NEW, X, Y, differences
 from tests.naive import naive_covariance, naive_gaussian_process
 

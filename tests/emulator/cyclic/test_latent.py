@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.pose import leg_length_m, path_of, poses_of, positions_of
+from emulator.cyclic.latent import PoseLatent, leg_length_m, path_of, poses_of, positions_of
 from emulator.skeleton import standard_skeleton
 from tests.made_rowing import RATE_HZ, made_rowing
 

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from emulator.cyclic.feet import foot_skate_m
+from emulator.cyclic.contacts import foot_skate_m
 from emulator.cyclic.model import CyclicEmulator
-from emulator.library import LibraryError, MotionLibrary
-from emulator.synthetic_cycles import make_cycles
-from emulator.synthetic_walk import make_walks
+from emulator.model.library import LibraryError, MotionLibrary
+from emulator.synthetic.cycles import make_cycles
+from emulator.synthetic.walking import make_walks
 
 SHIPPED = Path(__file__).parents[3] / "scenarios" / "libraries" / "walking.npz"
 
@@ -124,7 +124,7 @@ def test_a_row_alone_is_the_row_of_the_block():
 
 
 def test_directions_have_no_heading_and_path_is_root_and_heading():
-    from emulator.clean import heading_rad
+    from emulator.motion import heading_rad
 
     one = drawn(distance_m=4.0)
     at = np.linspace(0, one.duration_s[0], 20)
@@ -251,7 +251,7 @@ def test_what_is_loaded_is_what_was_fitted(tmp_path):
     ],
 )
 def test_hostile_numbers_are_refused(tmp_path, name, change):
-    from emulator.cyclic.packing import pack, unpack
+    from emulator.cyclic.serialise import pack, unpack
 
     plain, arrays = pack(small())
     arrays[name] = change(arrays[name])
@@ -260,7 +260,7 @@ def test_hostile_numbers_are_refused(tmp_path, name, change):
 
 
 def test_a_kind_that_nobody_knows_is_refused(tmp_path):
-    from emulator.unpacking import unpack
+    from emulator.model.serialise import unpack
 
     with pytest.raises(ValueError, match="newer than opsim"):
         unpack("walk", {"kind": "dance"}, {})

@@ -6,10 +6,10 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from emulator.cyclic.feet import foot_skate_m
+from emulator.cyclic.contacts import foot_skate_m
 from emulator.cyclic.model import CyclicEmulator
-from emulator.library import MotionLibrary
-from emulator.synthetic_walk import make_walks
+from emulator.model.library import MotionLibrary
+from emulator.synthetic.walking import make_walks
 
 CUT_S = 1.2
 KINDS = ((False, True), (True, False), (False, False), (True, True))
@@ -88,7 +88,7 @@ def test_such_a_walk_is_kept_in_a_library(tmp_path):
 
 
 def test_starts_that_take_no_time_are_refused():
-    from emulator.cyclic.packing import pack, unpack
+    from emulator.cyclic.serialise import pack, unpack
 
     plain, arrays = pack(fitted(True, True))
     plain["pace"] = dict(plain["pace"], start_beats=0.0)
@@ -97,7 +97,7 @@ def test_starts_that_take_no_time_are_refused():
 
 
 def test_whether_it_is_walking_is_said_by_the_median_take_and_not_the_first():
-    from emulator.cyclic.prepare import walks
+    from emulator.cyclic.preparation import walks
 
     recording = make_walks(1, 3, seed=2)[0]
     stands = replace(recording.takes[0], positions_m=recording.takes[0].positions_m * [1e-3, 1e-3, 1.0])
@@ -106,7 +106,7 @@ def test_whether_it_is_walking_is_said_by_the_median_take_and_not_the_first():
 
 
 def test_the_seed_of_the_figures_does_not_change_the_model():
-    from emulator.cyclic.packing import pack
+    from emulator.cyclic.serialise import pack
 
     recording = make_walks(2, 3, seed=5, n_steps=(9, 10))[0]
     (one, some), (other, same) = (pack(CyclicEmulator.fit(recording, points=60, seed=seed)) for seed in (0, 3))
@@ -115,7 +115,7 @@ def test_the_seed_of_the_figures_does_not_change_the_model():
 
 
 def test_the_draws_that_choose_the_temper_have_a_seed_of_their_own(monkeypatch):
-    from emulator.cyclic import judged
+    from emulator.cyclic import fitting as judged
 
     asked = []
     drawn = judged._drawn

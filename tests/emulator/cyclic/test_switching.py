@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from emulator.cyclic.contact_states import found_states
-from emulator.cyclic.gp import GaussianProcess
-from emulator.cyclic.latent import PoseLatent
-from emulator.cyclic.pose import poses_of
-from emulator.cyclic.projected import Projected
-from emulator.cyclic.support import Support, distance, held_out_distances
-from emulator.cyclic.switching import TRIES, SwitchingDynamics
+from emulator.cyclic.contacts import found_states
+from emulator.cyclic.gaussian_process import GaussianProcess, Projected
+from emulator.cyclic.latent import PoseLatent, poses_of
+from emulator.cyclic.switching_dynamics import TRIES, Support, SwitchingDynamics, distance, held_out_distances
 from emulator.skeleton import standard_skeleton
 from tests.emulator.cyclic.formulas import X, Y
 from tests.made_rowing import RATE_HZ, made_rowing

@@ -8,16 +8,14 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from scipy.ndimage import gaussian_filter1d
 
-from emulator.cyclic.beats import FEWEST_FRAMES
-from emulator.cyclic.feet import path_from_contacts, shares
-from emulator.cyclic.legs import stand_on, wanting_m
+from emulator.cyclic.contacts import path_from_contacts, shares, stand_on, wanting_m
 from emulator.cyclic.timeline import SMOOTH_FRAMES
-from emulator.kernels.beat import beat, made_whole
-from emulator.kernels.monotone import monotone
+from emulator.cyclic.units import FEWEST_FRAMES
 from emulator.kernels.planting import settle
-from emulator.kernels.switching import fading, squared
-from emulator.library import MotionLibrary
-from emulator.runs import stretches
+from emulator.kernels.switching import beat, fading, made_whole, squared
+from emulator.kernels.warping import monotone
+from emulator.model.library import MotionLibrary
+from emulator.motion import stretches
 from tests.naive_walk import (
     naive_beat,
     naive_gaps,

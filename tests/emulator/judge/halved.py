@@ -2,10 +2,9 @@
 
 from functools import cache
 
-from emulator.judge.halves import in_halves
-from emulator.judge.held_out_figures import Unseen
-from emulator.judge.held_out_table import judge_held_out
-from emulator.synthetic import make
+from emulator.judge.held_out import in_halves
+from emulator.judge.held_out_table import Unseen, judge_held_out
+from emulator.synthetic.tasks import make
 
 SMALL = {"n_times": 31, "n_drawn": 60}
 

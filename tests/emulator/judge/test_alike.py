@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.judge.alike import apportioned, draw_alike
+from emulator.judge.held_out import apportioned, draw_alike
 from tests.emulator.fitted import made
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.judge.distance import distances, distances_numpy
+from emulator.judge.sequence_distances import distances, distances_numpy
 from tests.emulator.judge.made import sequences
 
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.judge.controls import resampler
-from emulator.judge.drawers import COPIER, KNOWN, RECORDED, SHAKER, USUAL, drawer, kind, unknown_names
-from emulator.judge.reconstruction import reconstruction_error
+from emulator.judge.comparison import resampler
+from emulator.judge.held_out import COPIER, KNOWN, RECORDED, SHAKER, USUAL, drawer, kind, unknown_names
+from emulator.judge.posture_tests import reconstruction_error
 from emulator.schemes import SCHEMES, Scheme
 from tests.emulator.judge.halved import halves
 

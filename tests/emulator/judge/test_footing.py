@@ -2,8 +2,17 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from emulator.judge.balance import SOLE_M, centre_of_mass_m, distance_to_polygon, unsupported
-from emulator.judge.footing import feet, footing, planted_joints, runs, standing_m
+from emulator.judge.feet import (
+    SOLE_M,
+    centre_of_mass_m,
+    distance_to_polygon,
+    feet,
+    footing,
+    planted_joints,
+    runs,
+    standing_m,
+    unsupported,
+)
 from tests.emulator.judge.made_clips import FEET, NO_FEET, ONE_FOOT, SKELETON, clips, still
 
 HIGH = [j for j, name in enumerate(SKELETON.names) if "ankle" not in name and "toe" not in name]

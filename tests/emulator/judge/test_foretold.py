@@ -3,12 +3,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from emulator.fit_settings import FitSettings
-from emulator.judge.distance import distances_numpy
-from emulator.judge.foretold import Unseen
-from emulator.model import SCHEME
-from emulator.registered import registered
-from emulator.synthetic import make
+from emulator.fitting.registration import registered
+from emulator.fitting.settings import FitSettings
+from emulator.judge.prediction import Unseen
+from emulator.judge.sequence_distances import distances_numpy
+from emulator.model.emulator import SCHEME
+from emulator.synthetic.tasks import make
 from tests.emulator.judge.made import sequences
 
 

@@ -1,8 +1,8 @@
 import numpy as np
 
-from emulator.judge.halves import in_halves, too_few
-from emulator.model import MotionEmulator
-from emulator.synthetic import make
+from emulator.judge.held_out import in_halves, too_few
+from emulator.model.emulator import MotionEmulator
+from emulator.synthetic.tasks import make
 from tests.emulator.judge.halved import halves, made
 
 
@@ -33,7 +33,7 @@ def test_the_fitted_half_is_aligned_as_an_emulator_aligns_it():
 
 def test_the_unseen_half_comes_closer_by_its_warps():
     """The spread about the fitted half's course, against that of the same repetitions in their own time."""
-    from emulator.align import resample
+    from emulator.geometry.alignment import resample
 
     course = halves().a.mean(axis=0)
     plain = np.stack([resample(m.directions, np.linspace(0, 1, 31)) for m in halves().held.motions])

@@ -3,21 +3,12 @@ from dataclasses import asdict, fields, replace
 import numpy as np
 import pytest
 
-from emulator.held_out import HeldOutRow
-from emulator.judge import (
-    compare,
-    distances,
-    held_out_figures,
-    plausibility,
-    reconstruction_error,
-    resampler,
-    standing_deg,
-)
-from emulator.judge.drawers import COPIER, SHAKER, USUAL, Drawer, drawer
-from emulator.judge.held_out_figures import Unseen, figures, recorded_figures
-from emulator.judge.held_out_meaning import MEANING, MIDDLE, Figures
-from emulator.judge.plausibility import Plausibility, recorded_positions_m
-from emulator.judge.streams import stream
+from emulator.judge import compare, distances, plausibility, reconstruction_error, resampler, standing_deg
+from emulator.judge import held_out_table as held_out_figures
+from emulator.judge.held_out import COPIER, SHAKER, USUAL, Drawer, HeldOutRow, drawer
+from emulator.judge.held_out_table import MEANING, MIDDLE, Figures, Unseen, figures, recorded_figures
+from emulator.judge.joint_limits import Plausibility, recorded_positions_m
+from emulator.judge.sequence_distances import stream
 from tests.emulator.judge.halved import halves, unseen
 
 OF_BODIES = {"outside_percent", "top_speed_m_per_s", "skate_cm"}

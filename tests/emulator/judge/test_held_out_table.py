@@ -3,10 +3,9 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from emulator.judge.drawers import COPIER, RECORDED, SHAKER, USUAL
-from emulator.judge.held_out_meaning import Figures
-from emulator.judge.held_out_table import HONEST, Judged, judge_held_out
-from emulator.synthetic import make
+from emulator.judge.held_out import COPIER, RECORDED, SHAKER, USUAL
+from emulator.judge.held_out_table import HONEST, Figures, Judged, judge_held_out
+from emulator.synthetic.tasks import make
 from tests.emulator.judge.halved import SMALL, judged, made
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.judge.joint_angles import LIMITS_DEG, joint_angles_deg
+from emulator.judge.joint_limits import LIMITS_DEG, joint_angles_deg
 from emulator.skeleton import CANONICAL, Skeleton, standard_skeleton
 
 SKELETON = standard_skeleton()

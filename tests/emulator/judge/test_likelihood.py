@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from emulator.density import LowRankNormal
 from emulator.judge.likelihood import LOWEST, compare_likelihood, qq_points
+from emulator.model.gaussian import LowRankNormal
 
 
 def test_samples_of_one_size_are_sorted_against_one_another():

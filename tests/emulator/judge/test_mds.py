@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.judge.mds import mds, mds_of_two
+from emulator.judge.sequence_distances import mds, mds_of_two
 from tests.emulator.judge.made import parts, plain_distances
 
 

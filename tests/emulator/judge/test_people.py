@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 
 from emulator import read_motions
-from emulator.fit_settings import FitSettings
+from emulator.fitting.settings import FitSettings
 from emulator.judge.people import n_steps, people_of, refuse, usual_settings
-from emulator.model import SCHEME
+from emulator.model.emulator import SCHEME
 from emulator.motion import MotionSet
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.recordings import recording
 
 QUICK = FitSettings(SCHEME, None, 21, 8, 0.0, 0, "")

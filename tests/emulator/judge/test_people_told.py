@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.judge.people_told import by_covariates
+from emulator.judge.people import by_covariates
 from emulator.motion import MotionSet
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 HEIGHTS = np.array([1.55, 1.62, 1.70, 1.71, 1.83, 1.95])
 SEXES = ("f", "f", "m", "f", "m", "m")

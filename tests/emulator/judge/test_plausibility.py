@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from emulator.judge.joint_angles import LIMITS_DEG
-from emulator.judge.plausibility import plausibility, plausibility_rows, recorded_positions_m, standing_deg
-from emulator.synthetic import make
+from emulator.judge.joint_limits import LIMITS_DEG, plausibility, plausibility_rows, recorded_positions_m, standing_deg
+from emulator.synthetic.tasks import make
 from tests.emulator.judge.test_joint_angles import SKELETON, standing
 
 

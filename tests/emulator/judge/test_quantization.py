@@ -3,9 +3,9 @@ from time import process_time
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.judge.distance import distances
-from emulator.judge.quantization import Quantization, nearest, sampled_postures
+from emulator.geometry import sphere
+from emulator.judge.canonical_postures import Quantization, nearest, sampled_postures
+from emulator.judge.sequence_distances import distances
 
 
 def blobs(n_each=(200, 150, 100, 50), spread=0.05, seed=0, n_bones=5):
@@ -131,7 +131,7 @@ def test_a_sample_is_without_replacement_and_all_where_there_are_fewer():
 
 
 def test_the_way_uphill_is_its_plain_twin():
-    from emulator.kernels.modes import uphill
+    from emulator.kernels.sphere import uphill
 
     rng = np.random.default_rng(5)
     x, density = rng.normal(size=(60, 2)), rng.integers(0, 9, 60).astype(float)
@@ -148,7 +148,7 @@ def test_what_is_no_set_of_postures_is_refused():
 
 @pytest.mark.slow
 def test_recorded_classes_are_divided_alike_by_two_samples():
-    from emulator.align import align
+    from emulator.geometry.alignment import align
     from emulator.recordings import read_motions
     from tests.recordings import recording
 

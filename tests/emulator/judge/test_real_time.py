@@ -7,7 +7,7 @@ from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.coverage import coverage, pooled_coverage
 from emulator.judge.real_time import RealTime, beyond_range, bone_change, real_time, sentence
 from emulator.motion import MotionSet
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.emulator.fitted import made
 from tests.emulator.judge.made_clips import NO_FEET, SKELETON, clips, still, waved
 

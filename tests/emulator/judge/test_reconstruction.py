@@ -1,9 +1,9 @@
 import numpy as np
 
-from emulator import sphere
-from emulator.flatten import SIEM
+from emulator.geometry import sphere
+from emulator.geometry.flattening import SIEM
 from emulator.judge import joint_reconstruction, reconstruction_error
-from emulator.reduce import JointPCA
+from emulator.model.reduction import JointPCA
 from tests.emulator.judge.made import sequences
 
 

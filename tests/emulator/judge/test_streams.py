@@ -1,6 +1,6 @@
 import numpy as np
 
-from emulator.judge.streams import stream
+from emulator.judge.sequence_distances import stream
 
 
 def numbers(*name):

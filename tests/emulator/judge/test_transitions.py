@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.judge.transitions import transition_distance, transition_matrices, uniform_transitions
+from emulator.judge.canonical_postures import transition_distance, transition_matrices, uniform_transitions
 
 
 def test_a_case_by_hand():

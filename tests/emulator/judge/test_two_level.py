@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from emulator.density import LowRankNormal
-from emulator.flatten import SIEM
-from emulator.judge.two_level import two_level
+from emulator.geometry.flattening import SIEM
+from emulator.judge.likelihood import two_level
+from emulator.model.gaussian import LowRankNormal
 from tests.emulator.judge.made import sequences
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.judge.variability import variability
+from emulator.judge.canonical_postures import variability
 
 
 def test_a_case_by_hand():

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from emulator.recordings.take import Take
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 
 
 @cache

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.amc import read_amc_values
-from emulator.recordings.asf import read_asf
-from emulator.recordings.asf_amc import read_amc
+from emulator.recordings.acclaim import read_asf
+from emulator.recordings.amc import read_amc, read_amc_values
 from tests.naive import naive_turn
 from tests.recordings import raw, recording
 

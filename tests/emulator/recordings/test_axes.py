@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.axes import AXES, UNITS_M, NotTold, found_unit_m, found_up, placed, turned_up
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
+from emulator.recordings.orientation import AXES, UNITS_M, NotTold, found_unit_m, found_up, placed, turned_up
 from tests.emulator.recordings.body import body
 from tests.recordings import recording
 

@@ -88,7 +88,7 @@ def test_numbers_are_read_to_the_last_bit(tmp_path):
 
 @pytest.mark.parametrize("block", [1, 2, 7, 64, 1000])
 def test_blocks_may_end_anywhere(tmp_path, block):
-    from emulator.recordings.bvh_motion import opened, read_values
+    from emulator.recordings.bvh import opened, read_values
 
     for ending in ("\n", "\r\n"):
         path = written(tmp_path, ARM.replace("\n", ending))

@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.recordings.asf_amc import read_amc
+from emulator.recordings.amc import read_amc
 from emulator.recordings.bvh import BvhFile, read_bvh, read_bvh_file
-from emulator.recordings.bvh_pose import bvh_of
-from emulator.recordings.bvh_write import write_bvh, write_bvh_file
+from emulator.recordings.bvh_write import bvh_of, write_bvh, write_bvh_file
 from emulator.recordings.take import Take
 from emulator.skeleton import standard_skeleton
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.emulator.recordings.bvh_texts import ARM, random_file, written
 from tests.naive import naive_turn
 from tests.recordings import raw, recording

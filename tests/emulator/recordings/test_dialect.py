@@ -2,8 +2,7 @@
 
 import pytest
 
-from emulator.recordings.dialect import joints_of
-from emulator.recordings.keypoint_sets import BLAZEPOSE_33, BODY_25, COCO_17, HALPE_26
+from emulator.recordings.joint_names import BLAZEPOSE_33, BODY_25, COCO_17, HALPE_26, joints_of
 from emulator.skeleton import CANONICAL, EXTRA
 
 RIGS = {

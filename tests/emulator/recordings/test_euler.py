@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.recordings.euler import ORDERS, best_turn, calm_order, euler_deg, least_turn
+from emulator.recordings.bvh_write import ORDERS, best_turn, calm_order, euler_deg, least_turn
 from tests.naive import naive_turn
 
 

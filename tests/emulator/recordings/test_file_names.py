@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.file_names import named, parts_of_name
+from emulator.recordings.take import named, parts_of_name
 from tests.emulator.recordings.body import body
 
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from emulator.recordings import RecordingError
-from emulator.recordings.asf_amc import read_amc
+from emulator.recordings.amc import read_amc
 from emulator.recordings.bvh import read_bvh, read_bvh_file
 from emulator.recordings.bvh_write import write_bvh_file
 from tests.emulator.recordings.bvh_texts import ARM, random_file, written

@@ -6,14 +6,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from emulator.recordings import RecordingError
-from emulator.recordings.c3d import read_c3d
-from emulator.recordings.dialect import joints_of
+from emulator.recordings.c3d import read_c3d, read_trc
+from emulator.recordings.joint_names import joints_of
 from emulator.recordings.keypoints import read_json
-from emulator.recordings.mapping import mapped
-from emulator.recordings.mapping_file import read_mapping
+from emulator.recordings.mapping import mapped, read_mapping
 from emulator.recordings.marker_csv import read_csv
 from emulator.recordings.take import Take
-from emulator.recordings.trc import read_trc
 from emulator.skeleton import CANONICAL, EXTRA
 from tests.emulator.recordings.body import body, json_text, table_text, trc_text
 from tests.emulator.recordings.mutations import damaged

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from emulator.recordings.hanging import depths, hung_as_bodies_are, hung_as_in_the_file, without_length
+from emulator.recordings.markers import depths, hung_as_bodies_are, hung_as_in_the_file, without_length
 from emulator.skeleton import CANONICAL, EXTRA, Skeleton, standard_skeleton
 
 

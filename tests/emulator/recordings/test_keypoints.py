@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.keypoint_sets import BLAZEPOSE_33, BODY_25, COCO_17
+from emulator.recordings.joint_names import BLAZEPOSE_33, BODY_25, COCO_17
 from emulator.recordings.keypoints import read_json
 from tests.emulator.recordings.body import body, joint, json_text
 from tests.emulator.recordings.test_mapping import _blaze
@@ -129,7 +129,7 @@ def test_numbers_that_json_does_not_know_are_gaps_and_no_crash(tmp_path):
 
 
 def test_a_folder_of_frames_is_read_in_the_order_of_its_numbers(tmp_path):
-    from emulator.recordings.raw import format_of, read_take
+    from emulator.recordings.importing import format_of, read_take
 
     places = np.random.default_rng(0).normal(size=(12, 25, 3)) + np.array([0, 0, 1])
     for i, points in enumerate(places):

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.dialect import joints_of
-from emulator.recordings.keypoint_sets import BLAZEPOSE_33, KINECT_20, KINECT_25, KINECT_32
+from emulator.recordings.importing import read_take
+from emulator.recordings.joint_names import BLAZEPOSE_33, KINECT_20, KINECT_25, KINECT_32, joints_of
 from emulator.recordings.mapping import NEEDED, mapped
 from emulator.recordings.markers import PLUG_IN_GAIT
-from emulator.recordings.raw import read_take
+from emulator.recordings.npz import read_recording
 from emulator.recordings.take import Take
-from emulator.recordings.takes_npz import read_recording
 from emulator.skeleton import CANONICAL, EXTRA, Skeleton, standard_skeleton
 from tests.emulator.recordings.body import body, joint, points
 from tests.recordings import data_folder, recording

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
+from emulator.recordings.importing import read_take
 from emulator.recordings.marker_csv import read_csv
-from emulator.recordings.raw import read_take
 from tests.emulator.recordings.body import body, joint, table_text
 
 TAKE = body(40, 50.0)

@@ -8,8 +8,8 @@ import pytest
 from emulator.recordings import RecordingError
 from emulator.recordings.bvh_write import write_bvh
 from emulator.recordings.importing import imported
+from emulator.recordings.npz import write_recording
 from emulator.recordings.take import Recording
-from emulator.recordings.takes_npz import write_recording
 from tests.emulator.recordings.body import body, trc_text
 
 TAKE = body(40, 50.0)

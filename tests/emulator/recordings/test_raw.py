@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.raw import FORMATS, format_of, read_take, read_takes
+from emulator.recordings.importing import FORMATS, format_of, read_take, read_takes
+from emulator.recordings.npz import write_recording
 from emulator.recordings.take import Recording
-from emulator.recordings.takes_npz import write_recording
 from tests.emulator.recordings.body import body
 
 
@@ -63,7 +63,7 @@ def test_an_npz_gives_all_its_takes(tmp_path):
         read_take(tmp_path / "a.npz")
 
 
-@pytest.mark.parametrize("ending", ["bvh", "trc", "json", "csv"])
+@pytest.mark.parametrize("ending", ["bvh", "c3d", "json", "csv"])
 def test_a_take_of_one_frame_is_refused_by_its_file(tmp_path, ending):
     from dataclasses import replace
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.recordings.sides import checked_sides, mirrored, swapped_names
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
+from emulator.recordings.plausibility import checked_sides, mirrored, swapped_names
 from emulator.skeleton import Skeleton
 from tests.emulator.recordings.body import body
 from tests.recordings import recording
@@ -101,7 +101,7 @@ def test_a_body_without_legs_tells_nothing_and_is_left_as_it_is():
 
 
 def test_toes_and_knees_that_contradict_each_other_tell_nothing():
-    from emulator.recordings.sides import _verdict
+    from emulator.recordings.plausibility import _verdict
 
     assert _verdict({"toes": 0.9, "knees": -0.9}) == "not told"
     assert _verdict({"toes": 0.9, "knees": -0.1, "walking": -1.0}) == "as named"

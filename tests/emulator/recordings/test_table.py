@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.recordings.table import cells_of, number_of, read_table
+from emulator.recordings.text import cells_of, number_of, read_table
 
 
 def table(tmp_path, text, **how):

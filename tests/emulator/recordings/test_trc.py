@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings import RecordingError
-from emulator.recordings.raw import read_take
-from emulator.recordings.trc import read_trc
+from emulator.recordings.c3d import read_trc
+from emulator.recordings.importing import read_take
 from tests.emulator.recordings.body import body, trc_text
 
 TAKE = body(30, 100.0)

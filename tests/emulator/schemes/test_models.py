@@ -8,10 +8,8 @@ import pytest
 
 from emulator.judge import temporal_roughness
 from emulator.schemes import Scheme
-from emulator.schemes.autoregression import VAR
-from emulator.schemes.kernel import KernelDensity
-from emulator.schemes.pointwise import Pointwise
-from emulator.schemes.vectors import VectorModel
+from emulator.schemes.densities import VAR, KernelDensity, VectorModel
+from emulator.schemes.flattening import Pointwise
 from tests.emulator.schemes.cases import grid_case, series_case, walks
 
 N = 20_000

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.align import align
+from emulator.geometry import sphere
+from emulator.geometry.alignment import align
 from emulator.schemes import ISTVF, MTVF, SIEM, STVF
 from emulator.schemes.scheme import FITTERS
 from tests.emulator.fitted import recorded

@@ -3,7 +3,7 @@ import pytest
 
 from emulator.judge import distances, energy_u, reconstruction_error
 from emulator.schemes import SCHEMES, Scheme
-from emulator.schemes.names import parsed
+from emulator.schemes.scheme import parsed
 from tests.emulator.schemes.cases import sequences, walks
 
 

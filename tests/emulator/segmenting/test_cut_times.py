@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.recordings.take import Take
-from emulator.segmenting.cut_times import cut_times_text, parse_cut_times, was_edited
-from emulator.segmenting.segment import Cut
+from emulator.segmenting.segment import Cut, cut_times_text, parse_cut_times, was_edited
 
 
 def a_take(name="ana", n=1000, rate_hz=50.0):

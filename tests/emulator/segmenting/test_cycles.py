@@ -5,11 +5,16 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from emulator.segmenting.curve import cyclic_coordinate
-from emulator.segmenting.cycles import cycles
-from emulator.segmenting.denoise import denoised, fitted_curve
-from emulator.segmenting.period import period_frames, unlikeness
-from emulator.segmenting.units import NAMES, units
+from emulator.segmenting.cycles import (
+    NAMES,
+    cycles,
+    cyclic_coordinate,
+    denoised,
+    fitted_curve,
+    period_frames,
+    units,
+    unlikeness,
+)
 
 
 def wave(n_cycles=6.3, period=30.0):

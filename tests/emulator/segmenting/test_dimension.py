@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.segmenting.dimension import dimension
+from emulator.segmenting.ltsa import dimension
 from tests.emulator.segmenting.made_movements import helix
 
 

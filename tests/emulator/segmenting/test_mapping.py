@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from emulator.segmenting.mapping import to_manifold, to_postures
-from emulator.segmenting.stltsa import stltsa
+from emulator.segmenting.ltsa import stltsa
+from emulator.segmenting.synthesis import to_manifold, to_postures
 from tests.emulator.segmenting.made_movements import helix
 
 

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.recordings.takes_npz import read_recording
-from emulator.segmenting.postures import postures
-from emulator.segmenting.repetitions import repetitions
-from emulator.synthetic import make
+from emulator.recordings.npz import read_recording
+from emulator.segmenting.repetitions import postures, repetitions
+from emulator.synthetic.tasks import make
 from tests.long_take import long_take, plain, usual_ends
 from tests.recordings import recording
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings.take import Recording
-from emulator.segmenting.pieces import cut_recording, piece
-from emulator.segmenting.postures import postures, speed_per_s
-from emulator.segmenting.segment import Cut, NothingFound, segment
+from emulator.segmenting.repetitions import postures, speed_per_s
+from emulator.segmenting.segment import Cut, NothingFound, cut_recording, piece, segment
 from tests.emulator.segmenting.made_movements import backwards, moved, phases, swinging, walking
 from tests.emulator.segmenting.test_repetitions import made_take
 

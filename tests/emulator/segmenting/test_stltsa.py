@@ -5,11 +5,17 @@ import json
 import numpy as np
 import pytest
 
-from emulator.segmenting import bottom as bottom_module
-from emulator.segmenting.alignment import alignment_banded, alignment_sparse, tangents
-from emulator.segmenting.bottom import bottom_banded, bottom_sparse
-from emulator.segmenting.neighbours import spatial_neighbours, temporal_neighbours
-from emulator.segmenting.stltsa import stltsa
+from emulator.segmenting import ltsa as bottom_module
+from emulator.segmenting.ltsa import (
+    alignment_banded,
+    alignment_sparse,
+    bottom_banded,
+    bottom_sparse,
+    spatial_neighbours,
+    stltsa,
+    tangents,
+    temporal_neighbours,
+)
 from tests.emulator.segmenting.made_movements import helix
 from tests.naive import naive_alignment
 from tests.recordings import reference

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.joined import joined
+from emulator.composite.joining import joined
 from emulator.segmenting.segment import segment
 from emulator.segmenting.synthesis import (
     common_postures,

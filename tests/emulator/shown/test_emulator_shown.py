@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from emulator import MotionLibrary
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from opsim.shipped import shipped_folder
 
 SCRIPT = "<script>window.harmed = 1</script>"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from emulator.model import MotionEmulator
+from emulator.model.emulator import MotionEmulator
 from tests.opsim.cli.calls import one_person, opsim
 
 ODD = 3  # emulated/k3

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import Repair
-from emulator.recordings.takes_npz import read_recording, write_recording
+from emulator.recordings.npz import read_recording, write_recording
 from opsim.cli.motion_clean_view import column_of
 from tests.made_takes import clean, error_m, same, spoilt
 from tests.opsim.cli.calls import opsim
@@ -181,7 +181,7 @@ def stops(*_, **__):
 
 
 def test_control_c_while_writing_leaves_nothing_half_written(spoiled, monkeypatch):
-    monkeypatch.setattr("emulator.recordings.takes_npz.np.lib.format.write_array", stops)
+    monkeypatch.setattr("emulator.recordings.npz.np.lib.format.write_array", stops)
     code, _, said = opsim("motion", "clean", "reach.npz", "-o", "clean.npz")
     assert code == 130 and "stopped; nothing was written" in said
     assert [path.name for path in spoiled.iterdir()] == ["reach.npz"]

@@ -2,9 +2,9 @@
 
 import pytest
 
-from emulator.library import MotionLibrary
-from emulator.recordings.takes_npz import write_recording
-from emulator.synthetic_walk import make_walks
+from emulator.model.library import MotionLibrary
+from emulator.recordings.npz import write_recording
+from emulator.synthetic.walking import make_walks
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import opsim
 

@@ -9,7 +9,7 @@ import pytest
 
 from emulator import read_motions
 from emulator.recordings.bvh_write import write_bvh
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
 from tests.emulator.recordings.body import body, table_text, trc_text
 from tests.opsim.cli.calls import opsim
 

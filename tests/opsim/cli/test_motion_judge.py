@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from emulator.judge.paper.tables import Table
+from emulator.judge.paper import Table
 from opsim.cli import judging
 from opsim.report.paper.write import Section
 from opsim.shipped import shipped_folder

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from emulator.judge import held_out_table
-from emulator.judge.drawers import COPIER, RECORDED, SHAKER, USUAL
+from emulator.judge.held_out import COPIER, RECORDED, SHAKER, USUAL
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 from tests.recordings import recording

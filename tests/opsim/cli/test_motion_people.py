@@ -6,9 +6,9 @@ import json
 import numpy as np
 import pytest
 
-from emulator.fit_settings import FitSettings
+from emulator.fitting.settings import FitSettings
 from emulator.judge import people
-from emulator.model import SCHEME
+from emulator.model.emulator import SCHEME
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import opsim
 

@@ -5,7 +5,7 @@ import pytest
 
 from emulator import MotionLibrary
 from emulator.recordings.bvh import read_bvh
-from emulator.recordings.takes_npz import read_recording
+from emulator.recordings.npz import read_recording
 from tests.opsim.cli.test_motion import BENCH, opsim
 
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from emulator.recordings.bvh_write import write_bvh
+from emulator.recordings.npz import write_recording
 from emulator.recordings.take import Recording, Take
-from emulator.recordings.takes_npz import write_recording
 from emulator.skeleton import standard_skeleton
 from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
 from tests.opsim.cli.calls import opsim

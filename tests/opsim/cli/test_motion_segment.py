@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from emulator.recordings.npz import read_recording, write_recording
 from emulator.recordings.take import Recording
-from emulator.recordings.takes_npz import read_recording, write_recording
 from tests.emulator.segmenting.made_movements import walking
 from tests.emulator.segmenting.test_repetitions import made_take
 from tests.opsim.cli.calls import opsim

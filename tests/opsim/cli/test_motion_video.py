@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from emulator.mean_performance import mean_performance
+from emulator.model.mean_performance import mean_performance
 from opsim.cli.motion_video import video
 from opsim.libraries import load_library
 from opsim.report.staged import RATE_HZ

@@ -143,6 +143,6 @@ def do_elsewhere(name: str) -> None:
 
 
 if __name__ == "__main__":
-    from opsim.engine.fast_engine.machine.table import help_out as help_with_all
+    pass
 
-    help_with_all(sys.stdin)
+    help_out(sys.stdin)

@@ -5,8 +5,8 @@ from functools import cache
 
 import numpy as np
 
-from emulator.judge.paper.prepared import PaperClass, prepared
-from emulator.synthetic import make
+from emulator.judge.paper import PaperClass, prepared
+from emulator.synthetic.tasks import make
 
 
 @cache

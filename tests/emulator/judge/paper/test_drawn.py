@@ -4,9 +4,19 @@ from functools import cache
 import numpy as np
 
 from emulator.judge import distances
-from emulator.judge.paper.drawn import N_PEOPLE, RECORDED, SPAN, draws_of, people, roughness_over_time, scaled
-from emulator.judge.paper.prepared import OURS, PWI, SIEM
-from emulator.judge.paper.tables import DRAWERS
+from emulator.judge.paper import (
+    DRAWERS,
+    N_PEOPLE,
+    OURS,
+    PWI,
+    RECORDED,
+    SIEM,
+    SPAN,
+    draws_of,
+    people,
+    roughness_over_time,
+    scaled,
+)
 from tests.emulator.judge.paper.classes import drawing, lifts, still
 
 

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.judge.paper import flattening
-from emulator.judge.paper.flattening import (
+from emulator.judge import paper as flattening
+from emulator.judge.paper import (
     dimensions,
     errors_by_size,
     fields,
@@ -13,7 +13,7 @@ from emulator.judge.paper.flattening import (
     round_trip_errors,
     spatial_shares,
 )
-from emulator.schemes.velocity import ISTVF, STVF
+from emulator.schemes.flattening import ISTVF, STVF
 from tests.emulator.judge.paper.classes import short, shuffled, still
 
 

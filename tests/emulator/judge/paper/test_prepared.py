@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator import sphere
+from emulator.geometry import sphere
 from emulator.judge import distances
-from emulator.judge.paper.prepared import IS_TVF, OURS, PWI, SIEM, VAR
+from emulator.judge.paper import IS_TVF, OURS, PWI, SIEM, VAR
 from emulator.schemes import Scheme
 from tests.emulator.judge.paper.classes import lifts
 

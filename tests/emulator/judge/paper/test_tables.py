@@ -3,21 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator import sphere
-from emulator.judge.paper import tables
-from emulator.judge.paper.tables import (
-    DRAWERS,
-    LEVEL_ONE,
-    level_two,
-    quantized,
-    table_1,
-    table_2,
-    table_3,
-    tables_4_and_5,
-)
-from emulator.judge.reconstruction import reconstruction_error
+from emulator.geometry import sphere
+from emulator.judge import paper as tables
+from emulator.judge.paper import DRAWERS, LEVEL_ONE, level_two, quantized, table_1, table_2, table_3, tables_4_and_5
+from emulator.judge.posture_tests import reconstruction_error
 from emulator.schemes import Scheme
-from emulator.synthetic import make
+from emulator.synthetic.tasks import make
 from tests.emulator.judge.paper.classes import drawing, lifts, short, shuffled, still
 
 

@@ -1,6 +1,6 @@
 import csv
 
-from emulator.judge.paper.tables import Table
+from emulator.judge.paper import Table
 from opsim.report.paper.write import Picture, Section, cell, write_paper
 
 

@@ -1,0 +1,318 @@
+"""One motion of a composite task, and what it is asked for.
+
+A worker in a task of several motions: his own effect in each of them, and how fast he walks.
+
+What a task of several motions tells of itself: what stands behind it, and how far its motions are apart.
+
+A task of several motions, one after the other: reach, grasp, carry 3 m, place, fasten four times.
+
+Times add up, marks follow one another, and the bodies are joined where one motion ends and the next begins (``seams``).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from emulator.composite.performances import CompositePerformances, n_frames
+from emulator.composite.transitions import BLEND_S, difference, widest_gap_rad
+from emulator.skeleton import Skeleton
+
+__all__ = ["CompositeEffect", "CompositeEmulator", "CompositeReport", "Join", "Part"]
+
+
+CONDITIONS = ("pace", "log_duration_shift")
+"""What a composite may be asked for, passed to all its parts."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One motion: its name in marks, its model, and which task it is.
+
+    condition : what its performances are asked for, such as ``{"distance_m": 3.0}``, or None
+    key       : parts of one key are one task, so a worker has one effect in them; "": the name
+    """
+
+    name: str
+    model: Any
+    condition: Mapping[str, Any] | None = None
+    key: str = ""
+
+    @property
+    def task(self) -> str:
+        return self.key or self.name
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        return tuple(getattr(self.model, "mark_names", ()))
+
+    def asked(self, asked: Mapping[str, Any] | None, speed_m_per_s: float | None = None) -> dict[str, Any] | None:
+        """The condition of its performances: its own, and what the whole is asked for.
+
+        speed_m_per_s : how fast the worker walks, of a way; None: as the model has it
+        """
+        own = dict(self.condition or {})
+        speed = {"speed_m_per_s": speed_m_per_s} if "distance_m" in own and speed_m_per_s is not None else {}
+        return {**own, **speed, **(asked or {})} or None
+
+    def mean_s(self, effect: Any = None, speed_m_per_s: float | None = None) -> float:
+        """Mean seconds, of a worker with this effect who walks so fast."""
+        condition = self.asked(None, speed_m_per_s)
+        if condition is None:
+            return float(self.model.mean_duration_s(effect))
+        return float(self.model.mean_duration_s(effect, condition))
+
+
+def checked(task: str, condition: Mapping[str, Any] | None) -> Mapping[str, Any] | None:
+    """A condition of a whole composite. Raises ValueError for one it does not know, with the nearest."""
+    for name in condition or {}:
+        if name not in CONDITIONS:
+            near = get_close_matches(str(name), CONDITIONS, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(CONDITIONS)}"
+            raise ValueError(f"{task}: condition: a task of several motions knows no {name!r}; {hint}")
+    return condition
+
+
+@dataclass(frozen=True, eq=False)
+class CompositeEffect:
+    """A worker in a composite: his effect in each of its tasks, by key, and how fast he walks where it is known."""
+
+    effects: Mapping[str, Any]
+    walk_m_per_s: float | None = None
+    said: tuple[str, ...] = ()
+
+
+def drawn_worker(
+    parts: Sequence[Part],
+    rng: np.random.Generator,
+    body: Any,
+    people: Callable[[str], float] | None,
+    slowness: float | None,
+    own: Callable[[str, Any], Any] | None,
+) -> CompositeEffect | None:
+    """See ``CompositeEmulator.draw_worker``."""
+    walk, body = _walk_of(body)
+    effects = {}
+    for key, model in {part.task: part.model for part in parts}.items():
+        if own is not None:
+            effects[key] = own(key, model)
+            continue
+        more: dict[str, Any] = {}
+        if people is not None and getattr(model, "knows_people", False):
+            more["people"] = people
+        if slowness is not None and getattr(model, "knows_slowness", False):
+            more["slowness"] = slowness
+        effects[key] = model.draw_worker(rng, body, **more)
+    walk = walk if any(part.condition for part in parts) else None
+    if walk is None and all(effect is None for effect in effects.values()):
+        return None
+    said = [line for effect in effects.values() for line in getattr(effect, "said", ())]
+    return CompositeEffect(effects, walk, tuple(dict.fromkeys(said)))
+
+
+def _walk_of(body: Any) -> tuple[float | None, Any]:
+    """How fast the worker walks, and his body without that, where it is a mapping."""
+    if not isinstance(body, Mapping):
+        return getattr(body, "walk_m_per_s", None), body
+    return body.get("walk_m_per_s"), {key: value for key, value in body.items() if key != "walk_m_per_s"}
+
+
+@dataclass(frozen=True)
+class Join:
+    """Where one part ends and the next begins: by how much the bone to ``joint``, which differs most, differs.
+
+    most_rad : a gap beyond it makes the join last longer than elsewhere, for nobody to move as no one can
+    """
+
+    before: str
+    after: str
+    gap_rad: float
+    joint: str
+    most_rad: float
+
+
+@dataclass(frozen=True)
+class CompositeReport:
+    """What stands behind all parts together; people are those of the part with most."""
+
+    source: str
+    licence: str
+    n_sequences: int
+    n_workers: int
+
+
+def report_of(models: Sequence[Any]) -> CompositeReport:
+    """What stands behind these models together."""
+    reports = [model.report for model in models]
+    source, licence = (
+        "; ".join(dict.fromkeys(getattr(one, name) for one in reports)) for name in ("source", "licence")
+    )
+    return CompositeReport(source, licence, sum(r.n_sequences for r in reports), max(r.n_workers for r in reports))
+
+
+def joins_of(gaps_rad: np.ndarray, labels: Sequence[str], skeleton: Skeleton, most_rad: float) -> tuple[Join, ...]:
+    """Each join by its gaps (P - 1, B) and the labels of the P parts."""
+    bones = skeleton.bone_names
+    return tuple(
+        Join(labels[k], labels[k + 1], float(gap.max()), bones[int(gap.argmax())], most_rad)
+        for k, gap in enumerate(gaps_rad)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class CompositeEmulator:
+    """A task whose performances are those of its parts, one after the other; satisfies the same seam as they do.
+
+    blend_s : how long before and after a join the postures are brought together; longer where they are far apart
+    Raises ValueError for no parts, or parts of different skeletons.
+    """
+
+    task: str
+    parts: tuple[Part, ...]
+    blend_s: float = BLEND_S
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(self.parts))
+        if not self.parts:
+            raise ValueError(f"{self.task}: found no motions, expected one or more")
+        wrong = [
+            f"{self.task}: {part.name} has {difference(self.skeleton, part.model.skeleton)}, unlike "
+            f"{self.parts[0].name}; expected one skeleton in all"
+            for part in self.parts[1:]
+            if part.model.skeleton != self.skeleton
+        ]
+        if wrong:
+            raise ValueError("\n".join(dict.fromkeys(wrong)))
+
+    def sample(
+        self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Mapping[str, Any] | None = None
+    ) -> CompositePerformances:
+        """n performances, part after part, each with draws of its own.
+
+        worker    : an effect of ``draw_worker``, the name of somebody whom all parts know, or None: each part by
+                    other workers of the population, all with the bones of the first part that goes a way, so that
+                    further ways come out a few per cent longer or shorter; a drawn worker walks them as asked
+        condition : None, {"pace": 1.1} or {"log_duration_shift": d}: passed to all parts
+        Raises ValueError for an unknown worker or condition.
+        """
+        asked, speed, drawn = checked(self.task, condition), _speed(worker), []
+        for part in self.parts:
+            effect = self._effect(part, worker)
+            wanted = part.asked(asked, speed)
+            drawn.append(part.model.sample(n, rng, worker=effect, condition=wanted))
+        return CompositePerformances(self, tuple(drawn))
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        """The sum of the parts' means, in seconds."""
+        return sum(part.mean_s(self._effect(part, worker), _speed(worker)) for part in self.parts)
+
+    def draw_worker(
+        self,
+        rng: np.random.Generator,
+        body: Any = None,
+        people: Callable[[str], float] | None = None,
+        slowness: float | None = None,
+        own: Callable[[str, Any], Any] | None = None,
+    ) -> CompositeEffect | None:
+        """A worker of the population: an effect for each task that parts are of; None where nobody differs in any.
+
+        own  : this worker's effect in the task of a key with this model, however it is found; then ``rng``, ``people``
+               and ``slowness`` are not used
+        body : besides what the parts read, ``walk_m_per_s``: how fast he walks
+        """
+        return drawn_worker(self.parts, rng, body, people, slowness, own)
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """What ``sample`` may be asked for: what all parts may."""
+        return tuple(name for name in CONDITIONS if all(name in getattr(p.model, "conditions", ()) for p in self.parts))
+
+    knows_people = knows_slowness = knows_parts = True
+    """``draw_worker`` takes ``people``, ``slowness`` and ``own``."""
+
+    @property
+    def skeleton(self) -> Skeleton:
+        skeleton: Skeleton = self.parts[0].model.skeleton
+        return skeleton
+
+    @cached_property
+    def mark_names(self) -> tuple[str, ...]:
+        """``reach.touch``, ``fasten.2.start``."""
+        return tuple(f"{label}.{mark}" for label, part in zip(self.labels, self.parts) for mark in part.marks)
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """A name for each part: its own, with its number where it comes more than once."""
+        times, seen, labels = Counter(part.name for part in self.parts), Counter[str](), []
+        for part in self.parts:
+            seen[part.name] += 1
+            labels.append(part.name if times[part.name] == 1 else f"{part.name}.{seen[part.name]}")
+        return tuple(labels)
+
+    @cached_property
+    def distinct(self) -> dict[str, Any]:
+        """The model of each task that parts are of, by key, in the order of the parts."""
+        return {part.task: part.model for part in self.parts}
+
+    @cached_property
+    def body_part(self) -> int:
+        """The part whose bones all have: the first that goes a way, so that its length holds; else the first."""
+        return next((k for k, part in enumerate(self.parts) if part.condition), 0)
+
+    @cached_property
+    def n_frames(self) -> tuple[int, ...]:
+        """Frames of each part on which its path is made."""
+        return tuple(n_frames(part.mean_s()) for part in self.parts)
+
+    @property
+    def body_keys(self) -> tuple[str, ...]:
+        """What ``draw_worker`` reads of a body: what any part does."""
+        return tuple(dict.fromkeys(key for m in self.distinct.values() for key in getattr(m, "body_keys", ())))
+
+    @property
+    def workers(self) -> tuple[str, ...]:
+        """The workers with whom all parts were learned that know any."""
+        known = [m.workers for m in self.distinct.values() if "person" in getattr(m, "body_keys", ())]
+        return tuple(name for name in known[0] if all(name in some for some in known)) if known else ()
+
+    @property
+    def report(self) -> CompositeReport:
+        """Source, licence and size of what the parts were learned from."""
+        return report_of(list(self.distinct.values()))
+
+    def typical(self, n: int = 64, seed: int = 0) -> CompositePerformances:
+        """One performance, a block of one: of ``n`` drawn of each part the one whose time is nearest to the mean.
+
+        There is no mean posture of what people do at different times.
+        """
+        drawn = self.sample(n, np.random.default_rng(seed))
+        nearest = [np.argmin(np.abs(p.duration_s - part.mean_s())) for p, part in zip(drawn.parts, self.parts)]
+        return CompositePerformances(self, tuple(p[int(row)] for p, row in zip(drawn.parts, nearest)))
+
+    def joins(self, n: int = 24, seed: int = 0) -> tuple[Join, ...]:
+        """How far apart postures typically are at each join: the median over ``n`` drawn performances."""
+        angles = np.median(self.sample(n, np.random.default_rng(seed)).gaps_rad(), axis=0)
+        return joins_of(angles, self.labels, self.skeleton, widest_gap_rad(self.blend_s))
+
+    def _repr_html_(self) -> str:
+        from emulator.notebook import emulator_html
+
+        return emulator_html(self)
+
+    def _effect(self, part: Part, worker: Any) -> Any:
+        """The worker's effect in a part's task."""
+        if worker is None or isinstance(worker, str):
+            return worker
+        if not isinstance(worker, CompositeEffect) or part.task not in worker.effects:
+            raise ValueError(f"{self.task}: this worker's effect was not drawn from this emulator")
+        return worker.effects[part.task]
+
+
+def _speed(worker: Any) -> float | None:
+    return worker.walk_m_per_s if isinstance(worker, CompositeEffect) else None

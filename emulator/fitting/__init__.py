@@ -1,0 +1,1 @@
+"""From recordings to an emulator, step by step in ``fit``: preprocessing, registration, steps, noise, report."""

@@ -1,0 +1,84 @@
+"""How far draws go from what was recorded: as far as their movements stay ones that a body makes.
+
+The less stiff the noise, the farther a draw lies from every recording, and the rougher it moves; where the two meet
+differs from task to task. So both laws, of a worker's repetitions and of new people, are tried from the least stiff on,
+and the first is taken whose draws are about as smooth as the recordings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from emulator.judge.clips import Clips, frame_rate_hz
+from emulator.judge.joint_speeds import peak_ratio, share_too_fast
+from emulator.model.emulator import MotionEmulator
+from emulator.model.performances import MotionPerformances
+from emulator.model.smoothed import Curves, stiff
+from emulator.motion import MotionSet
+from emulator.people.population import Population
+
+STIFFNESSES = (4.0, 8.0, 16.0, 32.0, 64.0)
+"""How much smoother than the recordings the noise about them may be, to choose from."""
+PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
+"""How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
+MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
+"""Draws of known and of new people may have so many times the recorded peak jerk."""
+MOST_FAST = 0.05
+"""And this share of new people a joint that is too fast."""
+N_DRAWN = 100
+
+
+def naturally(models: Iterable[MotionEmulator], motions: MotionSet) -> MotionEmulator:
+    """Of models from the least stiff on the first whose draws of known people are smooth enough; else the last."""
+    each = -(-N_DRAWN // len(motions))
+
+    def alike(model: MotionEmulator) -> MotionPerformances:
+        rng = np.random.default_rng(0)
+        scores = [model.sample(each, rng, worker=motion.worker).scores for motion in motions.motions]
+        return model.performances(np.concatenate(scores))
+
+    return _first(models, alike, motions, MOST_JERK, 1.0)
+
+
+def with_population(model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet) -> MotionEmulator:
+    """The model with the least stiff law of new people whose draws are smooth and slow enough; else the stiffest.
+
+    Unstiff, all of a person's deviation takes the size that the t gives it, fine detail and all: the law is widest, and
+    roughest. The same model where there is one person, or plain Gaussians.
+    """
+    crew = model.workforce
+    if crew.smoothed is None or not crew.has_worker_effect:
+        return model
+    populations = (population(model, curves, stiffness) for stiffness in PEOPLE_STIFFNESSES)
+    models = (replace(model, workforce=replace(crew, population=law)) for law in populations)
+    return _first(models, lambda m: m.sample(N_DRAWN, np.random.default_rng(0)), motions, MOST_JERK_NEW, MOST_FAST)
+
+
+def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float) -> Population:
+    """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
+    crew, scale = model.workforce, model.scale
+    between = crew.apart() / np.sqrt(len(crew.names))
+    smooth = between.copy()
+    for curve in curves:
+        smooth[:, curve.at] = stiff(between[:, curve.at], curve, stiffness)
+    return Population.fit(between, smooth, scale.spread, tuple(curve.at for curve in curves), scale.block("bones"))
+
+
+def _first(
+    models: Iterable[MotionEmulator],
+    draw: Callable[[MotionEmulator], MotionPerformances],
+    motions: MotionSet,
+    most_jerk: float,
+    most_fast: float,
+) -> MotionEmulator:
+    recorded, rate_hz = None, frame_rate_hz(motions)
+    for model in models:
+        recorded = recorded or Clips.recorded(motions, model.skeleton)
+        drawn = Clips.drawn(draw(model), rate_hz)
+        rough = peak_ratio(drawn, recorded, 3)
+        if (np.isnan(rough) or rough <= most_jerk) and share_too_fast(drawn, recorded) <= most_fast:
+            break
+    return model

@@ -1,0 +1,1 @@
+"""The joint law of posture, root, pace, duration, marks and bones: how it is held, drawn from, decoded and stored."""

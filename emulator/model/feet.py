@@ -1,0 +1,240 @@
+"""Feet on the floor: when each foot stood in a recording, where it slipped meanwhile, and bodies that stand like that.
+
+A foot that is locked to a point is as easily told from a recorded one as a foot that slides: recorded feet slip by
+1-6 cm while they stand. So a drawn performance takes the stances of the recording that it is nearest to, with their
+slip: each stance stays about the place where the draw has it, the root moves by the feet's mean correction, and the
+legs bend by what is left (two-bone inverse kinematics, lengths kept).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from emulator.motion import Motion, stretches, turn
+from emulator.skeleton import Skeleton
+
+SIDES = ("left", "right")
+SLOW_M_PER_S, HELD_M_PER_S = 0.25, 0.5
+LOW_M, HELD_LOW_M = 0.05, 0.08
+"""A foot comes to stand where its ankle or toe is slow and low, and stands until it is no longer slow or low enough."""
+SHORTEST_S = 0.1
+FLOOR_SHARE, DEEP_SHARE = 0.02, 0.1
+NO_FLOOR_M = -1e9
+PRINT, FIRST_PRINT = 2e-5, 1e-4
+"""What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a tenth of a
+millimetre are seen where feet do not move at all."""
+BREATHES = 1e-3
+"""Bones whose length changes less than this share of it are taken as rigid."""
+
+
+@dataclass(frozen=True)
+class Legs:
+    """What of a skeleton stands and bends: feet (2, 2) ankle and toe joints, bones (2, 2) to knee and ankle, by side.
+
+    bones is None where a knee or a hip lies between that is not theirs: then only the root is moved.
+    """
+
+    feet: np.ndarray
+    bones: np.ndarray | None
+
+    @classmethod
+    def of(cls, skeleton: Skeleton) -> Legs | None:
+        """None for a skeleton that lacks an ankle or a toe."""
+        names = skeleton.names
+        wanted = [f"{side}_{joint}" for side in SIDES for joint in ("ankle", "toe")]
+        if not set(wanted) <= set(names):
+            return None
+        feet = np.array([names.index(name) for name in wanted], dtype=np.int64).reshape(2, 2)
+        limbs = [[f"{side}_{joint}" for joint in ("hip", "knee", "ankle")] for side in SIDES]
+        whole = all(
+            set(limb) <= set(names)
+            and all(skeleton.parents[names.index(b)] == names.index(a) for a, b in pairwise(limb))
+            for limb in limbs
+        )
+        bones = [[skeleton.bone_names.index(joint) for joint in limb[1:]] for limb in limbs] if whole else None
+        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64))
+
+
+def standing(positions_m: np.ndarray, rate_hz: float, legs: Legs) -> np.ndarray:
+    """(2, T) whether the left and the right foot stand in joints (T, J, 3), z up, at ``rate_hz`` frames a second.
+
+    A foot stands where its ankle or its toe does, for 0.1 s or longer; low is counted from where that joint is lowest
+    (the 2 % quantile), so that a shoe's height and the place of a marker do not matter.
+    """
+    from scipy.ndimage import gaussian_filter1d
+
+    out = np.zeros((2, len(positions_m)), bool)
+    if len(positions_m) < 3:
+        return out
+    for side, foot in enumerate(legs.feet):
+        for joint in foot:
+            way = gaussian_filter1d(positions_m[:, joint], rate_hz / 30.0, axis=0, mode="nearest")
+            speed = np.linalg.norm(np.gradient(way, 1.0 / rate_hz, axis=0), axis=1)
+            height = way[:, 2] - np.quantile(way[:, 2], FLOOR_SHARE)
+            held = (speed < HELD_M_PER_S) & (height < HELD_LOW_M)
+            lands = (speed < SLOW_M_PER_S) & (height < LOW_M)
+            for start, stop in stretches(held):
+                if lands[start:stop].any():
+                    out[side, start:stop] = True
+        for start, stop in stretches(out[side]):
+            if stop - start < SHORTEST_S * rate_hz:
+                out[side, start:stop] = False
+    return out
+
+
+def prints(positions_m: np.ndarray, yaw_rad: np.ndarray, stands: np.ndarray, legs: Legs) -> np.ndarray:
+    """(2, T, 3) metres: where each foot (the middle of ankle and toe) is while it stands, else 0.
+
+    Level about the median place of the stance, in the frame of the heading yaw_rad (T,); its height above the floor.
+    """
+    out = np.zeros((2, len(positions_m), 3))
+    for side, foot in enumerate(legs.feet):
+        middle = positions_m[:, foot].mean(axis=1)
+        for start, stop in stretches(stands[side]):
+            rows = slice(start, stop)
+            slip = middle[rows] - np.append(np.median(middle[rows, :2], axis=0), 0.0)
+            out[side, rows] = turn(slip, -yaw_rad[rows])
+    return out
+
+
+def on_its_feet(motion: Motion) -> Motion:
+    """The motion with bones of one length, its feet where they were recorded.
+
+    Markers on the skin make bones that breathe: rigid bones hung from the recorded pelvis would lift the feet of a
+    squat by 5 to 9 cm. The root moves and the legs bend until the feet stand where they stood. The very same motion
+    where bones do not breathe, or the skeleton has no feet.
+    """
+    legs = Legs.of(motion.skeleton)
+    if legs is None or motion.stretch is None or np.abs(motion.stretch - 1.0).max() < BREATHES:
+        return motion
+    recorded = motion.positions_m(rigid=False)
+    rate_hz = (len(motion.time_s) - 1) / motion.duration_s
+    stands = standing(recorded, rate_hz, legs)
+    if not stands.any():
+        return motion
+    own = prints(recorded, motion.yaw_rad, stands, legs)
+    path = np.concatenate([motion.root_m, motion.yaw_rad[:, None]], axis=1)
+    footed_path, bends, _ = stood(
+        motion.skeleton,
+        legs,
+        motion.directions[None],
+        motion.bone_length_m[None],
+        path[None],
+        stands[None],
+        own[None],
+        motion.time_s[None],
+        min(0.0, float(recorded[..., 2].min())),
+        np.full((1, 2, 2), NO_FLOOR_M),
+    )
+    directions = motion.directions[None].copy()
+    bend(directions, motion.bone_length_m[None], legs, np.arange(float(len(path)))[None], bends)
+    root = footed_path[0, :, :3]
+    return replace(motion, directions=directions[0], root_m=root - np.append(root[0, :2], 0.0), stretch=None)
+
+
+def fastest_m_per_s(motions: Sequence[Motion]) -> float:
+    """The greatest speed of any joint in the motions, between frames of 1/30 s."""
+    from emulator.kernels.feet import fastest_joint
+
+    return max(float(fastest_joint(motion.positions_m(), np.array(motion.time_s, float))) for motion in motions)
+
+
+def stood(
+    skeleton: Skeleton,
+    legs: Legs | None,
+    directions: np.ndarray,
+    length_m: np.ndarray,
+    path: np.ndarray,
+    stands: np.ndarray,
+    prints_m: np.ndarray,
+    time_s: np.ndarray,
+    floor_m: float,
+    foot_floor_m: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The path (n, T, 4) of roots and headings moved until the feet stand, and what the legs must bend (n, 2, T, 3).
+
+    And the greatest speed of any joint (n,), m/s, between frames of 1/30 s.
+
+    directions (n, T, B, 3) without heading, length_m (n, B); stands (n, 2, T), prints_m (n, 2, T, 3) of ``prints``
+    time_s : (n, T) when the points come; floor_m : no joint gets below this height
+    foot_floor_m : (n, 2, 2) heights below which ankle and toe do not get, by side
+    """
+    from emulator.kernels.feet import footed
+
+    n, n_times = path.shape[:2]
+    out, bends, fastest = np.array(path, dtype=float), np.zeros((n, 2, n_times, 3)), np.zeros(n)
+    feet = np.zeros((2, 2), np.int64) if legs is None else legs.feet
+    flat = np.ascontiguousarray(directions, dtype=float).reshape(n, n_times, -1)
+    length_m = np.ascontiguousarray(length_m, dtype=float)
+    time_s = np.ascontiguousarray(time_s, dtype=float)
+    foot_floor_m = np.ascontiguousarray(foot_floor_m, dtype=float)
+    chain = skeleton.chain
+    footed(flat, length_m, chain, feet, stands, prints_m, time_s, floor_m, foot_floor_m, out, bends, fastest)
+    return out, bends, fastest
+
+
+def bend(directions: np.ndarray, length_m: np.ndarray, legs: Legs, place: np.ndarray, bends: np.ndarray) -> None:
+    """Bend the legs of directions (n, S, B, 3) at places (n, S) of the points of bends (n, 2, T, 3), in place.
+
+    NOTE: the bends serve as control points of their spline themselves: they are smooth, and it blunts what is not.
+    """
+    from emulator.kernels.feet import bent
+
+    if legs.bones is None:
+        return
+    control = np.concatenate([bends[:, :, :1], bends, bends[:, :, -1:]], axis=2)
+    bent(directions.reshape(*place.shape, -1), np.ascontiguousarray(length_m), legs.bones, place, control)
+
+
+@dataclass(frozen=True, eq=False)
+class Footing:
+    """How the feet of N recordings stood, on the common clock of T points.
+
+    postures : (N, P) posture coefficients of each, by which the nearest is found
+    stands   : (N, 2, T) whether the left and the right foot stands
+    prints   : (N, 2, T, 3) see ``prints``, in leg lengths
+    floor    : the height of the lowest joint of all in leg lengths, at most 0: how far recordings are below the floor
+    foot_floor : (2, 2) the same of ankle and toe of each side; they may lie above 0
+    """
+
+    postures: np.ndarray
+    stands: np.ndarray
+    prints: np.ndarray
+    floor: float
+    foot_floor: np.ndarray
+
+    @classmethod
+    def fit(
+        cls, motions: Sequence[Motion], warps: np.ndarray, postures: np.ndarray, leg_m: np.ndarray
+    ) -> Footing | None:
+        """From motions on their feet, warps (N, T), posture coefficients (N, P), legs (N,); None without feet."""
+        legs = Legs.of(motions[0].skeleton)
+        if legs is None:
+            return None
+        stands, places, lowest, foot_lowest = [], [], [], []
+        for motion, gamma, leg in zip(motions, warps, leg_m):
+            joints, rate_hz = motion.positions_m(), (len(motion.time_s) - 1) / motion.duration_s
+            own = standing(joints, rate_hz, legs)
+            at = gamma * (len(joints) - 1)
+            nearest = np.rint(at).astype(int)
+            flat = joints[:, legs.feet.ravel()].reshape(len(joints), -1)
+            frames = np.arange(len(joints))
+            feet = np.stack([np.interp(at, frames, column) for column in flat.T], axis=1).reshape(len(at), 4, 3)
+            there = Legs(np.array([[0, 1], [2, 3]]), None)
+            yaw = np.interp(at, frames, motion.yaw_rad)
+            stands.append(own[:, nearest])
+            places.append(prints(feet, yaw, stands[-1], there) / leg)
+            lowest.append(joints[..., 2].min() / leg)
+            foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
+        whole = np.clip(np.rint(np.array(places) / PRINT), -32767, 32767)
+        floor, foot_floor = (np.quantile(heights, DEEP_SHARE, axis=0) for heights in (lowest, foot_lowest))
+        return cls(postures, np.array(stands), whole * PRINT, min(0.0, float(floor)), foot_floor)
+
+    def nearest(self, postures: np.ndarray) -> np.ndarray:
+        """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""
+        square = np.sum(self.postures**2, axis=1) - 2 * postures @ self.postures.T
+        return np.asarray(square.argmin(axis=1))

@@ -1,0 +1,203 @@
+"""Performances drawn from an emulator: times at once, postures when they are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from emulator.model import decoding
+from emulator.model.dwell_times import moving_share
+from emulator.model.feet import bend, stood
+from emulator.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from emulator.model.emulator import MotionEmulator
+
+AT_ONCE = 16
+"""Performances whose paths are made at a time."""
+KEPT = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)
+Floats = type[np.floating] | np.dtype
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """Where and how n bodies stand.
+
+    control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 3) what the legs bend
+    posture : (n, P) posture coefficients; kept : (n,) what share of their deviation from the mean movement is kept
+    fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
+    """
+
+    control: np.ndarray
+    bends: np.ndarray
+    posture: np.ndarray
+    kept: np.ndarray
+    fastest_m_per_s: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class MotionPerformances:
+    """n performances of a task.
+
+    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone.
+    ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
+    """
+
+    model: MotionEmulator
+    scores: np.ndarray
+    duration_s: np.ndarray
+    body_scale: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.duration_s)
+
+    def __getitem__(self, index: int | slice | np.ndarray) -> MotionPerformances:
+        rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
+        return MotionPerformances(self.model, self.scores[rows], self.duration_s[rows], self.body_scale[rows])
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
+        from emulator.motion import performances_frame
+
+        return performances_frame(self)
+
+    def _repr_html_(self) -> str:
+        from emulator.notebook import performances_html
+
+        return performances_html(self)
+
+    @property
+    def skeleton(self) -> Skeleton:
+        return self.model.skeleton
+
+    @cached_property
+    def mark_s(self) -> np.ndarray:
+        """(n, E) seconds at which the marks fall, increasing, inside the duration.
+
+        NOTE: made when asked for; a simulation spends durations, and marks are half the cost of a draw.
+        """
+        return self.duration_s[:, None] * self.model.mark_share(self.scores)
+
+    @property
+    def bone_length_m(self) -> np.ndarray:
+        """(n, B) metres."""
+        return self.model.bone_length_m(self.scores) * self.body_scale[:, None]
+
+    def directions(
+        self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
+    ) -> np.ndarray:
+        """(n, T, B, 3) unit directions without heading, at ``n_times`` even points of own time or at ``times_s``.
+
+        times_s : (T,) or (n, T) seconds from the start of each performance; before its start and after its end the
+                  first and last posture are held.
+        dtype   : of the answer and of its computation; float32 takes half the time and memory, and agrees to 1e-6
+        """
+        return self._directions(self._place(times_s, n_times), dtype)
+
+    def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 3) path of the root, metres, from x = y = 0, starting heading along x; times as ``directions``."""
+        return self.path(times_s, n_times)[..., :3]
+
+    def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
+        """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
+        place = self._place(times_s, n_times)
+        path = np.empty((*place.shape, 4))
+        for rows in self._blocks():
+            path[rows] = decoding.along(self[rows]._ground.control, place[rows])
+        return path
+
+    def positions_m(
+        self, times_s: np.ndarray | None = None, n_times: int = 101, dtype: Floats = np.float64
+    ) -> np.ndarray:
+        """(n, T, J, 3) joints in metres, z up, floor at 0, in the frame of ``root_m``; times, dtype as ``directions``.
+
+        float32 only saves memory: the path of the root needs float64.
+        """
+        from emulator.kernels.bodies import stand_all
+
+        place = self._place(times_s, n_times)
+        positions = np.empty((*place.shape, self.skeleton.n_joints, 3), dtype)
+        for rows in self._blocks():
+            some, lengths = self[rows], self.bone_length_m[rows]
+            flat = some._directions(place[rows]).reshape(*place[rows].shape, -1)
+            path = decoding.along(some._ground.control, place[rows])
+            stand_all(flat, lengths, self.skeleton.chain, path, positions[rows])
+        return positions
+
+    @property
+    def damped(self) -> np.ndarray:
+        """(n,) how much a body was drawn in towards the mean movement, 0 to 1, since a joint was too fast for a body.
+
+        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; times and marks stay as they were drawn.
+        """
+        return np.concatenate([np.zeros(0), *(1.0 - self[rows]._ground.kept for rows in self._blocks())])
+
+    def _directions(self, place: np.ndarray, dtype: Floats = np.float64) -> np.ndarray:
+        model = self.model
+        if model.footing is None:
+            return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
+        directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
+        for rows in self._blocks():
+            some = self[rows]
+            directions[rows] = model.decoder.directions(some._ground.posture, place[rows], np.dtype(dtype))
+            if model.legs is not None:
+                bend(directions[rows], some.bone_length_m, model.legs, place[rows], some._ground.bends)
+        return directions
+
+    @cached_property
+    def _ground(self) -> Ground:
+        """Where and how the bodies stand, drawn in where a joint is too fast."""
+        model, n = self.model, len(self)
+        kept, ground = np.ones(n), self._grounded(np.ones(n))
+        too_fast = np.flatnonzero(ground.fastest_m_per_s > model.most_m_per_s * self.body_scale)
+        if too_fast.size == 0:
+            return ground
+        for share in KEPT:
+            kept[too_fast] = share
+            ground = self._grounded(kept)
+            still = ground.fastest_m_per_s[too_fast] > model.most_m_per_s * self.body_scale[too_fast]
+            too_fast = too_fast[still]
+            if too_fast.size == 0:
+                break
+        return ground
+
+    def _grounded(self, kept: np.ndarray) -> Ground:
+        """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
+        model, n, lengths = self.model, len(self), self.bone_length_m
+        posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
+        near = None if model.footing is None else model.footing.nearest(posture)
+        centre = [model.scale.centre[model.scale.block(name)] for name in ("posture", "root")]
+        posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
+        clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
+        aligned = model.decoder.directions(posture, clock)
+        flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
+        root, yaw = model.channel.inverse(flat, aligned, lengths)
+        path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 3))
+        fastest = np.zeros(n)
+        if model.footing is not None:
+            leg_m = model.channel.leg_m(lengths)
+            stands, prints_m = model.footing.stands[near], model.footing.prints[near] * leg_m[:, None, None, None]
+            time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
+            floor_m = model.footing.floor * float(leg_m.mean())
+            foot_floor_m = model.footing.foot_floor * leg_m[:, None, None]
+            path, bends, fastest = stood(
+                self.skeleton, model.legs, aligned, lengths, path, stands, prints_m, time_s, floor_m, foot_floor_m
+            )
+            path[..., :2] -= path[:, :1, :2]
+        return Ground(decoding.control_points(path), bends, posture, kept.copy(), fastest)
+
+    def _blocks(self) -> Iterator[slice]:
+        """A few performances at a time: what is computed on the way is several times larger than the answer."""
+        return (slice(start, start + AT_ONCE) for start in range(0, len(self), AT_ONCE))
+
+    def _place(self, times_s: np.ndarray | None, n_times: int) -> np.ndarray:
+        """(n, T) places on the common grid, in cells, of the times asked for."""
+        own = np.linspace(0, 1, n_times) if times_s is None else np.asarray(times_s) / self.duration_s[:, None]
+        own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
+        if len(self.model.dwells):
+            own = moving_share(self.model, self.scores, own)
+        return decoding.places(self.model.warps(self.scores), own)

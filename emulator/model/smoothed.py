@@ -1,0 +1,361 @@
+"""The density beyond one Gaussian: recorded repetitions, each blurred by a little low-rank noise of the joint vector.
+
+One Gaussian fills the gaps between kinds of execution with movements nobody made: its draws lie twice as far from the
+nearest recording as unseen repetitions do. A smoothed bootstrap that keeps variances (Silverman & Young 1987) does not.
+A known worker is drawn from his own repetitions, and with the weight of ``BASE`` repetitions from what all others do,
+about his shrunk mean: the predictive of a Dirichlet process (Ferguson 1973, sec. 5) with the crew as base measure.
+
+How much to blur: so much that a draw is as far from the nearest recording as a repetition that was left out.
+
+The distance to the nearest other repetition is what tells a copy from a movement of its own. It is known of every
+recording by leaving it out, and the noise is made as large as it may be without going beyond it at any quartile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from emulator.model.gaussian import Law, LowRankNormal, compressed
+from emulator.model.joint_coordinates import within_worker
+
+BASE = 1.0
+FEWEST_OWN, N_MIXED, MOST_MIXED = 5, 3, 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothedScores:
+    """Recorded joint coordinates and the noise that blurs them.
+
+    scores : (N, K); owner : (N,) number of the worker of each
+    reach  : (N,) factor on the noise about each; smaller where repetitions lie close together
+    factor : (R, K) noise is reach * xi @ factor, xi (R,) standard normal
+    spread : (K,) within-worker standard deviations that draws are to have
+    partner : (N, P) recordings that each is mixed with, itself for none; P = 0: nothing is mixed
+    drawn_in : (K,) what deviations from a worker's mean are multiplied by, to leave room for the noise; of coordinates
+               that curves tell of, what is left of them
+    tells    : (C, K - C) what the first C coordinates, curves, tell of all others: their regression within workers
+    """
+
+    scores: np.ndarray
+    owner: np.ndarray
+    reach: np.ndarray
+    factor: np.ndarray
+    spread: np.ndarray
+    drawn_in: np.ndarray
+    partner: np.ndarray
+    tells: np.ndarray
+
+    @cached_property
+    def noise(self) -> LowRankNormal:
+        """The noise at reach 1."""
+        return LowRankNormal(np.zeros(self.factor.shape[1]), self.factor, np.linalg.norm(self.factor, axis=0), 0.0)
+
+    @cached_property
+    def means(self) -> np.ndarray:
+        """(W, K) mean of each worker's repetitions."""
+        return np.stack([self.scores[self.owner == w].mean(axis=0) for w in range(self.owner.max() + 1)])
+
+    @cached_property
+    def sources(self) -> tuple[np.ndarray, np.ndarray]:
+        """(M,) the recording that each component goes by, and (M, K) its deviation from the worker's mean, drawn in.
+
+        Each is a mixture of a recording with one that is near it, mostly of the first, at its length: on common clocks
+        that goes farther from both than smooth noise does, no rougher than they are, and stays within a kind of
+        execution. What its curves tell of all else is told by the mixture, as drawn in.
+        """
+        first, deviation = self._mixed(less_told(within_worker(self.scores, self.owner), self.tells) * self.drawn_in)
+        return first, with_told(deviation, self.tells)
+
+    def _mixed(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        n, n_partners = self.partner.shape
+        if n_partners == 0:
+            return np.arange(n), own
+        first, second = np.repeat(np.arange(n), n_partners), self.partner.ravel()
+        share = np.where(first == second, 0.0, np.tile(MOST_MIXED * np.arange(1, n_partners + 1) / n_partners, n))[
+            :, None
+        ]
+        mixed = (1.0 - share) * own[first] + share * own[second]
+        mixed = within_worker(mixed / np.sqrt((1.0 - share) ** 2 + share**2), self.owner[first])
+        lost = np.mean(own**2, axis=0) / np.maximum(np.mean(mixed**2, axis=0), 1e-18)
+        return first, mixed * np.sqrt(lost)  # a worker's mean stays, and so does the variance
+
+    def anyone(self, mean: np.ndarray, like: int | None = None) -> Law:
+        """The law of somebody never seen with this mean (K,): deviations like those of one worker, or of all."""
+        first, deviation = self.sources
+        rows = np.arange(len(first)) if like is None else self.rows_of(like)
+        weight = np.full(len(rows), 1.0 / len(rows))
+        return Law(weight, deviation[rows], self.reach[first[rows]], self.noise, mean)
+
+    def population(self, people: LowRankNormal, own: np.ndarray, sizes: np.ndarray) -> Law:
+        """The law of one performance of a new person each time: who he is like, of which size, and what he does.
+
+        people : noise between people, with their mean; own (A, W, K) how people like the recorded ones deviate, at
+        ``sizes`` (A,)
+        """
+        first, every = self.sources
+        parts = []
+        n_workers, n_coordinates = own.shape[1:]
+        for worker in range(n_workers):
+            rows = self.rows_of(worker)
+            mean = own[:, worker, None] + every[rows]
+            reach = np.broadcast_to(self.reach[first[rows]], mean.shape[:2])
+            size = np.broadcast_to(sizes[:, None], mean.shape[:2])
+            weight = np.full(mean.shape[:2], 1.0 / (n_workers * reach.size))
+            parts.append((weight.ravel(), mean.reshape(-1, n_coordinates), reach.ravel(), size.ravel()))
+        weight, mean, reach, size = (np.concatenate(part) for part in zip(*parts))
+        return Law(weight, mean, reach, self.noise, people.mean, people, size)
+
+    def rows_of(self, worker: int) -> np.ndarray:
+        """The components that somebody like this worker has: that worker's own, and others' where there are few."""
+        owner = self.owner[self.sources[0]]
+        own = np.flatnonzero(owner == worker)
+        if len(own) >= FEWEST_OWN:
+            return own
+        others = np.flatnonzero(owner != worker)
+        step = max(1, len(others) // (FEWEST_OWN - len(own)))
+        return np.concatenate([own, others[worker % step :: step][: FEWEST_OWN - len(own)]])
+
+    def known(self, number: int, shrunk_mean: np.ndarray) -> Law:
+        """The law of a worker seen in training: his own repetitions, and a little of what others do."""
+        first, deviation = self.sources
+        own, n = self.owner[first] == number, len(first)
+        base = BASE / (np.sum(self.owner == number) + BASE)
+        weight = np.append(np.full(own.sum(), (1.0 - base) / own.sum()), np.full(n, base / n))
+        mean = np.concatenate([self.means[number] - shrunk_mean + deviation[own], deviation])
+        return Law(weight, mean, np.append(self.reach[first[own]], self.reach[first]), self.noise, shrunk_mean)
+
+
+def less_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
+    """Rows (R, K) of which only that is left beside the first C coordinates which these do not tell."""
+    n = len(tells)
+    return np.concatenate([rows[:, :n], rows[:, n:] - rows[:, :n] @ tells], axis=1)
+
+
+def with_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
+    """The way back from ``less_told``."""
+    n = len(tells)
+    return np.concatenate([rows[:, :n], rows[:, n:] + rows[:, :n] @ tells], axis=1)
+
+
+def room(left: np.ndarray, variance: np.ndarray, at_most: float = 1.0) -> np.ndarray:
+    """The factor by which deviations of this variance leave no more than ``left`` of it; its square ``at_most``."""
+    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), at_most))
+
+
+def partners(owner: np.ndarray, apart: np.ndarray) -> np.ndarray:
+    """(N, ``N_MIXED``) the nearest other recordings of one worker by distances (N, N); itself where none is left."""
+    among = np.where(owner[:, None] == owner[None], apart, np.inf)
+    np.fill_diagonal(among, np.inf)
+    nearest = np.argsort(among, axis=1, kind="stable")[:, :N_MIXED]
+    none = np.take_along_axis(among, nearest, axis=1) == np.inf
+    found = np.where(none, np.arange(len(owner))[:, None], nearest)
+    return np.pad(found, ((0, 0), (0, max(0, N_MIXED - found.shape[1]))), mode="edge")
+
+
+QUARTILES = (0.25, 0.5, 0.75)
+NEARER = 0.875
+"""Draws may be an eighth nearer to a recording than a left-out repetition is: noise is paid for in roughness."""
+N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 12, 2.0, 3, 2.0
+MOST_NOISE = 0.5
+"""Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
+MOST_DRAWN_OUT = 1.0
+"""Of the variance of deviations from a mean of few: beyond it the fine detail of curves gets rough."""
+PENALTIES = np.geomspace(1e-4, 1e4, 33)
+"""Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """A block of coordinates that say curves over time: postures, root paths, paces.
+
+    at : where its P coordinates lie in z; size : (P,) their raw standard deviations, largest first
+    bend : (P, P) products of the second differences in time of its components
+    """
+
+    at: slice
+    size: np.ndarray
+    bend: np.ndarray
+
+
+def smoothed(
+    z: np.ndarray,
+    owner: np.ndarray,
+    spread: np.ndarray,
+    posture: Curves,
+    others: tuple[Curves, ...],
+    gram: np.ndarray,
+    stiffness: float,
+) -> SmoothedScores:
+    """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
+
+    spread  : (K,) within-worker standard deviations that draws are to have
+    posture : decides the bandwidth; others : are blurred like it, as stiffly
+    gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
+    stiffness : how much smoother than the recordings the noise is
+    """
+    square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
+    other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
+    nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
+    curves, at, size, mixed = (posture, *others), posture.at, posture.size, partners(owner, other)
+    tells = told_by_curves(within_worker(z, owner), curves, _n_free(owner))
+    noise = _noise(z, owner, curves, tells, stiffness)
+    whole = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), mixed, tells)
+    recorded = z[:, at] * size
+    cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
+
+    def too_far(h: float) -> bool:
+        draws = _drawn(_blurred(whole, h, curves))[:, at] * size
+        reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
+        return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
+
+    asked = NEARER * np.quantile(nearest[:, 0], QUARTILES)
+    h = _largest_not(too_far)
+    blurred = _blurred(whole, h, curves)
+    return replace(blurred, factor=compressed(blurred.factor))
+
+
+def _blurred(whole: SmoothedScores, h: float, curves: tuple[Curves, ...]) -> SmoothedScores:
+    """With bandwidth h along curves, though no coordinate varies more than it is to vary; beside them by the rule.
+
+    What deviations are drawn in by, to leave room for the noise, is one factor for each curve: a factor for each
+    coordinate parts the large ones from the fine detail that belongs to them, and draws get rough. They are drawn out
+    by no more than deviations from a mean of few lack of the variance (Davison & Hinkley 1997, eq. 6.9), and no more
+    than ``MOST_DRAWN_OUT``: of few repetitions a drawn body would be wilder in its fine detail than any. All other
+    coordinates go with the curves, as drawn, as far as these tell of them, and what is left takes noise by the rule:
+    with noise of their own for all of them a duration kept 0.48 of its correlation with made postures, where 0.60
+    was recorded.
+    """
+    noise = whole.noise.spread * np.sqrt(np.mean(whole.reach**2))
+    variance = np.mean(within_worker(whole.scores, whole.owner) ** 2, axis=0)
+    lacking = len(whole.owner) / _n_free(whole.owner)
+    wanted, drawn_in, most = noise.copy(), np.ones(len(noise)), min(lacking, MOST_DRAWN_OUT)
+    for curve in curves:
+        here, weight = curve.at, curve.size**2
+        wanted[here] = np.minimum(h * noise, np.sqrt(MOST_NOISE) * whole.spread)[here]
+        left = np.maximum(whole.spread[here] ** 2 - wanted[here] ** 2, 0.0)
+        drawn_in[here] = room(np.sum(left * weight), np.sum(variance[here] * weight), most)
+    factor = whole.factor * wanted / np.maximum(noise, 1e-12)
+    return _beside_curves(replace(whole, factor=factor, drawn_in=drawn_in))
+
+
+def _beside_curves(blurred: SmoothedScores) -> SmoothedScores:
+    """With the noise that all but curves takes: what these tell of it, and of the rest a share by the rule.
+
+    Where curves are drawn larger than recorded they tell less; the rest is drawn in, or out, until the variance is
+    whole.
+    """
+    own, n = within_worker(blurred.scores, blurred.owner), len(blurred.tells)
+    n_free, square = _n_free(blurred.owner), np.mean(blurred.reach**2)
+    told, noise = blurred.sources[1][:, :n] @ blurred.tells, blurred.factor[:, :n] @ blurred.tells
+    recorded = np.sum((own[:, :n] @ blurred.tells) ** 2, axis=0) / n_free
+    less = room(recorded, np.mean(told**2, axis=0) + square * np.sum(noise**2, axis=0))
+    blurred = replace(blurred, tells=blurred.tells * less, factor=blurred.factor.copy())
+    rest, wild = less_told(own, blurred.tells)[:, n:], np.linalg.norm(blurred.factor[:, n:], axis=0)
+    wanted = np.sqrt(_noise_share(blurred.owner) * np.sum(rest**2, axis=0) / n_free / square)
+    blurred.factor[:, n:] = blurred.factor[:, n:] * wanted / np.maximum(wild, 1e-12) + noise * less
+    told, rest = told * less, blurred.sources[1][:, n:] - told * less
+    left = blurred.spread[n:] ** 2 - square * np.sum(blurred.factor[:, n:] ** 2, axis=0) - np.mean(told**2, axis=0)
+    factor = _root(np.mean(rest**2, axis=0), np.mean(rest * told, axis=0), left)
+    return replace(blurred, drawn_in=np.append(blurred.drawn_in[:n], factor))
+
+
+def _n_free(owner: np.ndarray) -> int:
+    """Degrees of freedom of deviations from workers' means."""
+    return max(len(owner) - len(np.unique(owner)), 1)
+
+
+def _root(square: np.ndarray, half: np.ndarray, left: np.ndarray) -> np.ndarray:
+    """The x >= 0 at which square x^2 + 2 half x = left, or the nearest to it."""
+    inside = np.sqrt(np.maximum(half**2 + square * left, 0.0))
+    return np.maximum(inside - half, 0.0) / np.maximum(square, 1e-18)
+
+
+def told_by_curves(own: np.ndarray, curves: tuple[Curves, ...], n_free: int) -> np.ndarray:
+    """(C, K - C) regression of all else on the C coordinates of curves, from deviations (N, K) from workers' means.
+
+    A ridge on the curves' raw scores, for each coordinate with the penalty of least generalised cross-validation
+    (Golub, Heath & Wahba 1979); a coordinate that curves do not foretell gets next to nothing.
+    """
+    size = np.concatenate([curve.size for curve in curves])
+    n = len(size)
+    u, d, vt = np.linalg.svd(own[:, :n] * size, full_matrices=False)
+    y = u.T @ own[:, n:]
+    outside = np.sum(own[:, n:] ** 2, axis=0) - np.sum(y**2, axis=0)
+    kept = d**2 / (d**2 + PENALTIES[:, None] * max(np.mean(d**2), 1e-300))
+    missed = outside + (1.0 - kept) ** 2 @ y**2
+    free = np.maximum(n_free - kept.sum(axis=1), 1e-9)
+    best = (missed / free[:, None] ** 2).argmin(axis=0)
+    slopes = np.where(d > 1e-9 * d.max(initial=0.0), 1.0 / np.maximum(d, 1e-300), 0.0) * kept[best]
+    return np.asarray(size[:, None] * (vt.T @ (slopes.T * y)))
+
+
+def _noise_share(owner: np.ndarray) -> float:
+    """Share of the variance that is noise by the rule of Silverman (1986, eq. 3.28) for the repetitions of one worker.
+
+    At least what deviations from a worker's own mean lack of the variance.
+    """
+    each = len(owner) / len(np.unique(owner))
+    h = (4.0 / (3.0 * each)) ** 0.2
+    return max(h**2 / (1.0 + h**2), 1.0 / each)
+
+
+def _largest_not(too_far: Callable[[float], bool]) -> float:
+    """The largest h up to ``LARGEST`` that is not too far, by bisection."""
+    low, high = 0.0, LARGEST
+    for _ in range(N_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if too_far(middle) else (middle, high)
+    return low
+
+
+def _drawn(blurred: SmoothedScores) -> np.ndarray:
+    """(N_TRIED, K) draws about the recordings in turn, always with the same random numbers."""
+    rng = np.random.default_rng(0)
+    first, deviation = blurred.sources
+    at = rng.permutation(np.arange(max(N_TRIED, len(first))) % len(first))[:N_TRIED]
+    centre = blurred.means[blurred.owner[first[at]]] + deviation[at]
+    return np.asarray(centre + blurred.reach[first[at], None] * blurred.noise.sample(N_TRIED, rng))
+
+
+def _nearest(drawn: np.ndarray, recorded: np.ndarray, cut_off: np.ndarray) -> np.ndarray:
+    """(n,) distance of raw scores (n, P) to the nearest whole sequence; ``cut_off`` (N,) is what scores leave out."""
+    square = np.sum(drawn**2, axis=1)[:, None] + np.sum(recorded**2, axis=1) - 2 * drawn @ recorded.T
+    return np.asarray(np.sqrt(np.maximum(square + cut_off, 0.0).min(axis=1)))
+
+
+def _reach(nearest: np.ndarray) -> np.ndarray:
+    """(N,) distance to the nearest few over its geometric mean, at most twice or half of it."""
+    far = np.maximum(np.sqrt(np.mean(nearest**2, axis=1)), 1e-12)
+    reach = np.clip(far / np.exp(np.log(far).mean()), 1.0 / MOST_REACH, MOST_REACH)
+    return reach / np.sqrt(np.mean(reach**2))
+
+
+def _noise(
+    z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray, stiffness: float
+) -> np.ndarray:
+    """(N, K) rows of the within-worker covariance, strange repetitions drawn in to the median size (Huber 1964).
+
+    Curves are smoothed by (I + (lambda bend)^2)^-1, so that noise moves a recording without making it rough (after
+    Silverman 1996, smoothed principal components), see ``stiff``. Of all else the rows are what curves do not tell.
+    """
+    rows = less_told(within_worker(z, owner), tells)
+    length = np.linalg.norm(rows[:, curves[0].at] * curves[0].size, axis=1)
+    rows = rows * np.minimum(1.0, np.median(length) / np.maximum(length, 1e-12))[:, None]
+    for curve in curves:
+        rows[:, curve.at] = stiff(rows[:, curve.at], curve, stiffness)
+    return rows / np.sqrt(_n_free(owner))
+
+
+def stiff(rows: np.ndarray, curve: Curves, stiffness: float) -> np.ndarray:
+    """Rows (R, P) of a block of curves, smoothed by (I + (lambda bend)^2)^-1.
+
+    lambda is ``stiffness`` times the rows' median variance over their bending.
+    """
+    raw = rows * curve.size
+    bending = np.sum((raw @ curve.bend) * raw, axis=1)
+    weight = stiffness * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
+    return np.linalg.solve(np.eye(len(curve.size)) + weight**2 * curve.bend @ curve.bend, raw.T).T / curve.size
