@@ -3,8 +3,7 @@
 import tempfile
 from pathlib import Path
 
-from emulator import synthetic
-from emulator.model import MotionEmulator
+from emulator import MotionEmulator, synthetic
 from opsim import compile_plan, figures, read_scenarios, run_plan
 
 SCENARIO = """

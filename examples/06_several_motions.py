@@ -1,9 +1,9 @@
 """A task of several motions: times add up, marks follow one another, and the bodies are joined where motions meet."""
 
 import numpy as np
-from emulator.joined import joined, posture_gap_rad
 
 from emulator import CompositeEmulator, MotionLibrary, Part
+from emulator.composite.joining import joined, posture_gap_rad
 from emulator.synthetic import make
 from opsim.shipped import shipped_folder
 
