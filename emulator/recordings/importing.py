@@ -37,7 +37,7 @@ class Format:
 
 FORMATS = {
     ".bvh": Format("BVH", "bvh", "read_bvh"),
-    ".amc": Format("ASF/AMC", "amc", "read_amc", ("unit_m", "up", "rate_hz", "acclaim")),
+    ".amc": Format("ASF/AMC", "amc", "read_amc", ("unit_m", "up", "rate_hz", "asf")),
     ".c3d": Format("C3D", "c3d", "read_c3d"),
     ".trc": Format("TRC", "c3d", "read_trc"),
     ".csv": Format("CSV", "marker_csv", "read_csv", ("unit_m", "up", "rate_hz", "columns", "min_score")),
@@ -120,7 +120,7 @@ def _form(path: Path) -> Format:
 
 
 def _refuse_useless(path: Path, name: str, given: dict[str, Any]) -> None:
-    usable = _form(path).options if name != "npz" else ("mapping",)
+    usable = _form(path).options if name != "npz" else ("mapping_file",)
     useless = [option for option in given if option not in usable]
     unknown = [option for option in useless if option not in OPTIONS]
     if unknown:

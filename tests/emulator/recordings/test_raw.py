@@ -63,7 +63,7 @@ def test_an_npz_gives_all_its_takes(tmp_path):
         read_take(tmp_path / "a.npz")
 
 
-@pytest.mark.parametrize("ending", ["bvh", "c3d", "json", "csv"])
+@pytest.mark.parametrize("ending", ["bvh", "trc", "json", "csv"])
 def test_a_take_of_one_frame_is_refused_by_its_file(tmp_path, ending):
     from dataclasses import replace
 
