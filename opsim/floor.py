@@ -10,6 +10,7 @@
 >>> floor = Floor(env, compile_plan(read_scenarios(shipped_folder() / "repack_cell.yaml")["base"]))
 >>> _ = env.process(order(env, floor))
 >>> env.run(until=4600)
+a carton is finished at 1052 s, 52 s after it came
 """
 
 from __future__ import annotations
@@ -26,7 +27,6 @@ from opsim.engine.floor.inside import Inside
 from opsim.engine.floor.run import FloorOfPlan
 from opsim.engine.floor.so_far import log_so_far
 from opsim.log import BAD, FINISH, JOIN, LOST, SCRAP, SPLIT, EventLog, names_of
-from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
 from opsim.plan.until import until
 from opsim.problems import did_you_mean, shown
@@ -95,8 +95,7 @@ class Floor:
         self._whole: EventLog | None = None
         self._of_plan = FloorOfPlan(plan)
         self._inside = Inside(env, plan.horizon_s, self._ends)
-        with one_blas_thread():
-            self._of_plan.open(self._inside.own, self._replication, processes=False)
+        self._of_plan.open(self._inside.own, self._replication, processes=False)
         watch(self._of_plan.floor, self._comes, self._leaves)
         self._inside.look_ahead()
 

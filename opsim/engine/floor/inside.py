@@ -10,7 +10,16 @@ import simpy
 
 from opsim.clock import TICKS_PER_S
 from opsim.engine.floor.loop import AFTER_EVERYTHING, run_until
-from opsim.one_thread import one_blas_thread
+
+
+class _Instant:
+    """The event of the outer environment by which an instant of the own one comes."""
+
+    __slots__ = ("_defused", "at_s", "callbacks")
+    _ok, _value = True, None
+
+    def __init__(self, at_s: float, call: Callable[[_Instant], None]):
+        self.at_s, self.callbacks = at_s, [call]
 
 
 class Inside:
@@ -44,17 +53,18 @@ class Inside:
 
         NOTE: as ``Environment.schedule`` does it, for a time that is known to the bit.
         """
-        at_s = min(self.own.peek(), self.horizon_s)
+        queue = self.own._queue
+        at_s = queue[0][0] if queue else inf
+        if at_s >= self.horizon_s:
+            at_s = self.horizon_s
         if at_s in self._planned:
             return
         self._planned.add(at_s)
-        event = simpy.Event(self.outer)
-        event._ok, event._value = True, None
-        event.callbacks.append(lambda _event: self._comes(at_s))
-        due_s = max(self.outer_s(at_s), self.outer.now)
+        due_s, event = max(self.start_s + at_s, self.outer.now), _Instant(at_s, self._comes)
         heappush(self.outer._queue, (due_s, AFTER_EVERYTHING, next(self.outer._eid), event))  # type: ignore[arg-type, misc]
 
-    def _comes(self, at_s: float) -> None:
+    def _comes(self, event: _Instant) -> None:
+        at_s = event.at_s
         self._planned.discard(at_s)
         if self.failed:
             return
@@ -62,8 +72,7 @@ class Inside:
             self._over()
             return
         try:
-            with one_blas_thread():
-                run_until(self.own, nextafter(at_s, inf))
+            run_until(self.own, nextafter(at_s, inf))
         except BaseException:
             self.failed = True
             raise
