@@ -10,6 +10,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "EventLog": "opsim.log",
+    "Floor": "opsim.floor",
     "Performance": "opsim.performance",
     "Performances": "opsim.task",
     "Plan": "opsim.plan",

@@ -7,6 +7,7 @@ from itertools import accumulate
 import numpy as np
 
 from opsim.effects import worker_effect
+from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
 from opsim.plan.orders import ANY, order_of
 from opsim.plan.tools import HoldPlan, Moment
@@ -119,11 +120,22 @@ class Draws:
     def _of_worker(self, task: int, worker: int, drawn: Callable = _performed) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
         body, across = self._plan.workers[worker].body, self._plan.across_tasks
-        effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body, across)
+        with one_blas_thread():
+            effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body, across)
         return self._items(("duration", plan.name, name), drawn(plan.model, effect))
 
     def _items(self, name, draw) -> Items:
-        return Items(self._plan.seed, self._replication, name, draw)
+        return Items(self._plan.seed, self._replication, name, _on_one_thread(draw))
+
+
+def _on_one_thread(draw):
+    """The same draw, whoever asks for it: in somebody's own model nothing around it sees to that."""
+
+    def drawn(rng, block):
+        with one_blas_thread():
+            return draw(rng, block)
+
+    return drawn
 
 
 @cache

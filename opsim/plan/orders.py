@@ -67,9 +67,14 @@ def order_of(orders: tuple[OrderPlan, ...], n: int) -> OrderPlan:
 
 
 def due_of(plan: Any, source: int, n: int) -> float:
-    """When a schedule wants the n-th job of a source, in seconds from the start; inf where it does not say."""
+    """When a schedule wants the n-th job of a source, in seconds from the start; inf where it does not say.
+
+    Jobs beyond the last order were asked for by somebody's own model: no order wants them.
+    """
     orders = plan.sources[source].orders
-    return order_of(orders, n).due_s if orders else inf
+    if not orders or n >= orders[-1].first + orders[-1].quantity:
+        return inf
+    return order_of(orders, n).due_s
 
 
 def late_orders(plan: Any) -> Iterator[str]:

@@ -1,0 +1,1 @@
+"""A floor as a part of somebody's own SimPy model."""
