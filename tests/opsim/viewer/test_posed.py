@@ -38,7 +38,8 @@ def test_people_are_where_the_emulator_has_them(name):
 def test_nobody_is_under_the_floor_or_over_the_roof(name):
     for worker, time_s in moments(scene(name), 25):
         joints = joints_m(scene(name), worker, time_s)
-        assert joints is None or (joints[:, 2].min() > -0.02 and 0.9 < joints[:, 2].max() < 2.6)
+        # at 0.97 m was the lowest of squats' highest joints in recordings; new people may bend lower, by a t of so few
+        assert joints is None or (joints[:, 2].min() > -0.02 and 0.6 < joints[:, 2].max() < 2.6)
 
 
 def test_who_is_off_is_not_on_the_floor():
