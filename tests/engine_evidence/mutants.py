@@ -58,7 +58,7 @@ MUTANTS = {
     ),
     "last_who_waits": Fault(
         "tools that are given back go to who has waited shortest for them",
-        *("crib.give_out", "crib.asked[i]", "crib.asked[len(crib.asked) - 1 - i]"),
+        *("crib.give_out", "crib.asked.append(claim)", "crib.asked.insert(0, claim)"),
     ),
     "late_breaks": Fault(
         "what a calendar says happens one tick late, 2^-20 s",
