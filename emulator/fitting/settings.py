@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from emulator.model.emulator import SCHEMES
 
 AUTO = "auto"
-"""Choose the scheme by cross-validation: see ``fit_choice``."""
+"""Choose the scheme by cross-validation: see ``scheme_choice``."""
 
 CLOCK = (101, 301)
 """Fewest and most points of a common clock whose number is not asked for."""

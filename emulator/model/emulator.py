@@ -78,12 +78,12 @@ class MotionEmulator:
     ) -> MotionEmulator:
         """Align, flatten, reduce and model the repetitions of one task.
 
-        scheme       : one of SCHEMES, or "auto": see ``fit_choice``
-        n_components : posture components: a number, a share of variance in (0, 1), or None: see ``posture_size``
-        landmarks    : strength that brings marks together in the registration (see ``landmarks``; 0.01 is strong)
-        n_times      : points of the common clock, or None: as many as recordings of this length have frames at 30 Hz,
+        scheme       : one of SCHEMES, or "auto": see ``fitting.scheme_choice``
+        n_components : posture components: a number, a share of variance, or None: all above 0.1 degrees a bone
+        landmarks    : strength that brings marks together in the registration (``geometry.elastic``; 0.01 is strong)
+        n_times      : points of the common clock, or None: as many as such recordings have frames at up to 60 Hz,
                        101 to 301; n_knots : cells of the pace, 2 to n_times - 1
-        penalty      : weight that holds warps near the identity (see ``align``); None: as recordings that are given
+        penalty      : weight that holds warps near the identity (see ``geometry``); None: as recordings that are given
                        each other's pace ask for, 0: free, as in the paper
         progress     : called with (done, total, label); seed decides nothing but the figures of the report
         Raises ValueError for an unknown scheme, fewer than three repetitions, or settings out of range.
