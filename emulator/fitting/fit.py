@@ -8,14 +8,14 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from emulator.covariates.table import table_of
-from emulator.fitting.noise import STIFFNESSES, naturally, with_population
+from emulator.fitting.noise import NOISES, naturally, with_population
 from emulator.fitting.preprocessing import refuse_unsound
 from emulator.fitting.registration import Registered, registered
 from emulator.fitting.scheme_choice import choose
 from emulator.fitting.settings import AUTO, FitSettings, Progress
 from emulator.fitting.steps import Covariates, Parts, covariates_of, parts_of
-from emulator.fitting.summary import judged, summary
-from emulator.model.emulator import SCHEME, MotionEmulator
+from emulator.fitting.summary import judged, stiffness_said, summary
+from emulator.model.emulator import MotionEmulator
 from emulator.model.joint_coordinates import CURVES
 from emulator.model.reduction import JointPCA
 from emulator.model.smoothed import Curves, smoothed
@@ -77,10 +77,11 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     )
     if _is_gaussian(parts, crew, settings):
         return model
-    crews = (_blurred(crew, parts, made.moving, covariates, curves, stiffness) for stiffness in STIFFNESSES)
-    model = naturally((replace(model, workforce=blurred) for blurred in crews), motions)
-    model = replace(model, report=summary(made, parts, model.workforce, settings, covariates.lines))
-    return with_population(model, curves, motions)
+    crews = ((s, _blurred(crew, parts, made.moving, covariates, curves, s, whole)) for whole, s in NOISES)
+    own, model = naturally(((s, replace(model, workforce=blurred)) for s, blurred in crews), motions)
+    between, model = with_population(model, curves, motions)
+    report = summary(made, parts, model.workforce, settings, covariates.lines)
+    return replace(model, report=replace(report, methods=report.methods | {"stiffness": stiffness_said(own, between)}))
 
 
 def _crew(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: Covariates) -> Workforce:
@@ -92,7 +93,7 @@ def _crew(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: C
 
 def _is_gaussian(parts: Parts, crew: Workforce, settings: FitSettings) -> bool:
     """Whether Gaussians were asked for, or nothing varies within workers."""
-    return settings.scheme != SCHEME or len(parts.z) == len(crew.names) or parts.posture.n_components == 0
+    return settings.scheme.endswith("/MVG") or len(parts.z) == len(crew.names) or parts.posture.n_components == 0
 
 
 def _blurred(
@@ -102,11 +103,12 @@ def _blurred(
     covariates: Covariates,
     curves: tuple[Curves, ...],
     stiffness: float,
+    whole: bool,
 ) -> Workforce:
     """Who performs, by recorded repetitions with noise about them."""
     centred, z = parts.flat - parts.posture.mean, parts.z - covariates.within
     gram, spread = centred @ centred.T, crew.within.spread
-    scores = smoothed(z, motions.worker_index, spread, curves[0], curves[1:], gram, stiffness)
+    scores = smoothed(z, motions.worker_index, spread, curves[0], curves[1:], gram, stiffness, whole)
     return replace(crew, smoothed=scores)
 
 

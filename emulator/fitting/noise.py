@@ -20,18 +20,23 @@ from emulator.model.smoothed import Curves, stiff
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
-STIFFNESSES = (4.0, 8.0, 16.0, 32.0, 64.0)
-"""How much smoother than the recordings the noise about them may be, to choose from."""
+NOISES = (*((False, s) for s in (4.0, 16.0, 64.0)), *((True, s) for s in (4.0, 8.0, 16.0, 32.0, 64.0)))
+"""How much smoother than the recordings the noise about them may be, to choose from: at first beside the whole of their
+fine detail, and where that moves roughly, with the detail drawn in as far as all else."""
 PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
 """Draws of known and of new people may have so many times the recorded peak jerk."""
-MOST_FAST = 0.05
-"""And this share of new people a joint that is too fast."""
+MOST_FAST, MOST_FAST_NEW = 0.01, 0.05
+"""And this share of them a joint that is too fast."""
 N_DRAWN = 100
 
 
-def naturally(models: Iterable[MotionEmulator], motions: MotionSet) -> MotionEmulator:
+Stiff = tuple[float, MotionEmulator]
+"""How much smoother than what was recorded the noise is, and the model with it."""
+
+
+def naturally(models: Iterable[Stiff], motions: MotionSet) -> Stiff:
     """Of models from the least stiff on the first whose draws of known people are smooth enough; else the last."""
     each = -(-N_DRAWN // len(motions))
 
@@ -40,21 +45,21 @@ def naturally(models: Iterable[MotionEmulator], motions: MotionSet) -> MotionEmu
         scores = [model.sample(each, rng, worker=motion.worker).scores for motion in motions.motions]
         return model.performances(np.concatenate(scores))
 
-    return _first(models, alike, motions, MOST_JERK, 1.0)
+    return _first(models, alike, motions, MOST_JERK, MOST_FAST)
 
 
-def with_population(model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet) -> MotionEmulator:
+def with_population(model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet) -> Stiff:
     """The model with the least stiff law of new people whose draws are smooth and slow enough; else the stiffest.
 
     Unstiff, all of a person's deviation takes the size that the t gives it, fine detail and all: the law is widest, and
-    roughest. The same model where there is one person, or plain Gaussians.
+    roughest. The same model, and 0, where there is one person, or plain Gaussians.
     """
     crew = model.workforce
     if crew.smoothed is None or not crew.has_worker_effect:
-        return model
-    populations = (population(model, curves, stiffness) for stiffness in PEOPLE_STIFFNESSES)
-    models = (replace(model, workforce=replace(crew, population=law)) for law in populations)
-    return _first(models, lambda m: m.sample(N_DRAWN, np.random.default_rng(0)), motions, MOST_JERK_NEW, MOST_FAST)
+        return 0.0, model
+    populations = ((stiffness, population(model, curves, stiffness)) for stiffness in PEOPLE_STIFFNESSES)
+    models = ((stiffness, replace(model, workforce=replace(crew, population=law))) for stiffness, law in populations)
+    return _first(models, lambda m: m.sample(N_DRAWN, np.random.default_rng(0)), motions, MOST_JERK_NEW, MOST_FAST_NEW)
 
 
 def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float) -> Population:
@@ -68,17 +73,19 @@ def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: flo
 
 
 def _first(
-    models: Iterable[MotionEmulator],
+    models: Iterable[Stiff],
     draw: Callable[[MotionEmulator], MotionPerformances],
     motions: MotionSet,
     most_jerk: float,
     most_fast: float,
-) -> MotionEmulator:
-    recorded, rate_hz = None, frame_rate_hz(motions)
-    for model in models:
+) -> Stiff:
+    recorded, rate_hz, last = None, frame_rate_hz(motions), None
+    for last in models:
+        model = last[1]
         recorded = recorded or Clips.recorded(motions, model.skeleton)
         drawn = Clips.drawn(draw(model), rate_hz)
         rough = peak_ratio(drawn, recorded, 3)
         if (np.isnan(rough) or rough <= most_jerk) and share_too_fast(drawn, recorded) <= most_fast:
             break
-    return model
+    assert last is not None
+    return last

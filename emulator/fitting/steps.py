@@ -8,12 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from emulator.covariates.model import CovariateModel
 from emulator.covariates.table import CovariateTable, table_of
 from emulator.fitting.registration import LARGEST_PACE, Registered
 from emulator.fitting.settings import FitSettings
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
 from emulator.geometry.warps import clock_to_coordinates, clr, from_clr
 from emulator.model.decoding import RootChannel
 from emulator.model.dwell_fit import fit_dwells, predictors
@@ -27,6 +28,10 @@ from emulator.people.workers import Told
 
 BONE_SHARE, FINE_RAD, FINE_ROOT = 0.98, 0.002, 0.0001
 LARGEST_POSTURE, LARGEST_ROOT = 200, 200
+FLATTENINGS: dict[str, type[SIEM] | type[Extrinsic]] = {"Extrinsic": Extrinsic, "SIEM": SIEM}
+SMOOTH_SHARE, N_SMOOTH = 0.06, 8
+"""How wide the means over time are that smooth components are made of, as a share of the clock, and how many those
+are: 0.03 or 0.1 is rougher, 5 leave the noise of a squat a tenth shorter."""
 DURATION_KNOTS, MARK_KNOTS = 12, 60
 ALL = 1.0 - 1e-6
 """Of the pace nothing is left out but rounding: registration did already."""
@@ -37,10 +42,10 @@ LARGEST_ICC_FOR_SCORES = 0.3
 class Parts:
     """The steps of a model and what they make of the recordings.
 
-    flat : (N, P) tangent postures on the common clock; z : (N, K) joint coordinates
+    flat : (N, P) flat postures on the common clock; z : (N, K) joint coordinates
     """
 
-    flatten: SIEM
+    flatten: Flattening
     posture: JointPCA
     root: JointPCA
     pace: JointPCA
@@ -56,13 +61,15 @@ class Parts:
 
 def parts_of(made: Registered, settings: FitSettings) -> Parts:
     """Fit every step and go forward through it."""
-    flatten, n_times = SIEM.fit(made.directions), made.warps.shape[1]
+    representation, _, density = settings.scheme.split("/")
+    flatten, n_times = FLATTENINGS[representation].fit(made.directions), made.warps.shape[1]
     flat = flatten.forward(made.directions).reshape(len(made.directions), -1)
-    posture = stored(_posture_components(flat, settings.n_components), n_times)
+    smooth = SMOOTH_SHARE * n_times if density == "Smoothed" else 0.0
+    posture = stored(_posture_components(with_smooth(flat, n_times, smooth), flatten, settings.n_components), n_times)
     log_bones = _log_bones(made.moving)
     bones = JointPCA.fit(log_bones, BONE_SHARE)
     channel = made.channels()
-    root = stored(_finely(channel, FINE_ROOT, LARGEST_ROOT), n_times)
+    root = stored(_finely(with_smooth(channel, n_times, smooth), FINE_ROOT, LARGEST_ROOT), n_times)
     slopes = clr(made.warps, settings.n_knots)
     pace = JointPCA.fit(slopes, ALL, LARGEST_PACE)
     marks = clock_to_coordinates(made.mark_clock(from_clr(pace.inverse(pace.forward(slopes)), n_times)))
@@ -101,11 +108,26 @@ def duration_margin(log_duration: np.ndarray, worker_index: np.ndarray) -> Margi
     return fit_margin(log_duration, residual[:0] if icc > LARGEST_ICC_FOR_SCORES else residual, DURATION_KNOTS)
 
 
-def _posture_components(flat: np.ndarray, n_components: int | float | None) -> JointPCA:
+def with_smooth(rows: np.ndarray, n_times: int, width: float) -> np.ndarray:
+    """Rows (N, T * C), and what is smooth of them: a few principal parts of their means over ``width`` points of time.
+
+    What recordings differ by is as rough as they are, and no sum of it is smooth. Components of both leave a law room
+    to move a movement without making it rough. The same rows where width is 0.
+    """
+    if width <= 0 or len(rows) < 2:
+        return rows
+    mean = rows.mean(axis=0)
+    curves = (rows - mean).reshape(len(rows), n_times, -1)
+    means = gaussian_filter1d(curves, width, axis=1, mode="nearest").reshape(rows.shape)
+    u, d, vt = np.linalg.svd(means, full_matrices=False)
+    return np.concatenate([rows, mean + (u[:, :N_SMOOTH] * d[:N_SMOOTH]) @ vt[:N_SMOOTH]])
+
+
+def _posture_components(rows: np.ndarray, flatten: Flattening, n_components: int | float | None) -> JointPCA:
     """As many as asked for, or all that say more than ``FINE_RAD`` a bone, which no recording knows better."""
     if n_components is None:
-        return _finely(flat, FINE_RAD / np.sqrt(2.0), LARGEST_POSTURE)
-    return JointPCA.fit(flat, n_components)
+        return _finely(rows, FINE_RAD / np.sqrt(flatten.n_channels / flatten.n_bones), LARGEST_POSTURE)
+    return JointPCA.fit(rows, n_components)
 
 
 def _finely(rows: np.ndarray, fine: float, largest: int) -> JointPCA:

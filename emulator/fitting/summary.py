@@ -11,13 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from emulator.fitting.noise import MOST_JERK
 from emulator.fitting.registration import Registered
 from emulator.fitting.report import FitReport, TimeFit
 from emulator.fitting.settings import FitSettings
 from emulator.fitting.steps import Parts
 from emulator.geometry import sphere
 from emulator.geometry.alignment import resample
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import Flattening
 from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.feet import footing
 from emulator.judge.joint_speeds import peak_ratio, share_too_fast
@@ -25,7 +26,7 @@ from emulator.judge.posture_tests import disco, novelty, roughness
 from emulator.judge.sequence_distances import distances, pooled
 from emulator.model.dwell_fit import HOLDS_METHOD, said
 from emulator.model.dwell_times import NONE
-from emulator.model.emulator import SCHEME, SCHEMES, MotionEmulator
+from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import fastest_m_per_s
 from emulator.model.performances import MotionPerformances
 from emulator.model.reduction import JointPCA
@@ -37,7 +38,7 @@ STRANGE, FEWEST_TO_JUDGE = 6.0, 6
 """Of 263 correct public repetitions one lies this many times as far from the nearest other as they usually do."""
 
 
-def reconstruction_deg(flatten: SIEM, directions: np.ndarray, n_components: int, n_folds: int = 5) -> float:
+def reconstruction_deg(flatten: Flattening, directions: np.ndarray, n_components: int, n_folds: int = 5) -> float:
     """Mean angle (degrees a bone) between aligned repetitions (N, T, B, 3) and their projection on others' components.
 
     Folds are every ``n_folds``-th repetition, so that in each some repetitions of every worker are left in.
@@ -51,14 +52,11 @@ def reconstruction_deg(flatten: SIEM, directions: np.ndarray, n_components: int,
         if rank < 1:
             return float("nan")
         pca = JointPCA.fit(flat[~held], 0.999999, min(n_components, rank))
-        again = flatten.inverse(pca.inverse(pca.forward(flat[held])).reshape(-1, *flatten_shape(directions)))
+        again = flatten.inverse(
+            pca.inverse(pca.forward(flat[held])).reshape(-1, directions.shape[1], flatten.n_channels)
+        )
         angles.append(sphere.angle(again, directions[held]).mean(axis=(1, 2)))
     return float(np.degrees(np.concatenate(angles).mean()))
-
-
-def flatten_shape(directions: np.ndarray) -> tuple[int, int]:
-    """(T, 2B) of directions (N, T, B, 3)."""
-    return directions.shape[1], 2 * directions.shape[2]
 
 
 def strangers(left_out: np.ndarray, names: Sequence[str]) -> tuple[str, ...]:
@@ -80,12 +78,17 @@ HELD = (
 )
 ROOT = "a path of its own in leg lengths, and the heading; feet stand when and as those of the nearest recording did"
 SMOOTHED = (
-    "mixtures of two recordings of one worker, mostly of the first, each blurred by smooth low-rank noise that makes a "
-    "posture up to seven eighths as far from the nearest recording as a left-out recording is, other coordinates by "
-    "Silverman's rule; slopes of the pace within a fifth of the recorded ones; a known worker from the worker's own "
-    "repetitions, and with the weight of one of them from everybody's deviations about the worker's shrunk mean; a new "
-    "worker near a recorded one, with smooth noise between people, of the size that a t gives to the next of so few"
+    "recordings blurred by smooth low-rank noise that makes a posture at most as far from the nearest recording as a "
+    "left-out recording is, other coordinates by Silverman's rule; slopes of the pace within a fifth of the recorded "
+    "ones; a known worker from the worker's own repetitions, and with the weight of one of them from everybody's "
+    "deviations about the worker's shrunk mean; a new worker near a recorded one, with smooth noise between people, of "
+    "the size that a t gives to the next of so few"
 )
+STIFFNESS = (
+    "noise {:g} times as smooth as what recordings of one worker differ by{}: the least smooth tried at which draws "
+    "jerk no more than {:g} times as hard as the recordings, or the smoothest"
+)
+STIFFNESS_PEOPLE = ", that between people {:g} times as smooth as what they differ by"
 POSTURE_SIZE = "all that say more than 0.1 degrees a bone"
 ROUGH_NOTE = (
     "draws of new people are much rougher than the recordings: the people differ in kind (for example in the leading "
@@ -118,7 +121,7 @@ def summary(
     icc = intraclass_correlation(np.log(duration_s), whole.worker_index)
     return FitReport(
         task=whole.task,
-        scheme=SCHEME if workforce.smoothed else SCHEMES[1],
+        scheme=settings.scheme if workforce.smoothed else settings.scheme.replace("Smoothed", "MVG"),
         n_sequences=len(whole),
         n_workers=len(whole.workers),
         n_components=parts.posture.n_components,
@@ -142,6 +145,11 @@ def summary(
         notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole)),
         fastest_m_per_s=fastest_m_per_s(made.moving.motions),
     )
+
+
+def stiffness_said(own: float, between: float) -> str:
+    """How smooth the noise is in which recordings are blurred, and that between people; 0 where there is none."""
+    return STIFFNESS.format(own, STIFFNESS_PEOPLE.format(between) if between else "", MOST_JERK)
 
 
 def _once(whole: MotionSet) -> tuple[str, ...]:
@@ -236,7 +244,7 @@ def _times(drawn: MotionPerformances, made: Registered) -> tuple[TimeFit, ...]:
 def _methods(made: Registered, parts: Parts, workforce: Workforce, settings: FitSettings) -> dict[str, str]:
     methods = {
         "registration": "S-TSRVF, dynamic programming, group template, warps centred; " + HELD.format(made.penalty),
-        "pace": "centred log ratio of the warps, monotone cubic between knots, PCA",
+        "pace": "centred log ratio of the warps, a cubic spline of log slopes, PCA",
         "components": POSTURE_SIZE if settings.n_components is None else "as asked for",
         "density": GAUSSIAN.format(rho=f"{workforce.within.rho:.3f}") if workforce.smoothed is None else SMOOTHED,
         "workers": BETWEEN_METHOD.format(rho=f"{workforce.between.rho:.3f}"),

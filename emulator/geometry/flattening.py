@@ -32,9 +32,14 @@ class SIEM:
         return cls(base_points(directions)[1])
 
     @property
+    def n_bones(self) -> int:
+        """B."""
+        return len(self.reference)
+
+    @property
     def n_channels(self) -> int:
         """Coordinates of a posture: two a bone."""
-        return 2 * len(self.reference)
+        return 2 * self.n_bones
 
     def forward(self, directions: np.ndarray) -> np.ndarray:
         """Directions (..., B, 3) -> tangent coordinates (..., 2B), radians.
@@ -50,6 +55,43 @@ class SIEM:
         tangent = pairs[..., :1] * plane[:, 0] + pairs[..., 1:] * plane[:, 1]  # einsum: the same bits, 2.5 times slower
         return sphere.exp(np.broadcast_to(self.reference, tangent.shape), tangent)
 
+
+@dataclass(frozen=True)
+class Extrinsic:
+    """The sphere in the room it lies in: a bone's unit vector is its three coordinates, and the way back is to unit
+    length.
+
+    No place of the sphere is far from another one as the tangent space of one posture has it: there the thigh of a
+    squat or the hand of a throw, 2.5 rad from the mean, moves five times as fast as on the sphere, and what is added to
+    it jerks. A mean of recordings here is their extrinsic mean.
+    Source: Bhattacharya & Patrangenaru (2003), sec. 3; n_bones : B
+    """
+
+    n_bones: int
+
+    @classmethod
+    def fit(cls, directions: np.ndarray) -> Extrinsic:
+        """The map for directions (..., B, 3); it depends on nothing else of them."""
+        return cls(directions.shape[-2])
+
+    @property
+    def n_channels(self) -> int:
+        """Coordinates of a posture: three a bone."""
+        return 3 * self.n_bones
+
+    def forward(self, directions: np.ndarray) -> np.ndarray:
+        """Directions (..., B, 3) -> coordinates (..., 3B)."""
+        return directions.reshape(*directions.shape[:-2], self.n_channels)
+
+    def inverse(self, coordinates: np.ndarray) -> np.ndarray:
+        """Coordinates (..., 3B) -> directions (..., B, 3). Vectors shorter than 1e-9 stay as short."""
+        vectors = coordinates.reshape(*coordinates.shape[:-1], self.n_bones, 3)
+        length = np.sqrt(np.einsum("...c,...c->...", vectors, vectors))[..., None]
+        return np.asarray(vectors / np.maximum(length, SHORTEST))
+
+
+Flattening = SIEM | Extrinsic
+SHORTEST = 1e-9
 
 LARGEST_STEP_RAD = 0.3
 """The series hold to 1e-13 for bones that turn less than this between two points of a sequence."""

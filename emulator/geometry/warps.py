@@ -69,66 +69,41 @@ def clr(gamma: np.ndarray, n_knots: int = 20) -> np.ndarray:
 
 
 def from_clr(x: np.ndarray, n_times: int = 101) -> np.ndarray:
-    """The warps (..., T) with centred log ratio x (..., K): exact at the K + 1 knots, smooth between.
+    """The warps (..., T) whose log slope is, up to a constant, the cubic spline with control points x (..., K).
 
-    Between the knots a monotone cubic (Fritsch & Carlson 1980 with harmonic-mean slopes), so that speed does not jump.
+    The points lie in the middles of K equal cells, and the outermost go on beyond the ends. A spline does not go
+    through its control points: the slopes are those of ``clr`` a little smoothed. So a warp has three derivatives, and
+    a posture under another's pace does not jerk where the cells meet.
     """
-    rise = np.exp(x - np.max(x, axis=-1, keepdims=True))
-    rise = rise / rise.sum(-1, keepdims=True)
-    return _monotone_cubic(rise, np.linspace(0.0, 1.0, n_times))
-
-
-def from_clr_at(x: np.ndarray, at: np.ndarray, n_times: int = 101) -> np.ndarray:
-    """``evaluate(from_clr(x, n_times), at)`` for x (n, K) and at (n, E) in [0, 1]: (n, E), without whole warps."""
-    n, n_knots = x.shape
-    place = at * (n_times - 1)
-    low = np.minimum(place.astype(int), n_times - 2)
-    point = np.concatenate([low, low + 1], axis=1)
-    cell, weight, sums = _cubic_table(n_knots, n_times)
-    inner = np.exp(x)
-    level = inner @ sums  # NOTE: five times faster than cumsum along short rows
-    rise = np.empty((n, n_knots + 2))
-    rise[:, 1:-1], rise[:, 0], rise[:, -1] = inner, inner[:, 0], inner[:, -1]
-    where = cell.take(point) + np.arange(0, n * (n_knots + 2), n_knots + 2)[:, None]
-    before, here, after = rise.take(where), rise.take(where + 1), rise.take(where + 2)
-    start, stop = before * here / (before + here), here * after / (here + after)
-    value = level.take(where) + here * weight[0].take(point)
-    value += start * weight[1].take(point)
-    value += stop * weight[2].take(point)
-    value /= level[:, -2:-1]
-    left, right = value[:, : at.shape[1]], value[:, at.shape[1] :]
-    return np.asarray(left + (right - left) * (place - low))
+    slope = np.exp(np.asarray(x, float) @ _spline_table(np.shape(x)[-1], n_times))
+    level = np.cumsum(slope, axis=-1)
+    whole = level / level[..., -1:]
+    return np.concatenate([np.zeros((*whole.shape[:-1], 1)), whole], axis=-1)
 
 
 @lru_cache(maxsize=16)
-def _cubic_table(n_knots: int, n_times: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Cells (T,) of the points of the clock, weights (3, T) of the rise there and of half the slopes about it, and the
-    matrix (K, K + 2) that adds up rises before each knot; its last column is empty."""
-    cell, u = _cells(np.linspace(0.0, 1.0, n_times), n_knots)
-    weight = np.stack([u * u * (3.0 - 2.0 * u), 2.0 * u * (1.0 - u) ** 2, 2.0 * u * u * (u - 1.0)])
-    sums = np.triu(np.ones((n_knots, n_knots + 2)), 1)
-    sums[:, -1] = 0.0
-    return cell, weight, sums
+def _spline_table(n_knots: int, n_times: int) -> np.ndarray:
+    """(K, T - 1) weights of the control points in the middles of the clock's cells."""
+    place = (np.arange(n_times - 1) + 0.5) / (n_times - 1) * n_knots - 0.5
+    cell = np.floor(place).astype(int)
+    u = place - cell
+    weights = (1.0 - u) ** 3, 3.0 * u**3 - 6.0 * u**2 + 4.0, 3.0 * (1.0 - u) ** 3 - 6.0 * (1.0 - u) ** 2 + 4.0, u**3
+    table = np.zeros((n_knots, n_times - 1))
+    for step, weight in zip((-1, 0, 1, 2), weights):
+        np.add.at(table, (np.clip(cell + step, 0, n_knots - 1), np.arange(n_times - 1)), weight / 6.0)
+    return table
 
 
-def _cells(at: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-    cell = np.minimum((at * n).astype(int), n - 1)
-    return cell, at * n - cell
+def through(x: np.ndarray) -> np.ndarray:
+    """Control points (..., K) of the spline that goes through x (..., K) in the middles of the cells.
 
-
-def _monotone_cubic(rise: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """The monotone cubic through the running sums of rise (..., K) on K equal cells of [0, 1], at (S,): (..., S)."""
-    n = rise.shape[-1]
-    zero = np.zeros((*rise.shape[:-1], 1))
-    level = np.concatenate([zero, np.cumsum(rise, axis=-1)], axis=-1)
-    inner = 2.0 * rise[..., :-1] * rise[..., 1:] / (rise[..., :-1] + rise[..., 1:])
-    slope = np.concatenate([rise[..., :1], inner, rise[..., -1:]], axis=-1)
-    cell, u = _cells(at, n)
-    h1 = u * u * (3.0 - 2.0 * u)
-    h2, h3 = u * (1.0 - u) ** 2, u * u * (u - 1.0)
-    return (level[..., cell] + rise[..., cell] * h1 + slope[..., cell] * h2 + slope[..., cell + 1] * h3) / level[
-        ..., -1:
-    ]
+    Libraries of before have the slopes themselves, with a monotone cubic through the knots.
+    """
+    n_knots = np.shape(x)[-1]
+    at = np.zeros((n_knots, n_knots))
+    for step, weight in ((-1, 1 / 6), (0, 4 / 6), (1, 1 / 6)):
+        np.add.at(at, (np.clip(np.arange(n_knots) + step, 0, n_knots - 1), np.arange(n_knots)), weight)
+    return np.asarray(x @ np.linalg.inv(at))
 
 
 def mean(gammas: np.ndarray, *, max_iterations: int = 50) -> np.ndarray:

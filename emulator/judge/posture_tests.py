@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from emulator.geometry import sphere
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import Flattening
 from emulator.model.reduction import JointPCA
 
 _BLOCK = 200
@@ -135,7 +135,7 @@ def reconstruction_error(sequences: np.ndarray, again: np.ndarray) -> float:
     return float(np.mean([sphere.distance(one, other).mean() for one, other in zip(sequences, again)]))
 
 
-def joint_reconstruction(flatten: SIEM, reduce: JointPCA, sequences: np.ndarray) -> np.ndarray:
+def joint_reconstruction(flatten: Flattening, reduce: JointPCA, sequences: np.ndarray) -> np.ndarray:
     """Sequences (n, T, B, 3) as their joint components give them back."""
     tangent = flatten.forward(sequences)
     flat = tangent.reshape(len(tangent), -1)

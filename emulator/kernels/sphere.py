@@ -238,6 +238,26 @@ def decode_block(control, place, largest, wave, frame, scratch, out, beyond):
             beyond[i] += to_directions(at, wave, frame, largest, out[i, s])
 
 
+@compiled(fastmath=FAST, error_model="numpy", nogil=True)
+def decode_vectors(control, place, shortest, scratch, out):
+    """The same of control points (n, T + 2, 3B) of the vectors themselves: made unit, unless ``shortest`` or less."""
+    number = control.dtype.type
+    weight = scratch[:4]
+    for i in range(control.shape[0]):
+        for s in range(place.shape[1]):
+            cell = min(int(place[i, s]), control.shape[1] - 4)
+            spline_weights(number(place[i, s] - cell), weight)
+            w0, w1, w2, w3 = weight[0], weight[1], weight[2], weight[3]
+            p, q, r, t = control[i, cell], control[i, cell + 1], control[i, cell + 2], control[i, cell + 3]
+            to = out[i, s]
+            for c in range(to.size):
+                to[c] = w0 * p[c] + w1 * q[c] + w2 * r[c] + w3 * t[c]
+            for b in range(to.size // 3):
+                x, y, z = to[3 * b], to[3 * b + 1], to[3 * b + 2]
+                less = number(1) / max(np.sqrt(x * x + y * y + z * z), shortest)
+                to[3 * b], to[3 * b + 1], to[3 * b + 2] = x * less, y * less, z * less
+
+
 @compiled(nogil=True)
 def uphill(distances, density, radius):
     """The nearest point of higher density within ``radius`` of each point (n,), itself where there is none: a mode.

@@ -1,9 +1,9 @@
 """Decoding: coefficients of a posture model -> unit directions at any moments of the common clock, in blocks.
 
-Between its points the clock's tangent coordinates go along a cubic spline (twice differentiable), so that a joint's
+Between its points the clock's flat coordinates go along a cubic spline (twice differentiable), so that a joint's
 acceleration does not jump at them. The spline is linear in the coordinates: its control points are those of the
-components, made once, and a block is one matrix product and one pass. The pass uses series, good to 1e-14 for bones
-within 3.16 rad of their reference; a sequence beyond that is decoded by the numpy twin.
+components, made once, and a block is one matrix product and one pass. Of tangent coordinates the pass uses series, good
+to 1e-14 for bones within 3.16 rad of their reference; a sequence beyond that is decoded by the numpy twin.
 
 The way of the root in leg lengths, so that another body walks as far as its legs are long, and the heading.
 
@@ -20,7 +20,7 @@ from math import factorial
 
 import numpy as np
 
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import SHORTEST, SIEM, Flattening
 from emulator.model.reduction import JointPCA
 from emulator.motion import turn
 from emulator.skeleton import Skeleton
@@ -32,10 +32,10 @@ BLOCK_BYTES = 2**20
 
 @dataclass(frozen=True, eq=False)
 class Decoder:
-    """What decodes the coefficients (n, K) of a posture model: its components' control points and bones' frames."""
+    """What decodes the coefficients (n, K) of a posture model."""
 
     posture: JointPCA
-    flatten: SIEM
+    flatten: Flattening
 
     @property
     def n_times(self) -> int:
@@ -52,41 +52,53 @@ class Decoder:
 
         float32 agrees with float64 to about 1e-6.
         """
-        from emulator.kernels.sphere import PITCH, decode_block
+        from emulator.kernels.sphere import PITCH
 
-        out = np.empty((len(coefficients), place.shape[1], len(self.flatten.reference), 3), dtype)
-        if out.shape[2] > PITCH:
+        out = np.empty((len(coefficients), place.shape[1], self.flatten.n_bones, 3), dtype)
+        if isinstance(self.flatten, SIEM) and out.shape[2] > PITCH:
             out[:] = directions_numpy(self.posture, self.flatten, coefficients, place)
             return out
-        basis, wave, frame = self._tables[out.dtype]
-        limit, scratch = out.dtype.type(LARGEST_TURN_RAD**2), np.empty(self.flatten.n_channels + 4, out.dtype)
+        basis = self._basis[out.dtype]
         at_once = max(1, BLOCK_BYTES // (basis.shape[1] * out.itemsize))
         for start in range(0, len(out), at_once):
             rows = slice(start, start + at_once)
             some = coefficients[rows]
             with_mean = np.concatenate([some, np.ones((len(some), 1))], axis=1).astype(out.dtype)
             control = (with_mean @ basis).reshape(len(some), self.n_times + 2, -1)
-            beyond = np.zeros(len(some), dtype=np.int64)
-            to = out[rows].reshape(*place[rows].shape, -1)
-            decode_block(control, place[rows], limit, wave, frame, scratch, to, beyond)
-            if np.any(beyond):
-                far = beyond > 0
+            far = self._decoded(control, place[rows], out[rows].reshape(*place[rows].shape, -1))
+            if np.any(far):
                 out[rows][far] = directions_numpy(self.posture, self.flatten, some[far], place[rows][far])
         return out
 
+    def _decoded(self, control: np.ndarray, place: np.ndarray, to: np.ndarray) -> np.ndarray:
+        """Directions to (n, S, 3B) of control points; which sequences (n,) are beyond what the series are good for."""
+        from emulator.kernels.sphere import decode_block, decode_vectors
+
+        number, beyond = control.dtype.type, np.zeros(len(control), dtype=np.int64)
+        scratch = np.empty(control.shape[2] + 4, control.dtype)
+        if isinstance(self.flatten, SIEM):
+            wave, frame = self._series[control.dtype]
+            decode_block(control, place, number(LARGEST_TURN_RAD**2), wave, frame, scratch, to, beyond)
+        else:
+            decode_vectors(control, place, number(SHORTEST), scratch, to)
+        return beyond > 0
+
     @cached_property
-    def _tables(self) -> dict[np.dtype, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """For each type of number: control points of the components and the mean, the series, the bones' frames."""
+    def _basis(self) -> dict[np.dtype, np.ndarray]:
+        """For each type of number: control points of the components and the mean."""
         rows = np.concatenate([self.posture.basis, self.posture.mean[None]])
         basis = control_points(rows.reshape(len(rows), self.n_times, -1)).reshape(len(rows), -1)
-        parts = basis, _wave(), _frame(self.flatten.reference)
-        return {
-            np.dtype(name): (parts[0].astype(name), parts[1].astype(name), parts[2].astype(name))
-            for name in ("float64", "float32")
-        }
+        return {np.dtype(name): basis.astype(name) for name in ("float64", "float32")}
+
+    @cached_property
+    def _series(self) -> dict[np.dtype, tuple[np.ndarray, np.ndarray]]:
+        """For each type of number: the series, and the bones' frames; of tangent coordinates only."""
+        assert isinstance(self.flatten, SIEM)
+        frame = _frame(self.flatten.reference)
+        return {np.dtype(name): (_wave().astype(name), frame.astype(name)) for name in ("float64", "float32")}
 
 
-def directions_numpy(posture: JointPCA, flatten: SIEM, coefficients: np.ndarray, place: np.ndarray) -> np.ndarray:
+def directions_numpy(posture: JointPCA, flatten: Flattening, coefficients: np.ndarray, place: np.ndarray) -> np.ndarray:
     """The same as ``Decoder.directions`` in float64, sequence by sequence and without compiled code: the definition."""
     from scipy.interpolate import CubicSpline
 

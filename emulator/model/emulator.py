@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from emulator.fitting.report import FitReport
-from emulator.geometry.flattening import SIEM
-from emulator.geometry.warps import coordinates_to_clock, from_clr, from_clr_at
+from emulator.geometry.flattening import Flattening
+from emulator.geometry.warps import coordinates_to_clock, evaluate, from_clr
 from emulator.model import dwell_times
 from emulator.model.conditioning import CONDITIONS, given
 from emulator.model.decoding import Decoder, RootChannel
@@ -26,8 +26,8 @@ from emulator.motion import MotionSet
 from emulator.people.workers import WorkerEffect, Workforce
 from emulator.skeleton import Skeleton
 
-SCHEME = "SIEM/JointPCA/Smoothed"
-SCHEMES = (SCHEME, "SIEM/JointPCA/MVG")
+SCHEME = "Extrinsic/JointPCA/Smoothed"
+SCHEMES = (SCHEME, "SIEM/JointPCA/Smoothed", "SIEM/JointPCA/MVG")
 SLOPE_ROOM = np.log(1.2)
 FASTER = 1.1
 
@@ -36,7 +36,7 @@ FASTER = 1.1
 class MotionEmulator:
     """A task's model: the steps from recordings to joint coordinates z, each with its way back, and the Gaussians of z.
 
-    posture, root, pace, bones : JointPCA of tangent postures (T * 2B), side channel (T * 4), pace (Q), log bones (B)
+    posture, root, pace, bones : JointPCA of flat postures (T * C), side channel (T * 4), pace (Q), log bones (B)
     margin, mark_margins : of log moving duration (the whole duration, if nothing pauses), of each mark's coordinate
     dwells : sites of pauses and the law of each dwell; whole duration = moving duration + dwells
     footing : when and how the recorded feet stood, or None
@@ -47,7 +47,7 @@ class MotionEmulator:
     skeleton: Skeleton
     mark_names: tuple[str, ...]
     n_times: int
-    flatten: SIEM
+    flatten: Flattening
     posture: JointPCA
     root: JointPCA
     pace: JointPCA
@@ -130,7 +130,7 @@ class MotionEmulator:
     def mark_share(self, scores: np.ndarray) -> np.ndarray:
         """(n, E) the share of its own duration at which each mark of a performance falls."""
         clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        share = from_clr_at(self._slopes(scores), clock, self.n_times)
+        share = evaluate(self.warps(scores), clock)
         return share if len(self.dwells) == 0 else dwell_times.mark_share(self, scores, share)
 
     def mean_duration_s(self, worker: Any = None) -> float:

@@ -14,7 +14,8 @@ import numpy as np
 
 from emulator.covariates import serialise as stored
 from emulator.fitting.report import FitReport
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
+from emulator.geometry.warps import through
 from emulator.model.dwell_times import NONE, Dwells
 from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import FIRST_PRINT, NO_FLOOR_M, PRINT, Footing
@@ -29,7 +30,7 @@ from emulator.skeleton import Skeleton
 PCA = ("posture", "root", "pace", "bones")
 DWELLS = ("clock", "zero_share", "mark_share")
 POPULATION = ("rows", "drawn_in")
-SMOOTHED = ("scores", "owner", "reach", "factor", "spread", "drawn_in", "partner", "tells")
+SMOOTHED = ("scores", "owner", "reach", "factor", "spread", "drawn_in", "tells")
 
 
 def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -43,6 +44,7 @@ def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     plain: dict[str, Any] = {
         "rides": model.rides,
+        "spline_pace": True,
         "skeleton": {"names": list(model.skeleton.names), "parents": list(model.skeleton.parents)},
         "mark_names": list(model.mark_names),
         "n_times": model.n_times,
@@ -55,12 +57,13 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         "report": model.report.as_dict(),
     }
     arrays = {
-        "reference": model.flatten.reference,
         "centre": model.scale.centre,
         "spread": model.scale.spread,
         "effects": model.workforce.effects,
         "doubt": model.workforce.doubt,
     }
+    if isinstance(model.flatten, SIEM):
+        arrays["reference"] = model.flatten.reference
     if len(model.dwells):
         plain["dwell_slopes"] = [margin.slope for margin in model.dwells.margins]
         arrays |= {f"dwell_{name}": getattr(model.dwells, name) for name in DWELLS}
@@ -100,7 +103,7 @@ def _steps(whole: np.ndarray, n_times: int) -> np.ndarray:
     return np.concatenate([grid[:, :1], np.diff(grid, axis=1)], axis=1)
 
 
-NEW = ("drawn_in", "partner", "tells")
+NEW = ("drawn_in", "tells")
 """Of smoothed scores, what libraries of before do not have."""
 
 
@@ -126,15 +129,16 @@ def _unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray
     mark_names = tuple(str(name) for name in plain["mark_names"])
     if (size["duration"], size["marks"]) != (1, len(mark_names)):
         raise ValueError(f"{task}: {size['marks']} mark coordinates for {len(mark_names)} marks")
+    flatten = parts.flatten(skeleton.n_bones)
     return MotionEmulator(
         task,
         skeleton,
         mark_names,
         n_times,
-        SIEM(parts.reference(skeleton.n_bones)),
-        parts.long_pca("posture", size["posture"], 2 * skeleton.n_bones),
+        flatten,
+        parts.long_pca("posture", size["posture"], flatten.n_channels),
         parts.long_pca("root", size["root"], 4),
-        parts.short_pca("pace", size["pace"], -1),
+        parts.pace(size["pace"]),
         parts.short_pca("bones", size["bones"], skeleton.n_bones),
         parts.margin("margin", 0),
         tuple(parts.margin("margin", 1 + e) for e in range(len(mark_names))),
@@ -182,11 +186,14 @@ class _Parts:
             raise ValueError(f"{self.task}/{name} has shape {found.shape}, expected {shape}")
         return found
 
-    def reference(self, n_bones: int) -> np.ndarray:
+    def flatten(self, n_bones: int) -> Flattening:
+        """Tangent coordinates where a reference is there, as in all libraries of before."""
+        if f"{self.task}/reference" not in self.arrays:
+            return Extrinsic(n_bones)
         reference = self.array("reference", n_bones, 3)
         if not np.allclose(np.linalg.norm(reference, axis=-1), 1.0, atol=1e-6):
             raise ValueError(f"{self.task}/reference: found vectors of another length than 1")
-        return reference
+        return SIEM(reference)
 
     def spread(self) -> np.ndarray:
         spread = self.array("spread", self.k)
@@ -202,6 +209,12 @@ class _Parts:
     def short_pca(self, name: str, size: int, length: int) -> JointPCA:
         mean = self.array(f"{name}_mean", length)
         return JointPCA(mean, self.array(f"{name}_basis", size, len(mean)), self._share(name))
+
+    def pace(self, size: int) -> JointPCA:
+        pca = self.short_pca("pace", size, -1)
+        if self.plain.get("spline_pace"):
+            return pca
+        return JointPCA(through(pca.mean), through(pca.basis), pca.explained_variance)
 
     def margin(self, kind: str, number: int) -> Margin:
         z = self.array(f"{kind}{number}_z", -1)
@@ -289,7 +302,7 @@ class _Parts:
         n, size = len(self.array("smoothed_scores", -1, self.k)), dict(zip(BLOCKS, self.sizes))
         n_curves = sum(size[name] for name in CURVES)
         told = (n_curves, self.k - n_curves)
-        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,), (self.k,), (n, -1), told)))
+        shapes = dict(zip(SMOOTHED, ((n, self.k), (n,), (n,), (-1, self.k), (self.k,), (self.k,), told)))
         there = f"{self.task}/smoothed_drawn_in" in self.arrays
         parts = {
             name: self.array(f"smoothed_{name}", *shape) for name, shape in shapes.items() if name not in NEW or there
@@ -297,14 +310,11 @@ class _Parts:
         if not there:  # a library of before: coordinate by coordinate
             noise, reach = np.sum(parts["factor"] ** 2, axis=0), np.mean(parts["reach"] ** 2)
             variance = np.mean(within_worker(parts["scores"], parts["owner"]) ** 2, axis=0)
-            parts["partner"], parts["tells"] = np.zeros((n, 0), int), np.zeros(told)
+            parts["tells"] = np.zeros(told)
             parts["drawn_in"] = room(parts["spread"] ** 2 - reach * noise, variance)
         found = SmoothedScores(**parts)
         if found.owner.dtype.kind != "i" or set(found.owner.tolist()) != set(range(n_workers)):
             raise ValueError(f"{self.task}/smoothed_owner: expected numbers of all {n_workers} workers")
-        partner = found.partner
-        if partner.dtype.kind != "i" or np.any((partner < 0) | (partner >= n)):
-            raise ValueError(f"{self.task}/smoothed_partner: expected numbers of the {n} recordings")
         if any(np.any(part < 0) for part in (found.reach, found.spread, found.drawn_in)):
             raise ValueError(f"{self.task}: a reach, a spread or a share of the smoothed scores makes no sense")
         return found

@@ -23,7 +23,7 @@ from emulator.model.gaussian import Law, LowRankNormal, compressed
 from emulator.model.joint_coordinates import within_worker
 
 BASE = 1.0
-FEWEST_OWN, N_MIXED, MOST_MIXED = 5, 3, 0.2
+FEWEST_OWN = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,6 @@ class SmoothedScores:
     reach  : (N,) factor on the noise about each; smaller where repetitions lie close together
     factor : (R, K) noise is reach * xi @ factor, xi (R,) standard normal
     spread : (K,) within-worker standard deviations that draws are to have
-    partner : (N, P) recordings that each is mixed with, itself for none; P = 0: nothing is mixed
     drawn_in : (K,) what deviations from a worker's mean are multiplied by, to leave room for the noise; of coordinates
                that curves tell of, what is left of them
     tells    : (C, K - C) what the first C coordinates, curves, tell of all others: their regression within workers
@@ -46,7 +45,6 @@ class SmoothedScores:
     factor: np.ndarray
     spread: np.ndarray
     drawn_in: np.ndarray
-    partner: np.ndarray
     tells: np.ndarray
 
     @cached_property
@@ -60,35 +58,15 @@ class SmoothedScores:
         return np.stack([self.scores[self.owner == w].mean(axis=0) for w in range(self.owner.max() + 1)])
 
     @cached_property
-    def sources(self) -> tuple[np.ndarray, np.ndarray]:
-        """(M,) the recording that each component goes by, and (M, K) its deviation from the worker's mean, drawn in.
-
-        Each is a mixture of a recording with one that is near it, mostly of the first, at its length: on common clocks
-        that goes farther from both than smooth noise does, no rougher than they are, and stays within a kind of
-        execution. What its curves tell of all else is told by the mixture, as drawn in.
-        """
-        first, deviation = self._mixed(less_told(within_worker(self.scores, self.owner), self.tells) * self.drawn_in)
-        return first, with_told(deviation, self.tells)
-
-    def _mixed(self, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        n, n_partners = self.partner.shape
-        if n_partners == 0:
-            return np.arange(n), own
-        first, second = np.repeat(np.arange(n), n_partners), self.partner.ravel()
-        share = np.where(first == second, 0.0, np.tile(MOST_MIXED * np.arange(1, n_partners + 1) / n_partners, n))[
-            :, None
-        ]
-        mixed = (1.0 - share) * own[first] + share * own[second]
-        mixed = within_worker(mixed / np.sqrt((1.0 - share) ** 2 + share**2), self.owner[first])
-        lost = np.mean(own**2, axis=0) / np.maximum(np.mean(mixed**2, axis=0), 1e-18)
-        return first, mixed * np.sqrt(lost)  # a worker's mean stays, and so does the variance
+    def deviations(self) -> np.ndarray:
+        """(N, K) deviation of each recording from its worker's mean, drawn in; what its curves tell goes with them."""
+        return with_told(less_told(within_worker(self.scores, self.owner), self.tells) * self.drawn_in, self.tells)
 
     def anyone(self, mean: np.ndarray, like: int | None = None) -> Law:
         """The law of somebody never seen with this mean (K,): deviations like those of one worker, or of all."""
-        first, deviation = self.sources
-        rows = np.arange(len(first)) if like is None else self.rows_of(like)
+        rows = np.arange(len(self.owner)) if like is None else self.rows_of(like)
         weight = np.full(len(rows), 1.0 / len(rows))
-        return Law(weight, deviation[rows], self.reach[first[rows]], self.noise, mean)
+        return Law(weight, self.deviations[rows], self.reach[rows], self.noise, mean)
 
     def population(self, people: LowRankNormal, own: np.ndarray, sizes: np.ndarray) -> Law:
         """The law of one performance of a new person each time: who he is like, of which size, and what he does.
@@ -96,13 +74,12 @@ class SmoothedScores:
         people : noise between people, with their mean; own (A, W, K) how people like the recorded ones deviate, at
         ``sizes`` (A,)
         """
-        first, every = self.sources
         parts = []
         n_workers, n_coordinates = own.shape[1:]
         for worker in range(n_workers):
             rows = self.rows_of(worker)
-            mean = own[:, worker, None] + every[rows]
-            reach = np.broadcast_to(self.reach[first[rows]], mean.shape[:2])
+            mean = own[:, worker, None] + self.deviations[rows]
+            reach = np.broadcast_to(self.reach[rows], mean.shape[:2])
             size = np.broadcast_to(sizes[:, None], mean.shape[:2])
             weight = np.full(mean.shape[:2], 1.0 / (n_workers * reach.size))
             parts.append((weight.ravel(), mean.reshape(-1, n_coordinates), reach.ravel(), size.ravel()))
@@ -111,22 +88,20 @@ class SmoothedScores:
 
     def rows_of(self, worker: int) -> np.ndarray:
         """The components that somebody like this worker has: that worker's own, and others' where there are few."""
-        owner = self.owner[self.sources[0]]
-        own = np.flatnonzero(owner == worker)
+        own = np.flatnonzero(self.owner == worker)
         if len(own) >= FEWEST_OWN:
             return own
-        others = np.flatnonzero(owner != worker)
+        others = np.flatnonzero(self.owner != worker)
         step = max(1, len(others) // (FEWEST_OWN - len(own)))
         return np.concatenate([own, others[worker % step :: step][: FEWEST_OWN - len(own)]])
 
     def known(self, number: int, shrunk_mean: np.ndarray) -> Law:
         """The law of a worker seen in training: his own repetitions, and a little of what others do."""
-        first, deviation = self.sources
-        own, n = self.owner[first] == number, len(first)
-        base = BASE / (np.sum(self.owner == number) + BASE)
+        own, n = self.owner == number, len(self.owner)
+        base = BASE / (np.sum(own) + BASE)
         weight = np.append(np.full(own.sum(), (1.0 - base) / own.sum()), np.full(n, base / n))
-        mean = np.concatenate([self.means[number] - shrunk_mean + deviation[own], deviation])
-        return Law(weight, mean, np.append(self.reach[first[own]], self.reach[first]), self.noise, shrunk_mean)
+        mean = np.concatenate([self.means[number] - shrunk_mean + self.deviations[own], self.deviations])
+        return Law(weight, mean, np.append(self.reach[own], self.reach), self.noise, shrunk_mean)
 
 
 def less_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
@@ -146,20 +121,8 @@ def room(left: np.ndarray, variance: np.ndarray, at_most: float = 1.0) -> np.nda
     return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), at_most))
 
 
-def partners(owner: np.ndarray, apart: np.ndarray) -> np.ndarray:
-    """(N, ``N_MIXED``) the nearest other recordings of one worker by distances (N, N); itself where none is left."""
-    among = np.where(owner[:, None] == owner[None], apart, np.inf)
-    np.fill_diagonal(among, np.inf)
-    nearest = np.argsort(among, axis=1, kind="stable")[:, :N_MIXED]
-    none = np.take_along_axis(among, nearest, axis=1) == np.inf
-    found = np.where(none, np.arange(len(owner))[:, None], nearest)
-    return np.pad(found, ((0, 0), (0, max(0, N_MIXED - found.shape[1]))), mode="edge")
-
-
 QUARTILES = (0.25, 0.5, 0.75)
-NEARER = 0.875
-"""Draws may be an eighth nearer to a recording than a left-out repetition is: noise is paid for in roughness."""
-N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 12, 2.0, 3, 2.0
+N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
 MOST_NOISE = 0.5
 """Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
 MOST_DRAWN_OUT = 1.0
@@ -189,6 +152,7 @@ def smoothed(
     others: tuple[Curves, ...],
     gram: np.ndarray,
     stiffness: float,
+    whole: bool = True,
 ) -> SmoothedScores:
     """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
 
@@ -196,50 +160,64 @@ def smoothed(
     posture : decides the bandwidth; others : are blurred like it, as stiffly
     gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
     stiffness : how much smoother than the recordings the noise is
+    whole   : deviations of a curve are drawn in by one factor, else coordinate by coordinate: fine detail stays whole
     """
     square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
     nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
-    curves, at, size, mixed = (posture, *others), posture.at, posture.size, partners(owner, other)
+    curves, at, size = (posture, *others), posture.at, posture.size
     tells = told_by_curves(within_worker(z, owner), curves, _n_free(owner))
     noise = _noise(z, owner, curves, tells, stiffness)
-    whole = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), mixed, tells)
+    sharp = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), tells)
     recorded = z[:, at] * size
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
 
     def too_far(h: float) -> bool:
-        draws = _drawn(_blurred(whole, h, curves))[:, at] * size
+        draws = _drawn(_blurred(sharp, h, curves, whole))[:, at] * size
         reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
         return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
 
-    asked = NEARER * np.quantile(nearest[:, 0], QUARTILES)
+    asked = np.quantile(nearest[:, 0], QUARTILES)
     h = _largest_not(too_far)
-    blurred = _blurred(whole, h, curves)
+    blurred = _blurred(sharp, h, curves, whole)
     return replace(blurred, factor=compressed(blurred.factor))
 
 
-def _blurred(whole: SmoothedScores, h: float, curves: tuple[Curves, ...]) -> SmoothedScores:
+def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], whole: bool) -> SmoothedScores:
     """With bandwidth h along curves, though no coordinate varies more than it is to vary; beside them by the rule.
 
-    What deviations are drawn in by, to leave room for the noise, is one factor for each curve: a factor for each
-    coordinate parts the large ones from the fine detail that belongs to them, and draws get rough. They are drawn out
+    What deviations are drawn in by, to leave room for the noise, is a factor for each coordinate, or one for each curve
+    where fine detail parted from the large coordinates that it belongs to would be rough. They are drawn out
     by no more than deviations from a mean of few lack of the variance (Davison & Hinkley 1997, eq. 6.9), and no more
     than ``MOST_DRAWN_OUT``: of few repetitions a drawn body would be wilder in its fine detail than any. All other
     coordinates go with the curves, as drawn, as far as these tell of them, and what is left takes noise by the rule:
     with noise of their own for all of them a duration kept 0.48 of its correlation with made postures, where 0.60
     was recorded.
     """
-    noise = whole.noise.spread * np.sqrt(np.mean(whole.reach**2))
-    variance = np.mean(within_worker(whole.scores, whole.owner) ** 2, axis=0)
-    lacking = len(whole.owner) / _n_free(whole.owner)
+    noise = sharp.noise.spread * np.sqrt(np.mean(sharp.reach**2))
+    variance = np.mean(within_worker(sharp.scores, sharp.owner) ** 2, axis=0)
+    lacking = len(sharp.owner) / _n_free(sharp.owner)
     wanted, drawn_in, most = noise.copy(), np.ones(len(noise)), min(lacking, MOST_DRAWN_OUT)
     for curve in curves:
         here, weight = curve.at, curve.size**2
-        wanted[here] = np.minimum(h * noise, np.sqrt(MOST_NOISE) * whole.spread)[here]
-        left = np.maximum(whole.spread[here] ** 2 - wanted[here] ** 2, 0.0)
-        drawn_in[here] = room(np.sum(left * weight), np.sum(variance[here] * weight), most)
-    factor = whole.factor * wanted / np.maximum(noise, 1e-12)
-    return _beside_curves(replace(whole, factor=factor, drawn_in=drawn_in))
+        wanted[here] = np.minimum(_at_most(h * noise[here], sharp.spread[here], weight), sharp.spread[here])
+        left = np.maximum(sharp.spread[here] ** 2 - wanted[here] ** 2, 0.0)
+        if whole:
+            left, there = np.sum(left * weight), np.sum(variance[here] * weight)
+        else:
+            there = variance[here]
+        drawn_in[here] = room(left, there, most)
+    factor = sharp.factor * wanted / np.maximum(noise, 1e-12)
+    return _beside_curves(replace(sharp, factor=factor, drawn_in=drawn_in))
+
+
+def _at_most(noise: np.ndarray, spread: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Standard deviations (P,) of noise, all by one factor, so that it is at most ``MOST_NOISE`` of a curve's variance.
+
+    A bound on each coordinate would make all of them alike, and stiff noise as rough as the recordings.
+    """
+    total, most = np.sum(noise**2 * weight), MOST_NOISE * np.sum(spread**2 * weight)
+    return noise * np.sqrt(min(1.0, most / max(total, 1e-300)))
 
 
 def _beside_curves(blurred: SmoothedScores) -> SmoothedScores:
@@ -250,14 +228,14 @@ def _beside_curves(blurred: SmoothedScores) -> SmoothedScores:
     """
     own, n = within_worker(blurred.scores, blurred.owner), len(blurred.tells)
     n_free, square = _n_free(blurred.owner), np.mean(blurred.reach**2)
-    told, noise = blurred.sources[1][:, :n] @ blurred.tells, blurred.factor[:, :n] @ blurred.tells
+    told, noise = blurred.deviations[:, :n] @ blurred.tells, blurred.factor[:, :n] @ blurred.tells
     recorded = np.sum((own[:, :n] @ blurred.tells) ** 2, axis=0) / n_free
     less = room(recorded, np.mean(told**2, axis=0) + square * np.sum(noise**2, axis=0))
     blurred = replace(blurred, tells=blurred.tells * less, factor=blurred.factor.copy())
     rest, wild = less_told(own, blurred.tells)[:, n:], np.linalg.norm(blurred.factor[:, n:], axis=0)
     wanted = np.sqrt(_noise_share(blurred.owner) * np.sum(rest**2, axis=0) / n_free / square)
     blurred.factor[:, n:] = blurred.factor[:, n:] * wanted / np.maximum(wild, 1e-12) + noise * less
-    told, rest = told * less, blurred.sources[1][:, n:] - told * less
+    told, rest = told * less, blurred.deviations[:, n:] - told * less
     left = blurred.spread[n:] ** 2 - square * np.sum(blurred.factor[:, n:] ** 2, axis=0) - np.mean(told**2, axis=0)
     factor = _root(np.mean(rest**2, axis=0), np.mean(rest * told, axis=0), left)
     return replace(blurred, drawn_in=np.append(blurred.drawn_in[:n], factor))
@@ -315,10 +293,10 @@ def _largest_not(too_far: Callable[[float], bool]) -> float:
 def _drawn(blurred: SmoothedScores) -> np.ndarray:
     """(N_TRIED, K) draws about the recordings in turn, always with the same random numbers."""
     rng = np.random.default_rng(0)
-    first, deviation = blurred.sources
-    at = rng.permutation(np.arange(max(N_TRIED, len(first))) % len(first))[:N_TRIED]
-    centre = blurred.means[blurred.owner[first[at]]] + deviation[at]
-    return np.asarray(centre + blurred.reach[first[at], None] * blurred.noise.sample(N_TRIED, rng))
+    n = len(blurred.owner)
+    at = rng.permutation(np.arange(max(N_TRIED, n)) % n)[:N_TRIED]
+    centre = blurred.means[blurred.owner[at]] + blurred.deviations[at]
+    return np.asarray(centre + blurred.reach[at, None] * blurred.noise.sample(N_TRIED, rng))
 
 
 def _nearest(drawn: np.ndarray, recorded: np.ndarray, cut_off: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from emulator.geometry import sphere
-from emulator.geometry.flattening import SIEM
+from emulator.geometry.flattening import SIEM, Extrinsic
 from emulator.kernels.sphere import PITCH
 from emulator.model import decoding as decode
 from emulator.model.reduction import JointPCA
@@ -22,6 +22,16 @@ def posture_model(n_times=40, n_bones=7, size=0.02, offset=0.4, n_components=6):
     return JointPCA(mean.ravel(), basis.reshape(n_components, -1), 1.0), flatten
 
 
+def vector_model(n_times=40, n_bones=7, size=0.2, n_components=6):
+    """The same of the vectors themselves: waves about directions that turn by half a circle."""
+    clock = np.linspace(0, np.pi, n_times)
+    waves = np.stack([np.sin((k + 1) * clock) for k in range(n_components)])
+    basis = size * waves[:, :, None] * RNG.normal(size=(n_components, 1, 3 * n_bones))
+    start, across = RNG.normal(size=(2, n_bones, 3))
+    mean = np.cos(clock)[:, None, None] * start + np.sin(clock)[:, None, None] * across
+    return JointPCA(sphere.normalise(mean).ravel(), basis.reshape(n_components, -1), 1.0), Extrinsic(n_bones)
+
+
 def directions(posture, flatten, *asked):
     return decode.Decoder(posture, flatten).directions(*asked)
 
@@ -30,9 +40,10 @@ def some_places(n, n_times=40, n_places=33):
     return RNG.uniform(0, n_times - 1, (n, n_places))
 
 
+@pytest.mark.parametrize("made", [posture_model, vector_model])
 @pytest.mark.parametrize("n_bones", [1, 3, 16, 20, 33])
-def test_the_kernel_is_the_numpy_twin(n_bones):
-    posture, flatten = posture_model(n_bones=n_bones)
+def test_the_kernel_is_the_numpy_twin(n_bones, made):
+    posture, flatten = made(n_bones=n_bones)
     coefficients, place = RNG.normal(size=(5, 6)), some_places(5)
     want = decode.directions_numpy(posture, flatten, coefficients, place)
     assert np.abs(directions(posture, flatten, coefficients, place) - want).max() < 1e-12
@@ -40,10 +51,11 @@ def test_the_kernel_is_the_numpy_twin(n_bones):
     assert single.dtype == np.float32 and np.abs(single - want).max() < 1e-5
 
 
-def test_the_clocks_points_are_the_recorded_postures_and_between_them_speed_and_acceleration_do_not_jump():
-    posture, flatten = posture_model(n_bones=2)
+@pytest.mark.parametrize("made", [posture_model, vector_model])
+def test_the_clocks_points_are_the_recorded_postures_and_between_them_speed_and_acceleration_do_not_jump(made):
+    posture, flatten = made(n_bones=2)
     coefficients = RNG.normal(size=(1, 6))
-    exact = flatten.inverse(posture.inverse(coefficients).reshape(1, 40, 4))
+    exact = flatten.inverse(posture.inverse(coefficients).reshape(1, 40, -1))
     assert np.abs(directions(posture, flatten, coefficients, np.arange(40.0)[None]) - exact).max() < 1e-12
     step = 1e-3
     about = np.arange(1.0, 38.0)[:, None] + step * np.array([-2, -1, 0, 1, 2])

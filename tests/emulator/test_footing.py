@@ -134,7 +134,7 @@ def test_a_draw_faster_than_a_body_is_drawn_in_and_counted_and_its_times_stay():
     calm = emulator.sample(6, np.random.default_rng(0))
     wild = calm.scores.copy()
     block = emulator.scale.block("posture")
-    wild[3, block] += 12.0 * np.random.default_rng(1).normal(size=block.stop - block.start)
+    wild[3, block] += 60.0 * np.random.default_rng(1).normal(size=block.stop - block.start)
     drawn = emulator.performances(wild)
     assert not calm.damped.any()
     assert drawn.damped[3] > 0 and not np.delete(drawn.damped, 3).any()

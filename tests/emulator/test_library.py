@@ -78,7 +78,7 @@ def test_a_recorded_class_of_another_shape_survives(tmp_path):
     emulator.save(tmp_path / "x.npz")
     again = MotionEmulator.load(tmp_path / "x.npz")
     assert again.report.source.startswith("UI-PRMD")
-    assert (tmp_path / "x.npz").stat().st_size < 400_000
+    assert (tmp_path / "x.npz").stat().st_size < 600_000
     one, two = (m.sample(8, np.random.default_rng(0), worker="s02").mark_s for m in (emulator, again))
     assert one.tobytes() == two.tobytes()
 
@@ -239,7 +239,10 @@ def test_an_exponent_beyond_all_numbers_is_refused(saved):
         MotionLibrary.load(changed(saved, wild))
 
 
-def test_a_reference_posture_that_is_none_is_refused(saved):
+def test_a_reference_posture_that_is_none_is_refused(tmp_path):
+    saved = tmp_path / "walk.npz"
+    MotionEmulator.fit(made("walk")[0], scheme="SIEM/JointPCA/Smoothed").save(saved)
+
     def nothing(name, content):
         return npy(np.zeros_like(np.load(io.BytesIO(content)))) if name == "walk/reference.npy" else content
 

@@ -51,7 +51,7 @@ def emulator_of(crew, scheme):
     return emulator if scheme == SCHEME else replace(emulator, workforce=replace(emulator.workforce, smoothed=None))
 
 
-BOTH = SCHEMES
+BOTH = (SCHEME, SCHEMES[-1])
 
 
 @cache
