@@ -1,8 +1,10 @@
-"""The footing of a body, written to be read: see emulator/kernels/footing.py, whose twin this is."""
+"""The footing of a body, written to be read: see emulator/kernels/feet.py and legs.py, whose twin this is."""
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from emulator.kernels.feet import AHEAD, FOLDED, MOST_BEND_M, STIFF_KNEE, STRAIGHT
+from emulator.kernels.feet import SETTLING
+from emulator.kernels.legs import AHEAD, FOLDED, MOST_BEND_M, STIFF_KNEE, STRAIGHT
 from emulator.motion import stretches, turn
 
 
@@ -15,13 +17,24 @@ def blurred(values, sigma):
     return np.array([weight @ padded[t : t + 2 * reach + 1] for t in range(len(values))]) / weight.sum()
 
 
-def moves_of(middle, stands, print_m):
-    """(T, 3) what brings a foot to where it belongs, eased from stance to stance; zero for one that never stands."""
-    moves, last = np.zeros((len(stands), 3)), None
+def pointing(print_m):
+    """(T, 3) unit vectors of feet from the way they point and how far up, the last two columns of prints (T, 5)."""
+    way, pitch = print_m[:, 3], print_m[:, 4]
+    return np.stack([np.cos(pitch) * np.cos(way), np.cos(pitch) * np.sin(way), np.sin(pitch)], axis=1)
+
+
+def moves_of(middle, toward, stands, print_m, yaw):
+    """(T, 6) what brings a foot's middle and direction to where they belong, eased from stance to stance, else zero."""
+    moves, last = np.zeros((len(stands), 6)), None
+    level = turn(print_m[:, :3], yaw)
     for start, stop in stretches(stands):
         rows = slice(start, stop)
-        place = np.append(np.median((middle - print_m)[rows, :2], axis=0), 0.0)
-        moves[rows] = place + print_m[rows] - middle[rows]
+        place = np.append(np.median((middle - level)[rows, :2], axis=0), 0.0)
+        moves[rows, :3] = place + level[rows] - middle[rows]
+        if print_m.shape[1] == 5:
+            foot, own = pointing(print_m[rows]), toward[rows]
+            across = np.sum(foot[:, 0] * own[:, 1] - foot[:, 1] * own[:, 0])
+            moves[rows, 3:] = turn(foot, np.arctan2(across, np.sum(foot[:, :2] * own[:, :2]))) - own
         if last is None:
             moves[:start] = moves[start]
         else:
@@ -42,41 +55,77 @@ def raised(lacking, sigma):
 
 
 def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, floor_m, foot_floor_m):
-    """One body: its path (T, 4) moved until the feet stand, and what the legs bend (2, T, 3)."""
+    """One body: its path (T, 4) moved until the feet stand, and what the legs bend and the feet turn (2, T, 6)."""
     joints = skeleton.positions(turn(directions, path[:, 3:]), length_m, path[:, :3])
-    step = time_s[-1] / (len(time_s) - 1)
+    step, yaw = time_s[-1] / (len(time_s) - 1), path[:, 3]
     wide, narrow = 0.08 / step, 0.06 / step
-    moves, weight = [], []
-    for f, foot in enumerate(legs.feet):
-        move = moves_of(joints[:, foot].mean(axis=1), stands[f], turn(prints_m[f], path[:, 3]))
-        sunk = (foot_floor_m[f] - joints[:, foot, 2]).max(axis=1) - move[:, 2]
-        move[:, 2] += raised(sunk, narrow) * stands[f].any()
+    moves, weight, turns = [], [], []
+    for f, (ankle, toe) in enumerate(legs.feet):
+        foot_m = np.linalg.norm(joints[:, toe] - joints[:, ankle], axis=1)[:, None]
+        toward = (joints[:, toe] - joints[:, ankle]) / foot_m
+        move = moves_of(joints[:, [ankle, toe]].mean(axis=1), toward, stands[f], prints_m[f], yaw)
+        foot = toward + move[:, 3:]
+        foot /= np.linalg.norm(foot, axis=1, keepdims=True)
+        move = move[:, :3] - foot_m * (foot - toward) / 2
+        ends = joints[:, ankle, 2] + move[:, 2], joints[:, ankle, 2] + move[:, 2] + foot_m[:, 0] * foot[:, 2]
+        move[:, 2] += raised(np.max(foot_floor_m[f] - np.transpose(ends), axis=1), narrow) * stands[f].any()
         moves.append(move)
+        turns.append(foot - toward)
         weight.append(blurred(stands[f] + 1e-3, wide) * stands[f].any())
-    total = sum(weight)
-    mean = sum(w[:, None] * m for w, m in zip(weight, moves)) / np.maximum(total, 1e-300)[:, None]
-    shift = np.stack([blurred(column, narrow) for column in mean.T], axis=1)
+    shift = np.zeros((len(path), 3))
+    for settling in range(1 + SETTLING):
+        left = [move - shift for move in moves]
+        if settling:
+            left = [move - followed(directions, length_m, bones, move, yaw) for bones, move in zip(legs.bones, left)]
+        total = np.maximum(sum(weight), 1e-300)[:, None]
+        mean = sum(w[:, None] * move for w, move in zip(weight, left)) / total
+        shift = shift + np.stack([blurred(column, narrow) for column in mean.T], axis=1)
     shift[:, 2] += raised(floor_m - joints[..., 2].min(axis=1) - shift[:, 2], narrow)
     bends = []
     for f in range(2):
-        bend = moves[f] - shift
-        far = np.linalg.norm(bend, axis=1, keepdims=True) / MOST_BEND_M
-        bends.append(turn(bend * np.tanh(far) / np.maximum(far, 1e-300) * stands[f].any(), -path[:, 3]))
+        bend = np.concatenate([turn(softly(moves[f] - shift), -yaw), turn(turns[f], -yaw)], axis=1)
+        bends.append(bend * stands[f].any())
     return np.concatenate([path[:, :3] + shift, path[:, 3:]], axis=1), np.array(bends)
 
 
-def bent(thigh, shank, move):
-    """Thigh and shank (3,) of a leg whose ankle follows ``move`` (3,): lengths stay, the knee keeps to its side."""
+def followed(directions, length_m, bones, move, yaw):
+    """By how much (T, 3) an ankle goes that is to go by ``move`` (T, 3)."""
+    thigh, shank = (length_m[bone] * directions[:, bone] for bone in bones)
+    after = [leg_after(*leg) for leg in zip(thigh, shank, turn(softly(move), -yaw))]
+    return turn(np.array(after) - thigh - shank, yaw)
+
+
+def softly(move):
+    """Moves (T, 3) drawn in to MOST_BEND_M."""
+    far = np.linalg.norm(move, axis=1, keepdims=True) / MOST_BEND_M
+    return move * (1 + far**4) ** -0.25
+
+
+def leg_after(thigh, shank, move):
+    """Hip to ankle (3,) of a leg whose ankle is to go by ``move`` (3,)."""
     long = np.linalg.norm(thigh), np.linalg.norm(shank)
     full, drawn = sum(long), np.linalg.norm(thigh + shank)
     u = np.clip((drawn / full - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0, 1)
     leg = thigh + shank + u * u * (3 - 2 * u) * move
     slack = max(full - drawn, 0) / full
     reach = drawn + (np.linalg.norm(leg) - drawn) * slack / (slack + STIFF_KNEE)
-    reach = min(max(reach, abs(long[0] - long[1]) + 1e-4), max(drawn, STRAIGHT * full))
-    along = leg / np.linalg.norm(leg)
-    side = thigh + AHEAD * full * np.array([1.0, 0, 0])
+    return min(max(reach, abs(long[0] - long[1]) + 1e-4), max(drawn, STRAIGHT * full)) * leg / np.linalg.norm(leg)
+
+
+def bent(thigh, shank, move):
+    """Thigh and shank (3,) of a leg whose ankle follows ``move`` (3,): lengths stay, the knee keeps to its side."""
+    leg, long = leg_after(thigh, shank, move), (np.linalg.norm(thigh), np.linalg.norm(shank))
+    reach = np.linalg.norm(leg)
+    along = leg / reach
+    side = thigh + AHEAD * sum(long) * np.array([1.0, 0, 0])
     side = side - (side @ along) * along
     fore = (long[0] ** 2 - long[1] ** 2 + reach**2) / (2 * reach)
     knee = fore * along + np.sqrt(max(long[0] ** 2 - fore**2, 0)) * side / np.linalg.norm(side)
-    return knee, reach * along - knee
+    return knee, leg - knee
+
+
+def turned(bones, by):
+    """The bones (K, 3) of a foot after the least rotation that changes the unit vector of their sum ``by`` (3,)."""
+    was = bones.sum(axis=0) / np.linalg.norm(bones.sum(axis=0))
+    foot = (was + by) / np.linalg.norm(was + by)
+    return Rotation.align_vectors([foot, np.cross(was, foot)], [was, np.cross(was, foot)])[0].apply(bones)

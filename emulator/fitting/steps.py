@@ -87,7 +87,7 @@ def parts_of(made: Registered, settings: FitSettings) -> Parts:
     }
     scale, z = JointScale.fit(blocks | latent)
     leg_m = RootChannel(made.moving.skeleton).leg_m(np.stack([m.bone_length_m for m in made.moving.motions]))
-    footing = Footing.fit(made.moving.motions, made.warps, blocks["posture"], leg_m)
+    footing = Footing.fit(made.moving.motions, made.warps, scale.raw(z, "posture"), leg_m)
     return Parts(flatten, posture, root, pace, bones, margin, mark_margins, dwells, scale, flat, z, footing)
 
 

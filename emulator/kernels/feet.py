@@ -9,18 +9,10 @@ import numpy as np
 
 from emulator.kernels.bodies import stand
 from emulator.kernels.compiled import compiled
-from emulator.kernels.sphere import spline_weights
+from emulator.kernels.legs import bend_of, left_over, turned_foot
 
-STRAIGHT = 0.9995
-"""The most of its length to which a leg stretches."""
-STIFF_KNEE, AHEAD = 0.01, 0.02
-"""A leg straight to within this share of its length keeps its length, and a knee straight to within that bends ahead:
-else a millimetre of a foot would throw the knee about by centimetres."""
-FOLDED = (0.15, 0.35)
-"""A leg whose ankle is this near to its hip, in leg lengths, turns about with every millimetre: it follows not at all
-below the first, fully above the second."""
-MOST_BEND_M = 0.12
-"""What legs bend at most, softly: a foot that would have to go farther is where the draw's own posture has it."""
+SETTLING = 3
+"""So often the root follows what its legs are too straight or too short to do."""
 FRAME_S = (1.0 - 1e-9) / 30.0
 """Speeds are those between frames of a camera; a hair less, so that points which come at that rate are taken."""
 
@@ -52,40 +44,89 @@ def raised(lacking, sigma, reach, out):
 
 
 @compiled(error_model="numpy", nogil=True)
-def foot_moves(middle, standing, print_m, moves):
-    """What brings a foot (T, 3) to where it belongs, into moves (T, 3); returns how many points it stands at all.
+def stance_end(standing, start):
+    """One beyond the last point of the stance that begins at ``start``."""
+    stop = start
+    while stop < standing.size and standing[stop]:
+        stop += 1
+    return stop
 
-    standing (T,) : whether it stands; print_m (T, 3) : its level way about one place, and its height, while it stands
-    The place of a stance is the median of where the foot is there. Between two stances the move of the one goes over
-    into that of the other, smoothly to the second derivative; before the first and after the last it stays.
+
+@compiled(error_model="numpy", nogil=True)
+def bridged(standing, moves):
+    """What is known in stances, moves (T, C), between them too, in place; returns how many points stand at all.
+
+    Between two stances the move of the one goes over into that of the other, smoothly to the second derivative; before
+    the first and after the last it stays.
     """
     n = standing.size
     last, n_standing, t = -1, 0, 0
+    while t < n:
+        if not standing[t]:
+            t += 1
+            continue
+        for s in range(last + 1, t):
+            u = (s - last) / (t - last)
+            ease = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) if last >= 0 else 1.0
+            for c in range(moves.shape[1]):
+                before = moves[last, c] if last >= 0 else 0.0
+                moves[s, c] = before + ease * (moves[t, c] - before)
+        stop = stance_end(standing, t)
+        n_standing += stop - t
+        last, t = stop - 1, stop
+    for s in range(last + 1, n if last >= 0 else 0):
+        for c in range(moves.shape[1]):
+            moves[s, c] = moves[last, c]
+    return n_standing
+
+
+@compiled(error_model="numpy", nogil=True)
+def point(way_rad, pitch_rad, out):
+    """Writes the unit vector (3,) to a side seen from above, so far up."""
+    level = np.cos(pitch_rad)
+    out[0], out[1], out[2] = level * np.cos(way_rad), level * np.sin(way_rad), np.sin(pitch_rad)
+
+
+@compiled(error_model="numpy", nogil=True)
+def foot_moves(middle, toward, standing, prints, cosine, sine, moves):
+    """What brings a foot to where it belongs, into moves (T, 6): of its middle (T, 3), of where it points (T, 3).
+
+    standing (T,) : whether it stands; cosine, sine (T,) : of the heading
+    prints (T, 3 or 5) : its level way about one place in the frame of the heading and its height, while it stands;
+        and the way in which it points to its toe about one way, and how far up, in radians; without these it points
+        to where it pointed
+    The place of a stance is the median of where the foot is there, its direction that which turns least. Returns how
+    many points it stands at all.
+    """
+    n, t = standing.size, 0
     moves[:] = 0.0
     while t < n:
         if not standing[t]:
             t += 1
             continue
-        stop = t
-        while stop < n and standing[stop]:
-            stop += 1
-        for c in range(3):
-            place = np.median(middle[t:stop, c] - print_m[t:stop, c]) if c < 2 else 0.0
+        stop = stance_end(standing, t)
+        for s in range(t, stop):
+            x, y = prints[s, 0], prints[s, 1]
+            moves[s, 0] = cosine[s] * x - sine[s] * y - middle[s, 0]
+            moves[s, 1] = sine[s] * x + cosine[s] * y - middle[s, 1]
+            moves[s, 2] = prints[s, 2] - middle[s, 2]
+        for c in range(2):
+            moves[t:stop, c] -= np.median(moves[t:stop, c])
+        if prints.shape[1] == 5:
+            along, across = 0.0, 0.0
             for s in range(t, stop):
-                moves[s, c] = place + print_m[s, c] - middle[s, c]
-        for s in range(last + 1, t):
-            u = (s - last) / (t - last)
-            ease = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) if last >= 0 else 1.0
-            for c in range(3):
-                before = moves[last, c] if last >= 0 else 0.0
-                moves[s, c] = before + ease * (moves[t, c] - before)
-        n_standing += stop - t
-        last = stop - 1
+                point(prints[s, 3], prints[s, 4], moves[s, 3:])
+                along += moves[s, 3] * toward[s, 0] + moves[s, 4] * toward[s, 1]
+                across += moves[s, 3] * toward[s, 1] - moves[s, 4] * toward[s, 0]
+            size = max(np.hypot(along, across), 1e-300)
+            along, across = along / size, across / size
+            for s in range(t, stop):
+                x, y = moves[s, 3], moves[s, 4]
+                moves[s, 3] = along * x - across * y - toward[s, 0]
+                moves[s, 4] = across * x + along * y - toward[s, 1]
+                moves[s, 5] -= toward[s, 2]
         t = stop
-    for s in range(last + 1, n if last >= 0 else 0):
-        for c in range(3):
-            moves[s, c] = moves[last, c]
-    return n_standing
+    return bridged(standing, moves)
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -107,136 +148,103 @@ def fastest_joint(bodies, time_s):
 
 
 @compiled(error_model="numpy", nogil=True)
-def footed(directions, length_m, chain, feet, standing, prints, time_s, floor_m, foot_floor_m, path, bends, fastest):
-    """Moves the root of path (n, T, 4) until feet stand; what legs must bend beyond that into bends (n, 2, T, 3).
+def mean_move(moves, weight, sigma, raw, out):
+    """Writes the smooth mean out (T, 3) of the moves (2, T, 3 or more) of two feet by their weights (2, T)."""
+    n = weight.shape[1]
+    for c in range(3):
+        for t in range(n):
+            mean = weight[0, t] * moves[0, t, c] + weight[1, t] * moves[1, t, c]
+            raw[t] = mean / (weight[0, t] + weight[1, t])
+        smooth(raw, sigma, int(4 * sigma) + 1, out[:, c])
 
-    directions (n, T, 3B), length_m (n, B); feet (2, 2) : ankle and toe of each side
-    standing (n, 2, T), prints (n, 2, T, 3) : as for ``foot_moves``, in the frame of the heading
+
+@compiled(error_model="numpy", nogil=True)
+def footed(
+    directions, length_m, chain, feet, legs, standing, prints, time_s, floor_m, foot_floor_m, path, bends, fastest
+):
+    """Moves the root of path (n, T, 4) until feet stand; what legs must bend beyond that into bends (n, 2, T, 6).
+
+    directions (n, T, 3B), length_m (n, B); feet (2, 2) : ankle and toe of each side; legs (2, 2 or 0) : as for ``bent``
+    standing (n, 2, T), prints (n, 2, T, 3 or 5) : as for ``foot_moves``
     time_s (n, T) : when the points come; no joint below floor_m, none of the feet below foot_floor_m (n, 2, 2)
-    bends are without heading, as ``directions``
+    bends : of the ankle and of the unit vector from ankle to toe, without heading, as ``directions``
     fastest (n,) : the greatest speed of a joint over ``FRAME_S`` or the next longer time between points, written here
     """
     n_times = path.shape[1]
     bodies = np.empty((n_times, chain.shape[0] + 1, 3))
-    middle, print_m, lowest = np.empty((2, n_times, 3)), np.empty((n_times, 3)), np.empty(n_times)
-    sunk = np.empty((2, n_times))
-    moves, weight = np.empty((2, n_times, 3)), np.empty((2, n_times))
-    raw, shift, lift, less_of = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(2)
+    middle, lowest, sunk = np.empty((n_times, 3)), np.empty(n_times), np.empty(n_times)
+    cosine, sine = np.empty(n_times), np.empty(n_times)
+    toward, foot_m = np.empty((2, n_times, 3)), np.empty((2, n_times))
+    moves, weight = np.empty((2, n_times, 6)), np.empty((2, n_times))
+    left, more = np.empty((2, n_times, 3)), np.empty((n_times, 3))
+    raw, shift, lift, foot = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(3)
     for i in range(path.shape[0]):
         for t in range(n_times):
             joints = bodies[t]
             for c in range(3):
                 joints[chain[0, 1], c] = path[i, t, c]
-            cosine, sine = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])
-            stand(directions[i, t], length_m[i], chain, cosine, sine, joints)
+            cosine[t], sine[t] = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])
+            stand(directions[i, t], length_m[i], chain, cosine[t], sine[t], joints)
             lowest[t] = np.inf
             for j in range(joints.shape[0]):
                 lowest[t] = min(lowest[t], joints[j, 2])
-            for f in range(2):
-                for c in range(3):
-                    middle[f, t, c] = 0.5 * (joints[feet[f, 0], c] + joints[feet[f, 1], c])
-                sunk[f, t] = -np.inf
-                for k in range(2):
-                    sunk[f, t] = max(sunk[f, t], foot_floor_m[i, f, k] - joints[feet[f, k], 2])
         point_s = time_s[i, n_times - 1] / (n_times - 1)
         wide, narrow = max(0.08 / point_s, 0.3), max(0.06 / point_s, 0.3)
         reach = int(4 * narrow) + 1
         n_standing = 0
         for f in range(2):
             for t in range(n_times):
-                cosine, sine = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])
-                x, y = prints[i, f, t, 0], prints[i, f, t, 1]
-                print_m[t, 0], print_m[t, 1] = cosine * x - sine * y, sine * x + cosine * y
-                print_m[t, 2] = prints[i, f, t, 2]
+                ankle, toe, square = bodies[t, feet[f, 0]], bodies[t, feet[f, 1]], 0.0
+                for c in range(3):
+                    middle[t, c] = 0.5 * (ankle[c] + toe[c])
+                    square += (toe[c] - ankle[c]) ** 2
+                foot_m[f, t] = max(np.sqrt(square), 1e-12)
+                for c in range(3):
+                    toward[f, t, c] = (toe[c] - ankle[c]) / foot_m[f, t]
                 raw[t] = (1.0 if standing[i, f, t] else 0.0) + 1e-3
-            own = foot_moves(middle[f], standing[i, f], print_m, moves[f])
+            own = foot_moves(middle, toward[f], standing[i, f], prints[i, f], cosine, sine, moves[f])
             n_standing += own
+            for t in range(n_times):
+                turned_foot(toward[f, t], moves[f, t, 3:], foot)
+                for c in range(3):
+                    moves[f, t, 3 + c] = foot[c] - toward[f, t, c]
+                    moves[f, t, c] -= 0.5 * foot_m[f, t] * moves[f, t, 3 + c]
+                ankle_m = bodies[t, feet[f, 0], 2] + moves[f, t, 2]
+                sunk[t] = max(foot_floor_m[i, f, 0], foot_floor_m[i, f, 1] - foot_m[f, t] * foot[2]) - ankle_m
             if own > 0:
-                for t in range(n_times):
-                    sunk[f, t] -= moves[f, t, 2]
-                raised(sunk[f], narrow, reach, lift)
+                raised(sunk, narrow, reach, lift)
                 moves[f, :, 2] += lift
             smooth(raw, wide, int(4 * wide) + 1, weight[f])
             if own == 0:
                 weight[f] = 0.0
-        for c in range(3):
-            for t in range(n_times):
-                total = weight[0, t] + weight[1, t]
-                mean = weight[0, t] * moves[0, t, c] + weight[1, t] * moves[1, t, c]
-                raw[t] = mean / total if n_standing > 0 else 0.0
-            smooth(raw, narrow, int(4 * narrow) + 1, shift[:, c])
+        shift[:] = 0.0
+        if n_standing > 0:
+            mean_move(moves, weight, narrow, raw, shift)
+            for f in range(2):
+                moves[f, :, :3] -= shift
+        for _ in range(SETTLING if n_standing > 0 and legs.shape[1] == 2 else 0):
+            for f in range(2):
+                for t in range(n_times):
+                    left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], left[f, t])
+            mean_move(left, weight, narrow, raw, more)
+            shift += more
+            for f in range(2):
+                moves[f, :, :3] -= more
         for t in range(n_times):
             lowest[t] = floor_m - lowest[t] - shift[t, 2]
         raised(lowest, narrow, reach, lift)
         for t in range(n_times):
             shift[t, 2] += lift[t]
-            cosine, sine = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])
-            for f in range(2):
-                x, y = moves[f, t, 0] - shift[t, 0], moves[f, t, 1] - shift[t, 1]
-                z = moves[f, t, 2] - shift[t, 2]
-                far = np.sqrt(x * x + y * y + z * z) / MOST_BEND_M
-                less = 0.0 if weight[f, t] == 0.0 else (np.tanh(far) / far if far > 1e-6 else 1.0)
-                less_of[f] = less
-                x, y, z = less * x, less * y, less * z
-                bends[i, f, t, 0], bends[i, f, t, 1], bends[i, f, t, 2] = (
-                    cosine * x + sine * y,
-                    cosine * y - sine * x,
-                    z,
-                )
             for c in range(3):
                 path[i, t, c] += shift[t, c]
                 for j in range(bodies.shape[1]):
                     bodies[t, j, c] += shift[t, c]
-                for f in range(2 if n_standing > 0 else 0):
-                    for j in feet[f]:
-                        bodies[t, j, c] += less_of[f] * (moves[f, t, c] - shift[t, c])
+            for f in range(2):
+                moves[f, t, 2] -= lift[t]
+                bends[i, f, t] = 0.0
+                if weight[f, t] > 0.0:
+                    bend_of(moves[f, t], cosine[t], sine[t], bends[i, f, t])
+                    for c in range(3):
+                        bodies[t, feet[f, 0], c] += moves[f, t, c]
+                        bodies[t, feet[f, 1], c] += moves[f, t, c] + foot_m[f, t] * moves[f, t, 3 + c]
         fastest[i] = fastest_joint(bodies, time_s[i])
-
-
-@compiled(error_model="numpy", nogil=True)
-def bent(directions, length_m, legs, place, control):
-    """Directions (n, S, 3B) with the legs bent, in place, so that ankles move by what ``footed`` wants.
-
-    legs (2, 2) : bones to knee and to ankle of each side; control (n, 2, T + 2, 3) control points of the bends at
-    places (n, S), in cells. Two bones: the lengths stay, the knee keeps to its side (the plane of hip, knee, ankle).
-    """
-    leg, knee, weight = np.empty(3), np.empty(3), np.empty(4)
-    for i in range(directions.shape[0]):
-        for f in range(2):
-            upper, lower = legs[f, 0], legs[f, 1]
-            thigh, shank = length_m[i, upper], length_m[i, lower]
-            for s in range(place.shape[1]):
-                cell = min(int(place[i, s]), control.shape[2] - 4)
-                spline_weights(place[i, s] - cell, weight)
-                to = directions[i, s]
-                length, drawn, full = 0.0, 0.0, thigh + shank
-                for c in range(3):
-                    knee[c] = thigh * to[3 * upper + c]
-                    leg[c] = knee[c] + shank * to[3 * lower + c]
-                    drawn += leg[c] ** 2
-                drawn = np.sqrt(drawn)
-                u = min(max((drawn / full - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0.0), 1.0)
-                follows = u * u * (3.0 - 2.0 * u)
-                for c in range(3):
-                    for k in range(4):
-                        leg[c] += follows * weight[k] * control[i, f, cell + k, c]
-                    length += leg[c] ** 2
-                length = np.sqrt(length)
-                slack = max(full - drawn, 0.0) / full
-                reach = drawn + (length - drawn) * slack / (slack + STIFF_KNEE)
-                reach = min(max(reach, abs(thigh - shank) + 1e-4), max(drawn, STRAIGHT * full))
-                fore = (thigh**2 - shank**2 + reach**2) / (2.0 * reach)
-                along = 0.0
-                for c in range(3):
-                    leg[c] /= max(length, 1e-12)
-                    along += knee[c] * leg[c]
-                size = 0.0
-                for c in range(3):
-                    ahead = (1.0 if c == 0 else 0.0) - leg[0] * leg[c]
-                    knee[c] += AHEAD * full * ahead - along * leg[c]
-                    size += knee[c] ** 2
-                out = np.sqrt(max(thigh**2 - fore**2, 0.0)) / max(np.sqrt(size), 1e-9)
-                for c in range(3):
-                    joint = fore * leg[c] + out * knee[c]
-                    to[3 * upper + c] = joint / thigh
-                    to[3 * lower + c] = (reach * leg[c] - joint) / shank

@@ -27,6 +27,9 @@ NO_FLOOR_M = -1e9
 PRINT, FIRST_PRINT = 2e-5, 1e-4
 """What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a tenth of a
 millimetre are seen where feet do not move at all."""
+TURN_RAD = 2e-4
+"""What the directions of feet are rounded to: two hundredths of a millimetre at the end of a foot."""
+PRINTS = np.array([PRINT, PRINT, PRINT, TURN_RAD, TURN_RAD])
 BREATHES = 1e-3
 """Bones whose length changes less than this share of it are taken as rigid."""
 
@@ -36,10 +39,12 @@ class Legs:
     """What of a skeleton stands and bends: feet (2, 2) ankle and toe joints, bones (2, 2) to knee and ankle, by side.
 
     bones is None where a knee or a hip lies between that is not theirs: then only the root is moved.
+    soles : (2, K) bones from ankle to toe, -1 where one side has fewer; none where a toe does not hang from its ankle
     """
 
     feet: np.ndarray
     bones: np.ndarray | None
+    soles: np.ndarray
 
     @classmethod
     def of(cls, skeleton: Skeleton) -> Legs | None:
@@ -56,7 +61,19 @@ class Legs:
             for limb in limbs
         )
         bones = [[skeleton.bone_names.index(joint) for joint in limb[1:]] for limb in limbs] if whole else None
-        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64))
+        ways = [_bones_between(skeleton, ankle, toe) for ankle, toe in feet]
+        longest = max(map(len, ways)) if all(ways) else 0
+        soles = np.array([(way + [-1] * longest)[:longest] for way in ways], dtype=np.int64)
+        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64), soles)
+
+
+def _bones_between(skeleton: Skeleton, upper: int, lower: int) -> list[int]:
+    """Bones from one joint down to another; none if that does not hang from it."""
+    bones: list[int] = []
+    while lower not in (upper, -1):
+        name, lower = skeleton.names[lower], skeleton.parents[lower]
+        bones = [skeleton.bone_names.index(name), *bones] if lower >= 0 else []
+    return bones if lower == upper else []
 
 
 def standing(positions_m: np.ndarray, rate_hz: float, legs: Legs) -> np.ndarray:
@@ -87,17 +104,22 @@ def standing(positions_m: np.ndarray, rate_hz: float, legs: Legs) -> np.ndarray:
 
 
 def prints(positions_m: np.ndarray, yaw_rad: np.ndarray, stands: np.ndarray, legs: Legs) -> np.ndarray:
-    """(2, T, 3) metres: where each foot (the middle of ankle and toe) is while it stands, else 0.
+    """(2, T, 5) where each foot (the middle of ankle and toe) is while it stands, metres, and how it points, else 0.
 
     Level about the median place of the stance, in the frame of the heading yaw_rad (T,); its height above the floor.
+    Then the way in which it points to its toe, about that of its mean in the stance, and how far up, in radians.
     """
-    out = np.zeros((2, len(positions_m), 3))
+    out = np.zeros((2, len(positions_m), 5))
     for side, foot in enumerate(legs.feet):
-        middle = positions_m[:, foot].mean(axis=1)
+        middle, toward = positions_m[:, foot].mean(axis=1), positions_m[:, foot[1]] - positions_m[:, foot[0]]
+        toward = toward / np.maximum(np.linalg.norm(toward, axis=1, keepdims=True), 1e-12)
         for start, stop in stretches(stands[side]):
             rows = slice(start, stop)
             slip = middle[rows] - np.append(np.median(middle[rows, :2], axis=0), 0.0)
-            out[side, rows] = turn(slip, -yaw_rad[rows])
+            out[side, rows, :3] = turn(slip, -yaw_rad[rows])
+            along, across = toward[rows, :2].sum(axis=0)
+            x, y, up = turn(toward[rows], -np.arctan2(across, along)).T
+            out[side, rows, 3], out[side, rows, 4] = np.arctan2(y, x), np.arcsin(np.clip(up, -1.0, 1.0))
     return out
 
 
@@ -155,39 +177,40 @@ def stood(
     floor_m: float,
     foot_floor_m: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The path (n, T, 4) of roots and headings moved until the feet stand, and what the legs must bend (n, 2, T, 3).
+    """The path (n, T, 4) of roots and headings moved until the feet stand, and what the legs must bend (n, 2, T, 6).
 
     And the greatest speed of any joint (n,), m/s, between frames of 1/30 s.
 
-    directions (n, T, B, 3) without heading, length_m (n, B); stands (n, 2, T), prints_m (n, 2, T, 3) of ``prints``
+    directions (n, T, B, 3) without heading, length_m (n, B); stands (n, 2, T), prints_m (n, 2, T, 3 or 5) of ``prints``
     time_s : (n, T) when the points come; floor_m : no joint gets below this height
     foot_floor_m : (n, 2, 2) heights below which ankle and toe do not get, by side
     """
     from emulator.kernels.feet import footed
 
     n, n_times = path.shape[:2]
-    out, bends, fastest = np.array(path, dtype=float), np.zeros((n, 2, n_times, 3)), np.zeros(n)
+    out, bends, fastest = np.array(path, dtype=float), np.zeros((n, 2, n_times, 6)), np.zeros(n)
     feet = np.zeros((2, 2), np.int64) if legs is None else legs.feet
+    bones = np.zeros((2, 0), np.int64) if legs is None or legs.bones is None else legs.bones
     flat = np.ascontiguousarray(directions, dtype=float).reshape(n, n_times, -1)
     length_m = np.ascontiguousarray(length_m, dtype=float)
     time_s = np.ascontiguousarray(time_s, dtype=float)
     foot_floor_m = np.ascontiguousarray(foot_floor_m, dtype=float)
     chain = skeleton.chain
-    footed(flat, length_m, chain, feet, stands, prints_m, time_s, floor_m, foot_floor_m, out, bends, fastest)
+    footed(flat, length_m, chain, feet, bones, stands, prints_m, time_s, floor_m, foot_floor_m, out, bends, fastest)
     return out, bends, fastest
 
 
 def bend(directions: np.ndarray, length_m: np.ndarray, legs: Legs, place: np.ndarray, bends: np.ndarray) -> None:
-    """Bend the legs of directions (n, S, B, 3) at places (n, S) of the points of bends (n, 2, T, 3), in place.
+    """Bend the legs of directions (n, S, B, 3) at places (n, S) of the points of bends (n, 2, T, 6), in place.
 
     NOTE: the bends serve as control points of their spline themselves: they are smooth, and it blunts what is not.
     """
-    from emulator.kernels.feet import bent
+    from emulator.kernels.legs import bent
 
     if legs.bones is None:
         return
     control = np.concatenate([bends[:, :, :1], bends, bends[:, :, -1:]], axis=2)
-    bent(directions.reshape(*place.shape, -1), np.ascontiguousarray(length_m), legs.bones, place, control)
+    bent(directions.reshape(*place.shape, -1), np.ascontiguousarray(length_m), legs.bones, legs.soles, place, control)
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,7 +219,7 @@ class Footing:
 
     postures : (N, P) posture coefficients of each, by which the nearest is found
     stands   : (N, 2, T) whether the left and the right foot stands
-    prints   : (N, 2, T, 3) see ``prints``, in leg lengths
+    prints   : (N, 2, T, 5) see ``prints``, in leg lengths; in libraries of before (N, 2, T, 3), without directions
     floor    : the height of the lowest joint of all in leg lengths, at most 0: how far recordings are below the floor
     foot_floor : (2, 2) the same of ankle and toe of each side; they may lie above 0
     """
@@ -224,17 +247,23 @@ class Footing:
             flat = joints[:, legs.feet.ravel()].reshape(len(joints), -1)
             frames = np.arange(len(joints))
             feet = np.stack([np.interp(at, frames, column) for column in flat.T], axis=1).reshape(len(at), 4, 3)
-            there = Legs(np.array([[0, 1], [2, 3]]), None)
+            there = Legs(np.array([[0, 1], [2, 3]]), None, legs.soles)
             yaw = np.interp(at, frames, motion.yaw_rad)
             stands.append(own[:, nearest])
-            places.append(prints(feet, yaw, stands[-1], there) / leg)
+            places.append(prints(feet, yaw, stands[-1], there) / [leg, leg, leg, 1.0, 1.0])
             lowest.append(joints[..., 2].min() / leg)
             foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
-        whole = np.clip(np.rint(np.array(places) / PRINT), -32767, 32767)
+        whole = np.clip(np.rint(np.array(places) / PRINTS), -32767, 32767)
         floor, foot_floor = (np.quantile(heights, DEEP_SHARE, axis=0) for heights in (lowest, foot_lowest))
-        return cls(postures, np.array(stands), whole * PRINT, min(0.0, float(floor)), foot_floor)
+        return cls(postures, np.array(stands), whole * PRINTS, min(0.0, float(floor)), foot_floor)
 
     def nearest(self, postures: np.ndarray) -> np.ndarray:
         """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""
         square = np.sum(self.postures**2, axis=1) - 2 * postures @ self.postures.T
         return np.asarray(square.argmin(axis=1))
+
+    def prints_m(self, near: np.ndarray, leg_m: np.ndarray) -> np.ndarray:
+        """(n, 2, T, 3 or 5) the prints of the recordings ``near`` (n,) for legs of these lengths (n,)."""
+        found = self.prints[near]
+        found[..., :3] *= leg_m[:, None, None, None]
+        return found

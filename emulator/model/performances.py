@@ -27,7 +27,7 @@ Floats = type[np.floating] | np.dtype
 class Ground:
     """Where and how n bodies stand.
 
-    control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 3) what the legs bend
+    control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 6) what the legs bend
     posture : (n, P) posture coefficients; kept : (n,) what share of their deviation from the mean movement is kept
     fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
     """
@@ -169,18 +169,18 @@ class MotionPerformances:
         """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
         model, n, lengths = self.model, len(self), self.bone_length_m
         posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
-        near = None if model.footing is None else model.footing.nearest(posture)
+        near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
         centre = [model.scale.centre[model.scale.block(name)] for name in ("posture", "root")]
         posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
         aligned = model.decoder.directions(posture, clock)
         flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
         root, yaw = model.channel.inverse(flat, aligned, lengths)
-        path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 3))
+        path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 6))
         fastest = np.zeros(n)
         if model.footing is not None:
             leg_m = model.channel.leg_m(lengths)
-            stands, prints_m = model.footing.stands[near], model.footing.prints[near] * leg_m[:, None, None, None]
+            stands, prints_m = model.footing.stands[near], model.footing.prints_m(near, leg_m)
             time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
             floor_m = model.footing.floor * float(leg_m.mean())
             foot_floor_m = model.footing.foot_floor * leg_m[:, None, None]

@@ -18,7 +18,7 @@ from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
 from emulator.geometry.warps import through
 from emulator.model.dwell_times import NONE, Dwells
 from emulator.model.emulator import MotionEmulator
-from emulator.model.feet import FIRST_PRINT, NO_FLOOR_M, PRINT, Footing
+from emulator.model.feet import FIRST_PRINT, NO_FLOOR_M, PRINTS, Footing
 from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_coordinates import BLOCKS, CURVES, JointScale, Margin, bits, decode, encode, within_worker
 from emulator.model.reduction import JointPCA
@@ -87,11 +87,13 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     if model.workforce.population is not None:
         arrays |= {f"population_{name}": getattr(model.workforce.population, name) for name in POPULATION}
     if model.footing is not None:
-        plain |= {"floor": model.footing.floor, "print": PRINT}
+        prints = model.footing.prints
+        plain |= {"floor": model.footing.floor, "prints": PRINTS[: prints.shape[-1]].tolist()}
         arrays["footing_floor"] = model.footing.foot_floor
-        arrays["footing_postures"] = model.footing.postures
+        if not np.array_equal(_recorded_postures(model.scale, model.workforce), model.footing.postures):
+            arrays["footing_postures"] = model.footing.postures
         arrays["footing_stands"] = np.packbits(model.footing.stands, axis=-1)
-        arrays["footing_prints"] = np.rint(model.footing.prints / PRINT).astype(np.int16)
+        arrays["footing_steps"] = _halves(np.rint(prints / PRINTS[: prints.shape[-1]]).astype(np.int16))
     if model.workforce.smoothed is not None:
         arrays |= {f"smoothed_{name}": getattr(model.workforce.smoothed, name) for name in SMOOTHED}
     return plain, arrays
@@ -101,6 +103,24 @@ def _steps(whole: np.ndarray, n_times: int) -> np.ndarray:
     """Whole (R, T * C) -> first values and steps along time (R, T, C), modulo 2^16 or 2^32: small, they pack well."""
     grid = whole.reshape(len(whole), n_times, -1)
     return np.concatenate([grid[:, :1], np.diff(grid, axis=1)], axis=1)
+
+
+def _halves(whole: np.ndarray) -> np.ndarray:
+    """Whole (N, 2, T, C) of 16 bits -> low and high bytes (2, N, 2, C, T) of first values and steps: they pack well."""
+    steps = np.concatenate([whole[:, :, :1], np.diff(whole, axis=2)], axis=2).transpose(0, 1, 3, 2).astype("<u2")
+    return np.stack([steps & 255, steps >> 8]).astype(np.uint8)
+
+
+def _whole(halves: np.ndarray) -> np.ndarray:
+    """The way back from ``_halves``."""
+    steps = halves[0].astype(np.uint16) | (halves[1].astype(np.uint16) << 8)
+    return np.cumsum(steps, axis=-1, dtype=np.uint16).view(np.int16).transpose(0, 1, 3, 2)
+
+
+def _recorded_postures(scale: JointScale, workforce: Workforce) -> np.ndarray:
+    """(N, P) posture coefficients of the recordings, where the workforce has them; else (0, P)."""
+    known = workforce.smoothed
+    return scale.raw(np.zeros((0, sum(scale.sizes))) if known is None else known.scores, "posture")
 
 
 NEW = ("drawn_in", "tells")
@@ -130,6 +150,7 @@ def _unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray
     if (size["duration"], size["marks"]) != (1, len(mark_names)):
         raise ValueError(f"{task}: {size['marks']} mark coordinates for {len(mark_names)} marks")
     flatten = parts.flatten(skeleton.n_bones)
+    scale, workforce = JointScale(parts.sizes, parts.array("centre", parts.k), parts.spread()), parts.workforce()
     return MotionEmulator(
         task,
         skeleton,
@@ -142,11 +163,11 @@ def _unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray
         parts.short_pca("bones", size["bones"], skeleton.n_bones),
         parts.margin("margin", 0),
         tuple(parts.margin("margin", 1 + e) for e in range(len(mark_names))),
-        JointScale(parts.sizes, parts.array("centre", parts.k), parts.spread()),
-        parts.workforce(),
+        scale,
+        workforce,
         FitReport.of_dict(plain["report"]),
         parts.dwells(size["dwells"], len(mark_names)),
-        parts.footing(size["posture"]),
+        parts.footing(_recorded_postures(scale, workforce)),
         bool(plain.get("rides", True)),  # a library of before says nothing of it
     )
 
@@ -232,19 +253,33 @@ class _Parts:
             raise ValueError(f"{self.task}: its sites of pauses make no sense")
         return Dwells(clock, zero, tuple(self.margin("dwell", j) for j in range(n_sites)), mark)
 
-    def footing(self, n_posture: int) -> Footing | None:
+    def footing(self, recorded: np.ndarray) -> Footing | None:
+        """recorded : (N, P) posture coefficients, which a library of before says once more."""
         if "floor" not in self.plain:
             return None
-        postures = self.array("footing_postures", -1, n_posture)
+        own = f"{self.task}/footing_postures" in self.arrays
+        postures = self.array("footing_postures", -1, recorded.shape[1]) if own else recorded
         packed = self.array("footing_stands", len(postures), 2, -(-self.n_times // 8))
-        whole = self.array("footing_prints", len(postures), 2, self.n_times, 3)
-        floor, step = _number(self.plain["floor"]), _number(self.plain.get("print", FIRST_PRINT))
-        if len(postures) == 0 or packed.dtype != np.uint8 or whole.dtype != np.int16 or floor > 0:
+        prints, floor = self._prints(len(postures)), _number(self.plain["floor"])
+        if len(postures) == 0 or packed.dtype != np.uint8 or floor > 0:
             raise ValueError(f"{self.task}: its footing makes no sense")
         stands = np.unpackbits(packed, axis=-1, count=self.n_times).astype(bool)
         at = f"{self.task}/footing_floor"
         foot_floor = self.array("footing_floor", 2, 2) if at in self.arrays else np.full((2, 2), NO_FLOOR_M)
-        return Footing(postures, stands, whole * step, floor, foot_floor)
+        return Footing(postures, stands, prints, floor, foot_floor)
+
+    def _prints(self, n: int) -> np.ndarray:
+        """(n, 2, T, 5), or (n, 2, T, 3) of a library of before, where feet have no direction."""
+        if f"{self.task}/footing_steps" in self.arrays:
+            steps = np.array([_number(step) for step in self.plain["prints"]])
+            halves = self.array("footing_steps", 2, n, 2, len(steps), self.n_times)
+            if halves.dtype != np.uint8 or len(steps) not in (3, 5) or np.any(steps <= 0):
+                raise ValueError(f"{self.task}/footing_steps makes no sense")
+            return _whole(halves) * steps
+        whole = self.array("footing_prints", n, 2, self.n_times, 3)
+        if whole.dtype != np.int16:
+            raise ValueError(f"{self.task}/footing_prints: found {whole.dtype}, expected int16")
+        return np.asarray(whole * _number(self.plain.get("print", FIRST_PRINT)))
 
     def workforce(self) -> Workforce:
         names = tuple(str(name) for name in self.plain["workers"])

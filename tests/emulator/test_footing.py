@@ -7,6 +7,7 @@ import pytest
 
 from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import Footing, Legs, bend, on_its_feet, prints, standing, stood
+from emulator.motion import turn
 from emulator.skeleton import Skeleton
 from tests import naive_footing
 from tests.emulator.fitted import made, recorded
@@ -56,7 +57,7 @@ def of_lift(worker=0):
     near = emulator.footing.nearest(emulator.scale.raw(some.scores, "posture"))
     leg_m = emulator.channel.leg_m(some.bone_length_m)
     time_s = emulator.warps(some.scores) * emulator.moving_s(some.scores)[:, None]
-    prints_m = emulator.footing.prints[near] * leg_m[:, None, None, None]
+    prints_m = emulator.footing.prints_m(near, leg_m)
     path = np.concatenate([root, yaw[..., None]], axis=-1)
     path = path + 0.02 * np.sin(clock / 9)[..., None]  # feet that would slide and sink
     return emulator, aligned, some.bone_length_m, path, emulator.footing.stands[near], prints_m, time_s
@@ -75,16 +76,20 @@ def test_the_compiled_footing_is_the_naive_one():
 
 def test_the_compiled_bend_is_the_naive_one_and_bones_keep_their_lengths():
     emulator, aligned, lengths, *_ = of_lift()
-    bends = np.broadcast_to(np.array([0.03, -0.02, 0.04]), (4, 2, emulator.n_times, 3)).copy()
+    by = np.array([0.03, -0.02, 0.04, -0.1, 0.2, 0.1])
+    bends = np.broadcast_to(by, (4, 2, emulator.n_times, 6)).copy()
     place = np.tile(np.arange(float(emulator.n_times)), (4, 1))
     ours = aligned.copy()
     bend(ours, lengths, emulator.legs, place, bends)
     assert np.abs(np.linalg.norm(ours, axis=-1) - 1).max() < 1e-9
     for i, t, (upper, lower) in ((0, 3, emulator.legs.bones[0]), (2, 60, emulator.legs.bones[1])):
         thigh, shank = (lengths[i, b] * aligned[i, t, b] for b in (upper, lower))
-        want = naive_footing.bent(thigh, shank, np.array([0.03, -0.02, 0.04]))
+        want = naive_footing.bent(thigh, shank, by[:3])
         for bone, vector in zip((upper, lower), want):
             assert np.abs(lengths[i, bone] * ours[i, t, bone] - vector).max() < 1e-9
+    for i, t, sole in ((0, 3, emulator.legs.soles[0]), (2, 60, emulator.legs.soles[1])):
+        want = naive_footing.turned(lengths[i, sole, None] * aligned[i, t, sole], by[3:])
+        assert np.abs(lengths[i, sole, None] * ours[i, t, sole] - want).max() < 1e-9
 
 
 def test_planted_feet_of_draws_stray_no_farther_than_recorded_ones():
@@ -97,6 +102,36 @@ def test_planted_feet_of_draws_stray_no_farther_than_recorded_ones():
         stands = standing(joints, (len(joints) - 1) / seconds, emulator.legs)
         slips.append(np.abs(prints(joints, np.zeros(len(joints)), stands, emulator.legs)[..., :2]).max())
     assert np.median(slips[12:]) < 1.5 * np.median(slips[:12]) + 0.005
+
+
+def test_feet_that_never_turn_do_not_turn_in_draws():
+    emulator, aligned, lengths, path, stands, prints_m, time_s = of_lift()
+    swivelling = aligned.copy()
+    clock = np.arange(float(emulator.n_times))
+    sole = emulator.legs.soles[0, 0]
+    swivelling[:, :, sole] = turn(aligned[:, :, sole], 0.2 * np.sin(clock / 9))
+    stands, prints_m = np.ones_like(stands), np.zeros_like(prints_m)
+    no_floor_m = np.full((4, 2, 2), -9.0)
+    args = swivelling, lengths, path, stands, prints_m, time_s, -9.0, no_floor_m
+    _, bends, _ = stood(emulator.skeleton, emulator.legs, *args)
+    place = np.tile(clock, (4, 1))
+    bend(swivelling, lengths, emulator.legs, place, bends)
+    yaw = path[:, :, 3]
+    level = turn(swivelling[:, :, sole], yaw)
+    assert np.ptp(np.arctan2(level[..., 1], level[..., 0]), axis=1).max() < 0.01
+    assert np.abs(level[..., 2]).max() < 0.02
+
+
+def test_a_library_of_before_has_prints_without_directions(tmp_path):
+    emulator = made("lift")[2]
+    before = replace(emulator, footing=replace(emulator.footing, prints=emulator.footing.prints[..., :3].copy()))
+    before.save(tmp_path / "lift.npz")
+    again = MotionEmulator.load(tmp_path / "lift.npz")
+    assert np.array_equal(again.footing.prints, before.footing.prints)
+    some = before.sample(3, np.random.default_rng(0))
+    ours, bare = (replace(some, model=model).directions() for model in (again, replace(again, footing=None)))
+    soles = again.legs.soles.ravel()
+    assert np.abs(ours - bare).max() > 1e-6 and np.abs(ours - bare)[:, :, soles].max() < 1e-12
 
 
 def test_nothing_changes_for_recordings_whose_bones_do_not_breathe():
@@ -125,7 +160,7 @@ def test_a_saved_footing_is_the_fitted_one(tmp_path):
 
 def test_the_nearest_recording_is_the_nearest():
     postures = np.array([[0.0, 0], [3, 0], [0, 4]])
-    footing = Footing(postures, np.zeros((3, 2, 5), bool), np.zeros((3, 2, 5, 3)), 0.0, np.zeros((2, 2)))
+    footing = Footing(postures, np.zeros((3, 2, 5), bool), np.zeros((3, 2, 5, 5)), 0.0, np.zeros((2, 2)))
     assert footing.nearest(np.array([[0.4, 0.1], [2.0, 0.5], [0.0, 9.0]])).tolist() == [0, 1, 2]
 
 
