@@ -1,4 +1,4 @@
-"""What README.md shows is run as it stands, in a folder that holds the files it names."""
+"""What README.md and the pages of docs show is run as it stands, each page in a folder with the files it names."""
 
 import csv
 import re
@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,12 +22,22 @@ from opsim.shipped import shipped_folder
 from tests.browser.axe import serious
 from tests.browser.chromium import browser
 
-README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-PYTHON = [text for language, text in BLOCKS if language == "python"]
-COMMANDS = [
-    line for language, text in BLOCKS if not language for line in text.splitlines() if line.startswith("opsim ")
+ROOT = Path(__file__).parent.parent
+PAGES = {"README": ROOT / "README.md", **{path.stem: path for path in sorted((ROOT / "docs").glob("[a-z]*.md"))}}
+BLOCKS = [
+    (name, language, text)
+    for name, path in PAGES.items()
+    for language, text in re.findall(r"^```(\w*)\n(.*?)^```$", path.read_text("utf-8"), re.MULTILINE | re.DOTALL)
 ]
+PYTHON = [(name, text) for name, language, text in BLOCKS if language == "python"]
+COMMANDS = [
+    (name, line)
+    for name, language, text in BLOCKS
+    if not language
+    for line in text.splitlines()
+    if line.startswith("opsim ")
+]
+SCENARIO = next(text for name, language, text in BLOCKS if (name, language) == ("README", "yaml"))
 
 
 @pytest.fixture(scope="module")
@@ -55,8 +66,8 @@ def squats():
 
 
 def with_the_files(folder, squats):
-    """The files that README.md names: its own scenario, a recording, and a long take of six reaches as BVH."""
-    (folder / "two_benches.yaml").write_text(next(text for language, text in BLOCKS if language == "yaml"))
+    """The files that pages name: the scenario of README.md, a recording, and a long take of six reaches as BVH."""
+    (folder / "two_benches.yaml").write_text(SCENARIO)
     np.savez(folder / "deep_squat.npz", **squats)
     motions = [replace(motion, mark_s=np.zeros(0)) for motion in make("reach", 1, 6)[0].motions]
     write_bvh(long_take(motions, np.random.default_rng(0))[0], folder / "take.bvh")
@@ -70,11 +81,11 @@ def opened(chromium, path, width):
 
 
 def test_there_is_something_to_run():
-    assert len(PYTHON) >= 3 and len(COMMANDS) >= 5
+    assert len(PYTHON) >= 6 and len(COMMANDS) >= 35
 
 
-@pytest.mark.parametrize("block", PYTHON, ids=range(len(PYTHON)))
-def test_a_python_block_runs_as_it_stands(block, tmp_path, squats):
+@pytest.mark.parametrize(("page", "block"), PYTHON, ids=[f"{name}-{k}" for k, (name, _) in enumerate(PYTHON)])
+def test_a_python_block_runs_as_it_stands(page, block, tmp_path, squats):
     done = subprocess.run(
         [sys.executable, "-c", block], cwd=with_the_files(tmp_path, squats), capture_output=True, text=True
     )
@@ -83,24 +94,32 @@ def test_a_python_block_runs_as_it_stands(block, tmp_path, squats):
 
 @pytest.fixture(scope="module")
 def answers(tmp_path_factory, squats):
-    """The folder, and what each command answered there, one after the other; compiled code is loaded once for all."""
-    folder = with_the_files(tmp_path_factory.mktemp("readme"), squats)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        return folder, {line: CliRunner().invoke(main, shlex.split(line, comments=True)[1:]) for line in COMMANDS}
+    """Of a page: its folder, and what each command answered there, in order; compiled code is loaded once for all."""
+
+    @cache
+    def of_page(page):
+        folder = with_the_files(tmp_path_factory.mktemp(page), squats)
+        lines = [line for name, line in COMMANDS if name == page]
+        with pytest.MonkeyPatch.context() as patch:
+            patch.chdir(folder)
+            return folder, {line: CliRunner().invoke(main, shlex.split(line, comments=True)[1:]) for line in lines}
+
+    return of_page
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("line", COMMANDS, ids=lambda line: line.partition("  #")[0].rstrip())
-def test_a_command_runs_as_it_stands_after_those_above_it(line, answers):
-    answer = answers[1][line]
+@pytest.mark.parametrize(
+    ("page", "line"), COMMANDS, ids=[f"{name}: {line.partition('  #')[0].rstrip()}" for name, line in COMMANDS]
+)
+def test_a_command_runs_as_it_stands_after_those_above_it(page, line, answers):
+    answer = answers(page)[1][line]
     assert answer.exit_code == 0, answer.output
 
 
 @pytest.mark.slow
 def test_all_tables_and_figures_of_the_paper_are_made(answers):
     """What ``opsim motion judge --paper`` writes; made here because it takes long."""
-    folder, said = answers
+    folder, said = answers("motion")
     assert "judge: deep_squat: two levels" in next(one.stderr for line, one in said.items() if " --paper " in line)
     made = folder / "judged"
     assert {path.name for path in (made / "deep_squat").iterdir()} == {
@@ -117,8 +136,8 @@ def test_all_tables_and_figures_of_the_paper_are_made(answers):
 @pytest.mark.browser
 @pytest.mark.parametrize("width", [1280, 390])
 def test_no_page_that_they_write_has_a_serious_fault_for_keyboard_or_screen_reader(answers, width):
-    pages = sorted(answers[0].rglob("*.html"))
+    pages = sorted(path for name in dict(COMMANDS) for path in answers(name)[0].rglob("*.html"))
     assert len(pages) >= 10
     with browser() as chromium:
-        faults = {path.name: serious(opened(chromium, path, width)) for path in pages}
+        faults = {f"{path.parent.name}/{path.name}": serious(opened(chromium, path, width)) for path in pages}
     assert {name: said for name, said in faults.items() if said} == {}

@@ -11,7 +11,7 @@ Leave-one-out R^2 is above 0 for 15-40 % of scores that are pure noise (4 to 40 
 also pass what standard normal numbers reach on the same covariates, folds and choice of components, as Horn's parallel
 analysis does for eigenvalues. Tried on made cohorts (60 scores, 6 of them explained): R^2 > 0 alone, R^2 above its
 standard error, the 95 % bar score by score, the same with the false discovery rate controlled over the scores. The
-last one left the smallest error for new people from 4 people to 40; DESIGN.md has the figures.
+last one left the smallest error for new people from 4 people to 40; docs/emulator.md has the figures.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ def duration_margin(log_duration: np.ndarray, worker_index: np.ndarray) -> Margi
     """Lognormal; normal scores where the residuals refuse it and workers hardly differ.
 
     Where a few people differ, pooled scores are steps at each of them, and a new worker between two has two modes;
-    on held-out repetitions of such people the lognormal was as good or better (DESIGN.md).
+    on held-out repetitions of such people the lognormal was as good or better (docs/emulator.md).
     """
     icc = intraclass_correlation(log_duration, worker_index)[0]
     residual = within_worker(log_duration, worker_index)

@@ -1,4 +1,4 @@
-"""No serious fault by axe-core in pages that README.md does not make (tests/test_readme.py looks at those)."""
+"""No serious fault by axe-core in pages that README.md and docs do not make (tests/test_readme.py looks at those)."""
 
 import pytest
 

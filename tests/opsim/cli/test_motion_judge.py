@@ -21,7 +21,7 @@ def recorded(tmp_path_factory):
 
 
 def test_json_has_the_page_and_the_rows_of_each_table(recorded, tmp_path, monkeypatch):
-    """Of a made section; all true tables and figures are made by the command in README.md (tests/test_readme.py)."""
+    """Of a made section; all true tables and figures come of a command of docs/motion.md (tests/test_readme.py)."""
     table = Table(2, "made", ("test", "p"), (("first", 0.5), ("second", 0.25)))
     monkeypatch.setattr(judging, "sections", lambda sets, seed: iter([Section(sets[0].task, "made", (table,))]))
     code, shown, _ = opsim("motion", "judge", recorded, "--paper", "-o", tmp_path / "out", "--json")
