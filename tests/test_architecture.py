@@ -17,6 +17,8 @@ MAY_MEET_THE_EMULATOR = ("opsim/cli/", "opsim/libraries.py")
 RULES_MAY_IMPORT = {"opsim"}
 COMPILED = ("opsim/ergonomics/kernels/", "opsim/engine/fast_engine/")
 """Imported inside functions only, so numba may stand at the top there."""
+NAME_EACH_OTHER = "opsim/engine/"
+"""Records of the floor are structs of structs: each names the types of its fields, to type checkers only."""
 
 
 def modules(package: str) -> dict[str, Path]:
@@ -90,10 +92,18 @@ def test_no_import_cycles(package):
 
 
 def needed(path: Path, known: Collection[str]) -> set[str]:
-    """The modules that a file imports at its top level; ``from package import module`` needs the module."""
+    """The modules that a file imports at its top level or for type checkers; ``from a import b`` needs a.b."""
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    if not path.relative_to(ROOT).as_posix().startswith(NAME_EACH_OTHER):
+        body += [
+            node
+            for one in body
+            if isinstance(one, ast.If) and "TYPE_CHECKING" in ast.dump(one.test)
+            for node in one.body
+        ]
     names = {
         name if name in known else name.rpartition(".")[0]
-        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        for node in body
         if isinstance(node, ast.ImportFrom) and not node.level and node.module
         for name in (f"{node.module}.{alias.name}" for alias in node.names)
     }
