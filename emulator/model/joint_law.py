@@ -6,7 +6,7 @@ What is drawn from it and fitted to it is in the files above: ``performances``, 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from emulator.skeleton import Skeleton
 SLOPE_ROOM = np.log(1.2)
 FASTER = 1.1
 _N_HERMITE = 20
+AT_ONCE = 64
+"""Components of a law whose moments are made at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +161,14 @@ class JointLaw:
 
     def moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
         """Mean and standard deviation of the whole time, of one worker or (None) over the population."""
+        return self._population_s if effect is None else self._whole_moments_s(effect)
+
+    @cached_property
+    def _population_s(self) -> tuple[float, float]:
+        """``moments_s`` of the population: thousands of components, and asked for at every station."""
+        return self._whole_moments_s(None)
+
+    def _whole_moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
         return self._moments_s(effect) if len(self.dwells) == 0 else self._paused_moments_s(effect)
 
     def coordinates_of_times(self) -> np.ndarray:
@@ -179,34 +189,36 @@ class JointLaw:
         law, at = self.workforce.law(effect), self.coordinates_of_times()
         mean, covariance = law.coordinates(at)
         scale = self.scale.spread[at]
-        parts = [
-            self._component_s(self.scale.centre[at] + scale * m, c * np.outer(scale, scale))
-            for m, c in zip(mean, covariance)
-        ]
-        means, variances = np.array(parts).T
+        mean, covariance = self.scale.centre[at] + scale * mean, covariance * np.outer(scale, scale)
+        blocks = [slice(start, start + AT_ONCE) for start in range(0, len(mean), AT_ONCE)]
+        means, variances = np.concatenate([self._components_s(mean[rows], covariance[rows]) for rows in blocks], axis=1)
         mean_s = law.weight @ means
         return float(mean_s), float(np.sqrt(law.weight @ (variances + (means - mean_s) ** 2)))
 
-    def _component_s(self, mean: np.ndarray, covariance: np.ndarray) -> tuple[float, float]:
-        """Mean and variance of the whole time where the raw coordinates (1 + S,) are normal.
+    def _components_s(self, mean: np.ndarray, covariance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Means and variances (M,) of the whole time where the raw coordinates (M, 1 + S) are normal.
 
         Products of different terms by Mehler's series in Hermite polynomials of normal X, Y with correlation rho:
         Cov(f(X), g(Y)) = sum over k >= 1 of rho^k f_k g_k.
         """
-        spread = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-        moving_s = np.exp(self.margin.inverse(mean[0] + spread[0] * GRID))
-        latent = mean[1:] + spread[1:] * GRID[:, None]
-        terms = np.concatenate([moving_s[None], self.dwells.seconds(latent).T])
+        spread = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 1e-300))
+        raw = mean[..., None] + spread[..., None] * GRID
+        moving_s = np.exp(self.margin.inverse(raw[:, 0]))
+        terms = np.concatenate(
+            [moving_s[:, None], np.moveaxis(self.dwells.seconds(np.moveaxis(raw[:, 1:], 1, -1)), -1, 1)], axis=1
+        )
         coefficients = (terms * WEIGHTS) @ _hermite().T
-        correlation = np.clip(covariance / np.outer(spread, spread), -1.0, 1.0)
+        correlation = np.clip(covariance / (spread[:, :, None] * spread[:, None]), -1.0, 1.0)
         power, product = np.ones_like(correlation), np.zeros_like(correlation)
         for k in range(1, _N_HERMITE):
             power = power * correlation
-            product += power * np.outer(coefficients[:, k], coefficients[:, k])
-        np.fill_diagonal(product, terms**2 @ WEIGHTS - coefficients[:, 0] ** 2)
-        return float(coefficients[:, 0].sum()), max(float(product.sum()), 0.0)
+            product += power * coefficients[:, :, None, k] * coefficients[:, None, :, k]
+        own = np.arange(terms.shape[1])
+        product[:, own, own] = terms**2 @ WEIGHTS - coefficients[..., 0] ** 2
+        return coefficients[..., 0].sum(axis=1), np.maximum(product.sum(axis=(1, 2)), 0.0)
 
 
+@lru_cache(maxsize=1)
 def _hermite() -> np.ndarray:
     """(K, G) Hermite polynomials on the grid, orthonormal under the standard normal."""
     rows = [np.ones_like(GRID), GRID]
