@@ -70,6 +70,7 @@ def fitted():
     return MotionEmulator.fit(motions, scheme="auto", n_times=21, n_knots=8)
 
 
+@pytest.mark.slow
 def test_auto_gives_one_of_the_schemes_and_says_why():
     report = fitted().report
     assert report.scheme in SCHEMES

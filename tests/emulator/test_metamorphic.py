@@ -70,6 +70,7 @@ def assert_same(
     assert other.between_share == pytest.approx(emulator.between_share, abs=ROUNDING)
 
 
+@pytest.mark.slow
 def test_recordings_taken_elsewhere_in_the_room_give_the_same_draws():
     places = np.random.default_rng(0).uniform(-50, 50, (len(MADE), 3)) * [1, 1, 0]
     assert_same(fitted(), refitted(filmed(lambda joints, number: joints + places[number])))

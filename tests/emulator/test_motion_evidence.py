@@ -205,6 +205,7 @@ def test_an_unknown_class_is_refused_with_the_known_ones(capsys):
     assert "no class 'squats'; known: hdm05_deposit_floor" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_small_class_is_measured():
     recording("hdm05_throw_ball")
     row = in_sample("hdm05_throw_ball", 9) | held_out("hdm05_throw_ball", 0, 2)

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.emulator.test_library import huge_npy
 
 from emulator import read_motions as read_motions_of
 from emulator.recordings import RecordingError, read_motions
@@ -15,6 +14,7 @@ from emulator.recordings.selection import WhereError, rows_where
 from emulator.recordings.take import Recording, Take
 from emulator.skeleton import CANONICAL, standard_skeleton
 from emulator.synthetic.tasks import make
+from tests.emulator.test_library import huge_npy
 from tests.recordings import recording
 
 COLUMNS = {

@@ -32,12 +32,14 @@ def uneven():
     return people_of(reach([0, 1, 2, 4, 5, 8]), QUICK)
 
 
+@pytest.mark.slow
 def test_of_people_who_differ_each_is_foretold_best_by_his_own_draws(different):
     assert [person.closer for person in different.persons] == [True] * 4
     means = different.over_all
     assert np.all(means.known < 0.5 * means.pooled) and np.all(means.pooled < means.new)
 
 
+@pytest.mark.slow
 def test_of_people_who_do_not_differ_own_draws_tell_no_more_than_noise():
     found = people_of(reach(between_share=0.0), QUICK)
     gain = (found.pooled - found.known).sum(axis=1)
@@ -45,6 +47,7 @@ def test_of_people_who_do_not_differ_own_draws_tell_no_more_than_noise():
     assert found.iccs[0].low < 0 and abs(gain.mean()) < 0.1 * found.pooled.sum(axis=1).mean()
 
 
+@pytest.mark.slow
 def test_what_lies_between_people_is_told_of_duration_posture_and_pace(different):
     names = [icc.quantity for icc in different.iccs]
     assert names[0] == "log duration" and {"posture score 1", "pace score 1"} <= set(names)
@@ -65,9 +68,11 @@ def test_known_and_pooled_are_compared_over_the_same_repetitions(uneven):
     assert np.allclose(uneven.over_all.new, uneven.new.mean(axis=0))
 
 
-def test_a_fit_without_somebody_that_leaves_too_few_is_passed_over():
-    found = people_of(reach([0, 1, 4, 5]), QUICK)
+def test_a_fit_without_somebody_that_leaves_too_few_is_passed_over_and_progress_counts_every_fit():
+    motions, seen = reach([0, 1, 4, 5]), []
+    found = people_of(motions, QUICK, lambda done, total, label: seen.append((done, total)))
     assert np.all(np.isnan(found.new)) and np.all(np.isfinite(found.known))
+    assert n_steps(motions) == 1 + 4 + 2 and seen == [(step, 7) for step in range(1, 7)]
 
 
 def test_the_order_of_the_repetitions_decides_nothing(uneven):
@@ -75,15 +80,10 @@ def test_the_order_of_the_repetitions_decides_nothing(uneven):
     assert other.trials.tolist() == uneven.trials.tolist() and np.allclose(other.known, uneven.known, equal_nan=True)
 
 
+@pytest.mark.slow
 def test_the_seed_decides_the_draws(uneven):
     other = people_of(reach([0, 1, 2, 4, 5, 8]), FitSettings(SCHEME, None, 21, 8, 0.0, 1, ""))
     assert not np.allclose(other.pooled, uneven.pooled) and np.allclose(other.pooled, uneven.pooled, atol=0.3)
-
-
-def test_progress_counts_registration_and_every_fit():
-    motions, seen = reach([0, 1, 4, 5]), []
-    people_of(motions, QUICK, lambda done, total, label: seen.append((done, total)))
-    assert n_steps(motions) == 1 + 4 + 2 and seen == [(step, 7) for step in range(1, 7)]
 
 
 def test_all_that_speaks_against_it_is_said_at_once():

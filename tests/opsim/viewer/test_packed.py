@@ -13,8 +13,13 @@ from opsim.viewer.posed import joints_m
 from opsim.viewer.stage import scene_of
 from opsim.viewer.write import LEVEL
 
+QUICK = ("repack_cell", "walking_cell")
+"""Scenes that ``make test`` looks at: standing work and ways; the larger ones take long."""
 
-@pytest.mark.parametrize("name", SHOWN)
+
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in SHOWN]
+)
 def test_the_page_shows_what_the_emulators_say(name):
     """From the packed columns alone, at random times of random people: within 2 mm at every joint, mostly far less."""
     shown, twin = scene(name), Twin(*packed_scene(name))
