@@ -20,7 +20,7 @@ LONG_FIRST = (
     "test_known_staffing.py",
     "test_random_people.py",
     "test_truth.py",
-    "test_random_blocks.py",
+    "test_random_floors.py",
     "test_validation.py",
     "test_examples.py",
     "test_people_truth.py",

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from emulator.model.gaussian import Law, LowRankNormal, chosen, placed
+from emulator.model.gaussian import Law, LowRankNormal, chosen, placed, regression
 
 
 def normal(k=3, seed=1, mean=None):
@@ -143,3 +143,8 @@ def test_a_rho_that_is_no_share_is_refused(rho):
 def test_one_sequence_is_refused():
     with pytest.raises(ValueError, match="2 sequences"):
         LowRankNormal.fit(scores(1))
+
+
+def test_slopes_are_covariances_over_the_variance():
+    assert regression(np.array([2.0, 4.0, -1.0]), 0).tolist() == [1.0, 2.0, -0.5]
+    assert regression(np.array([3.0, 0.0]), 1).tolist() == [0.0, 1.0]  # what does not vary tells of nothing

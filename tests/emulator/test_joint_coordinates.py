@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy.special import ndtri
 
 from emulator.model.joint_coordinates import (
     Margin,
@@ -106,3 +107,10 @@ def test_the_grid_does_not_show_in_the_second_differences_of_many_points():
     smooth = np.sin(2 * np.pi * clock)[None]
     bent = [np.diff(x, n=2).std() for x in (smooth, on_grid(smooth, bits(301)) - smooth, on_grid(smooth, 15) - smooth)]
     assert bent[1] < 0.03 * bent[0] < bent[2]
+
+
+def test_normal_scores_are_bloms():
+    """Blom 1958: the i-th of n values is the normal quantile of (i - 3/8) / (n + 1/4)."""
+    values = np.repeat([0.0, 1.0, 5.0], 5) + 1e-3 * np.arange(15)
+    found = fit_margin(values, values, 20)
+    assert np.allclose(found.z, ndtri((np.arange(1, 16) - 0.375) / 15.25), atol=1e-12)
