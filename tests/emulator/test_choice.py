@@ -86,6 +86,7 @@ def test_auto_is_the_chosen_scheme_and_nothing_else():
     assert np.array_equal(drawn[0].scores, drawn[1].scores)
 
 
+@pytest.mark.slow
 def test_one_person_is_judged_by_his_repetitions_alone():
     motions, _ = make("pick", 1, 6, seed=2)
     said = MotionEmulator.fit(motions, scheme="auto", n_times=21, n_knots=8).report.methods["scheme"]

@@ -118,6 +118,7 @@ def test_names_of_workers_decide_not_a_single_bit_as_long_as_their_order_stays()
         assert one.scores.tobytes() == two.scores.tobytes() and one.duration_s.tobytes() == two.duration_s.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate_hz", [25.0, 120.0])
 def test_another_frame_rate_gives_the_same_times_and_hardly_other_postures(rate_hz):
     """A posture between two frames is a guess: at 25 frames a second a lifting hand turns by 3 degrees between two."""

@@ -97,6 +97,7 @@ def test_a_task_that_fails_takes_nothing_from_the_others(recorded, tmp_path, mon
     assert {row["task"] for row in rows_of(tmp_path / "out" / "people.csv")} == {"reach"}
 
 
+@pytest.mark.slow
 def test_what_was_done_before_ctrl_c_is_kept_and_it_says_so(recorded, tmp_path, monkeypatch):
     monkeypatch.setattr(people, "people_of", fails_at_the_second(KeyboardInterrupt()))
     files = recorded / "reach.npz", recorded / "lift.npz"

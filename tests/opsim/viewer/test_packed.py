@@ -13,8 +13,8 @@ from opsim.viewer.posed import joints_m
 from opsim.viewer.stage import scene_of
 from opsim.viewer.write import LEVEL
 
-QUICK = ("repack_cell", "walking_cell")
-"""Scenes that ``make test`` looks at: standing work and ways; the larger ones take long."""
+QUICK = ("walking_cell",)
+"""The scene that ``make test`` looks at; the others take long."""
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,7 @@ PART, LEAST_S = 50, 1000.0
 """One of so many parts of the horizon is compared row by row, but so much at least."""
 
 
+@pytest.mark.slow
 def test_every_known_answer_is_simulated_from_the_same_rows():
     n_rows = []
     for file, variant in VARIANTS:

@@ -47,6 +47,7 @@ for n in range(8):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there are no such signals")
 def test_a_run_is_stopped_whenever_a_signal_comes_and_the_next_one_of_the_plan_is_right():
     folders = os.pathsep.join(map(str, (Path(__file__).parent / "machine", TESTS, TESTS.parent)))
