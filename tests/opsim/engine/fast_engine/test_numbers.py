@@ -87,7 +87,7 @@ def test_people_who_are_redrawn_are_called_for_and_all_else_is_drawn_ahead(shop)
     for replication in (0, 1, 2, 0):
         assert first_difference(run_simpy(redrawn, replication), machine.run(replication)) == ""
     purposes = {stream >> 48 for stream in machine.numbers._asked}
-    assert purposes == {numbers.luck.DURATION, numbers.luck.HOLD}
+    assert purposes == {numbers.random_numbers.DURATION, numbers.random_numbers.HOLD}
 
 
 def test_a_log_keeps_its_numbers_while_others_are_drawn(shop):
