@@ -16,15 +16,21 @@ settings.load_profile("quick")
 
 LONG_FIRST = (
     "test_known_answers.py",
+    "test_faults.py",
     "test_readme.py",
-    "test_known_staffing.py",
+    "test_examples.py",
     "test_random_people.py",
     "test_truth.py",
     "test_random_floors.py",
+    "test_bad_sets.py",
     "test_validation.py",
-    "test_examples.py",
+    "test_metamorphic.py",
     "test_people_truth.py",
+    "test_people.py",
     "test_study_killed.py",
+    "test_motion_people.py",
+    "test_packed.py",
+    "test_replay.py",
 )
 """Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 
