@@ -16,8 +16,6 @@ FORBIDDEN = {
 MAY_MEET_THE_EMULATOR = ("opsim/cli/", "opsim/libraries.py")
 COMPILED = ("opsim/ergonomics/kernels/", "opsim/engine/fast_engine/")
 """Imported inside functions only, so numba may stand at the top there."""
-NAME_EACH_OTHER = "opsim/engine/"
-"""Records of the floor are structs of structs: each names the types of its fields, to type checkers only."""
 
 
 def modules(package: str) -> dict[str, Path]:
@@ -90,13 +88,9 @@ def test_no_import_cycles(package):
 def needed(path: Path, known: Collection[str]) -> set[str]:
     """The modules that a file imports at its top level or for type checkers; ``from a import b`` needs a.b."""
     body = ast.parse(path.read_text(encoding="utf-8")).body
-    if not path.relative_to(ROOT).as_posix().startswith(NAME_EACH_OTHER):
-        body += [
-            node
-            for one in body
-            if isinstance(one, ast.If) and "TYPE_CHECKING" in ast.dump(one.test)
-            for node in one.body
-        ]
+    body += [
+        node for one in body if isinstance(one, ast.If) and "TYPE_CHECKING" in ast.dump(one.test) for node in one.body
+    ]
     names = {
         name if name in known else name.rpartition(".")[0]
         for node in body
