@@ -1,4 +1,4 @@
-# make demo | test | test-fast | test-slow | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | emulator-evidence CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -10,7 +10,7 @@ BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
 PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test tests test-fast test-slow lint page page-packages golden-logs known-answers motion-evidence real-time-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence emulator-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -24,25 +24,26 @@ $(READY): requirements.lock pyproject.toml
 demo: $(READY)
 	$(VENV)/bin/opsim run scenarios/repack_cell.yaml --overwrite
 
-test: lint tests
+# Lint beside the tests: mypy takes one of two cores for its minute where it has no cache.
+test: $(READY)
+	$(MAKE) --no-print-directory -j 2 lint tests
 
 lint: $(READY)
 	$(RUN) -m ruff check .
 	$(RUN) -m ruff format --check .
 	$(RUN) -m mypy
 
-# File by file, the longest first (tests/conftest.py), so that both processes end together; slow statistics in a second, smaller pass.
-# The fast engine is compiled before: else each process would compile it.
+# File by file, the longest first (tests/conftest.py), so that both processes end together.
+# The floor is compiled before: else each process would compile it.
 tests: $(READY)
 	$(RUN) -m opsim.engine.fast_engine
-	$(RUN) -m pytest $(BY_FILE) -m "not slow"
-	$(RUN) -m pytest $(BY_FILE) -m slow
+	$(RUN) -m pytest $(BY_FILE) -m "not slow and not browser"
 
-test-fast: $(READY)
-	$(RUN) -m pytest $(BY_FILE) -m "not slow"
-
-test-slow: $(READY)
-	$(RUN) -m pytest $(BY_FILE) -m slow
+# What takes long: statistics of many draws, pages in a browser, properties at all their examples, known answers at full length.
+evidence: $(READY)
+	$(RUN) -m opsim.engine.fast_engine
+	$(RUN) -m pytest $(BY_FILE) -m "slow or browser or hypothesis" --hypothesis-profile full
+	PYTHONPATH=tests $(RUN) -m known_answers.show --engine fast --no-audit
 
 bench: $(READY)
 	$(RUN) -m pytest tests/bench -p no:xdist -q -s
@@ -82,6 +83,10 @@ motion-evidence: $(READY)
 
 real-time-evidence: $(READY)
 	PYTHONPATH=tests $(RUN) -m motion_evidence.real_time
+
+# CHECKOUT=path of another checkout: what the emulator of it gives, this one gives.
+emulator-evidence: $(READY)
+	PYTHONPATH=tests $(RUN) -m emulator_evidence.same $(CHECKOUT)
 
 take-evidence: $(READY)
 	PYTHONPATH=tests:. $(RUN) -m take_evidence.show -o build/take_evidence

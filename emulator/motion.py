@@ -37,14 +37,6 @@ def frame(columns: Mapping[str, Any]) -> Any:
     return DataFrame(dict(columns))
 
 
-def performances_frame(drawn: Any) -> Any:
-    """A row for each performance: how long it takes, and when its marks fall."""
-    marks = np.asarray(drawn.mark_s)
-    names = getattr(drawn.model, "mark_names", ())
-    names = names if len(names) == marks.shape[1] else [f"mark{e}" for e in range(marks.shape[1])]
-    return frame({"duration_s": drawn.duration_s, **{f"{name}_s": marks[:, e] for e, name in enumerate(names)}})
-
-
 IMPOSSIBLE_M_PER_S = 13.0
 """No joint of a working or exercising person is faster: above, a marker has jumped. A jump below it passes unseen."""
 LYING_SHARE = 0.2

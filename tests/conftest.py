@@ -8,20 +8,29 @@ if "PYTEST_XDIST_WORKER" in os.environ:  # NOTE: two BLAS threads in each of two
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
-settings.register_profile("shared", deadline=None)
-settings.load_profile("shared")
+QUICK = 12
+"""Examples of a property in ``make test``; ``make evidence`` asks as many as it says: ``--hypothesis-profile full``."""
+settings.register_profile("quick", deadline=None, max_examples=QUICK)
+settings.register_profile("full", deadline=None)
+settings.load_profile("quick")
 
 LONG_FIRST = (
     "test_known_answers.py",
+    "test_faults.py",
     "test_readme.py",
-    "test_known_staffing.py",
+    "test_examples.py",
     "test_random_people.py",
     "test_truth.py",
-    "test_random_blocks.py",
+    "test_random_floors.py",
+    "test_bad_sets.py",
     "test_validation.py",
-    "test_examples.py",
+    "test_metamorphic.py",
     "test_people_truth.py",
+    "test_people.py",
     "test_study_killed.py",
+    "test_motion_people.py",
+    "test_packed.py",
+    "test_replay.py",
 )
 """Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 
@@ -44,3 +53,13 @@ def pytest_configure(config):
 def pytest_collection_modifyitems(items):
     rank = {name: number for number, name in enumerate(LONG_FIRST)}
     items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
+    if settings.default.max_examples == QUICK:
+        for item in items:
+            few_examples(item.obj)
+
+
+def few_examples(test):
+    """A property that says how many examples it wants is content with few, too."""
+    wanted = getattr(test, "_hypothesis_internal_use_settings", None)
+    if wanted is not None and wanted.max_examples > QUICK:
+        test._hypothesis_internal_use_settings = settings(wanted, max_examples=QUICK)

@@ -7,13 +7,19 @@ from pathlib import Path
 import pytest
 
 EXAMPLES = sorted((Path(__file__).parent.parent / "examples").glob("*.py"))
+LONG = ("03", "07", "08")
+"""Which take seconds each, and are run by ``make evidence``."""
 
 
 def printed(example: Path) -> str:
     return subprocess.run([sys.executable, str(example)], capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "example",
+    [pytest.param(path, marks=pytest.mark.slow) if path.name.startswith(LONG) else path for path in EXAMPLES],
+    ids=lambda path: path.name,
+)
 def test_an_example_prints_what_it_promises(example):
     assert printed(example) == example.with_suffix(".out").read_text()
 

@@ -9,26 +9,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from emulator.composite import transitions
 from emulator.composite.joining import join_arrays
+from emulator.composite.parts import PartSequence
 from emulator.composite.transitions import Course, Offsets, Windows, seam_between, unhurried_s, windows_s
 from emulator.motion import turn
-from emulator.skeleton import Skeleton
-
-if TYPE_CHECKING:
-    from emulator.composite.task import CompositeEmulator
-
-FRAMES_HZ = 50.0
-_FEWEST, _MOST = 24, 4000
-
-
-def n_frames(mean_s: float) -> int:
-    """Frames on which the path of a part is made: the same for every performance, so that each is what it is alone."""
-    return int(np.clip(np.ceil(mean_s * FRAMES_HZ), _FEWEST, _MOST)) + 1
+from emulator.performances import Performances
 
 
 def part_at(
@@ -126,35 +116,17 @@ AT_ONCE = 16
 
 
 @dataclass(frozen=True, eq=False)
-class CompositePerformances:
+class CompositePerformances(Performances):
     """n performances; ``parts`` holds those of each part. Rows and slices are performances again, the same to 1e-10.
 
     All of one performance is one body: the bones are those of ``model.body_part``.
     """
 
-    model: CompositeEmulator
+    model: PartSequence
     parts: tuple[Any, ...]
-
-    def __len__(self) -> int:
-        return len(self.duration_s)
 
     def __getitem__(self, index: int | slice | np.ndarray) -> CompositePerformances:
         return CompositePerformances(self.model, tuple(part[index] for part in self.parts))
-
-    def to_frame(self) -> Any:
-        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
-        from emulator.motion import performances_frame
-
-        return performances_frame(self)
-
-    def _repr_html_(self) -> str:
-        from emulator.notebook import performances_html
-
-        return performances_html(self)
-
-    @property
-    def skeleton(self) -> Skeleton:
-        return self.model.skeleton
 
     @cached_property
     def part_s(self) -> np.ndarray:
@@ -162,7 +134,7 @@ class CompositePerformances:
         return np.stack([np.asarray(part.duration_s) for part in self.parts], axis=1)
 
     @cached_property
-    def duration_s(self) -> np.ndarray:
+    def duration_s(self) -> np.ndarray:  # type: ignore[override]
         """(n,) seconds: the sum over the parts."""
         return np.asarray(self.stop_s[:, -1])
 
@@ -193,10 +165,6 @@ class CompositePerformances:
         Before the start and after the end the first and last posture are held.
         """
         return self._directions(self._times(times_s, n_times), dtype)
-
-    def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
-        """(n, T, 3) path of the root, metres, from x = y = 0, starting heading along x; times as ``directions``."""
-        return self.path(times_s, n_times)[..., :3]
 
     def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
@@ -293,8 +261,7 @@ class CompositePerformances:
         return joined_path(self)
 
     def _times(self, times_s: np.ndarray | None, n_times: int) -> np.ndarray:
-        own = np.linspace(0, 1, n_times) * self.duration_s[:, None] if times_s is None else np.asarray(times_s, float)
-        own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
+        own = super()._times(times_s, n_times)
         return np.clip(own, 0.0, self.duration_s[:, None])
 
 

@@ -1,6 +1,4 @@
-"""One motion of a composite task, and what it is asked for.
-
-A worker in a task of several motions: his own effect in each of them, and how fast he walks.
+"""A worker in a task of several motions: his own effect in each of them, and how fast he walks.
 
 What a task of several motions tells of itself: what stands behind it, and how far its motions are apart.
 
@@ -11,17 +9,16 @@ Times add up, marks follow one another, and the bodies are joined where one moti
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from emulator.composite.performances import CompositePerformances, n_frames
-from emulator.composite.transitions import BLEND_S, difference, widest_gap_rad
+from emulator.composite.parts import Part, PartSequence
+from emulator.composite.performances import CompositePerformances
+from emulator.composite.transitions import widest_gap_rad
 from emulator.skeleton import Skeleton
 
 __all__ = ["CompositeEffect", "CompositeEmulator", "CompositeReport", "Join", "Part"]
@@ -29,44 +26,6 @@ __all__ = ["CompositeEffect", "CompositeEmulator", "CompositeReport", "Join", "P
 
 CONDITIONS = ("pace", "log_duration_shift")
 """What a composite may be asked for, passed to all its parts."""
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """One motion: its name in marks, its model, and which task it is.
-
-    condition : what its performances are asked for, such as ``{"distance_m": 3.0}``, or None
-    key       : parts of one key are one task, so a worker has one effect in them; "": the name
-    """
-
-    name: str
-    model: Any
-    condition: Mapping[str, Any] | None = None
-    key: str = ""
-
-    @property
-    def task(self) -> str:
-        return self.key or self.name
-
-    @property
-    def marks(self) -> tuple[str, ...]:
-        return tuple(getattr(self.model, "mark_names", ()))
-
-    def asked(self, asked: Mapping[str, Any] | None, speed_m_per_s: float | None = None) -> dict[str, Any] | None:
-        """The condition of its performances: its own, and what the whole is asked for.
-
-        speed_m_per_s : how fast the worker walks, of a way; None: as the model has it
-        """
-        own = dict(self.condition or {})
-        speed = {"speed_m_per_s": speed_m_per_s} if "distance_m" in own and speed_m_per_s is not None else {}
-        return {**own, **speed, **(asked or {})} or None
-
-    def mean_s(self, effect: Any = None, speed_m_per_s: float | None = None) -> float:
-        """Mean seconds, of a worker with this effect who walks so fast."""
-        condition = self.asked(None, speed_m_per_s)
-        if condition is None:
-            return float(self.model.mean_duration_s(effect))
-        return float(self.model.mean_duration_s(effect, condition))
 
 
 def checked(task: str, condition: Mapping[str, Any] | None) -> Mapping[str, Any] | None:
@@ -166,29 +125,8 @@ def joins_of(gaps_rad: np.ndarray, labels: Sequence[str], skeleton: Skeleton, mo
 
 
 @dataclass(frozen=True, eq=False)
-class CompositeEmulator:
-    """A task whose performances are those of its parts, one after the other; satisfies the same seam as they do.
-
-    blend_s : how long before and after a join the postures are brought together; longer where they are far apart
-    Raises ValueError for no parts, or parts of different skeletons.
-    """
-
-    task: str
-    parts: tuple[Part, ...]
-    blend_s: float = BLEND_S
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(self.parts))
-        if not self.parts:
-            raise ValueError(f"{self.task}: found no motions, expected one or more")
-        wrong = [
-            f"{self.task}: {part.name} has {difference(self.skeleton, part.model.skeleton)}, unlike "
-            f"{self.parts[0].name}; expected one skeleton in all"
-            for part in self.parts[1:]
-            if part.model.skeleton != self.skeleton
-        ]
-        if wrong:
-            raise ValueError("\n".join(dict.fromkeys(wrong)))
+class CompositeEmulator(PartSequence):
+    """A task whose performances are those of its parts, one after the other; satisfies the same seam as they do."""
 
     def sample(
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Mapping[str, Any] | None = None
@@ -235,40 +173,6 @@ class CompositeEmulator:
 
     knows_people = knows_slowness = knows_parts = True
     """``draw_worker`` takes ``people``, ``slowness`` and ``own``."""
-
-    @property
-    def skeleton(self) -> Skeleton:
-        skeleton: Skeleton = self.parts[0].model.skeleton
-        return skeleton
-
-    @cached_property
-    def mark_names(self) -> tuple[str, ...]:
-        """``reach.touch``, ``fasten.2.start``."""
-        return tuple(f"{label}.{mark}" for label, part in zip(self.labels, self.parts) for mark in part.marks)
-
-    @cached_property
-    def labels(self) -> tuple[str, ...]:
-        """A name for each part: its own, with its number where it comes more than once."""
-        times, seen, labels = Counter(part.name for part in self.parts), Counter[str](), []
-        for part in self.parts:
-            seen[part.name] += 1
-            labels.append(part.name if times[part.name] == 1 else f"{part.name}.{seen[part.name]}")
-        return tuple(labels)
-
-    @cached_property
-    def distinct(self) -> dict[str, Any]:
-        """The model of each task that parts are of, by key, in the order of the parts."""
-        return {part.task: part.model for part in self.parts}
-
-    @cached_property
-    def body_part(self) -> int:
-        """The part whose bones all have: the first that goes a way, so that its length holds; else the first."""
-        return next((k for k, part in enumerate(self.parts) if part.condition), 0)
-
-    @cached_property
-    def n_frames(self) -> tuple[int, ...]:
-        """Frames of each part on which its path is made."""
-        return tuple(n_frames(part.mean_s()) for part in self.parts)
 
     @property
     def body_keys(self) -> tuple[str, ...]:

@@ -14,7 +14,8 @@ import numpy as np
 
 from emulator.cyclic.contacts import foot_skate_m
 from emulator.cyclic.latent import Finer, PoseLatent, nothing_finer
-from emulator.cyclic.model import CyclicEmulator, rates
+from emulator.cyclic.law import rates
+from emulator.cyclic.model import CyclicEmulator
 from emulator.cyclic.preparation import (
     ENERGY,
     MOST_UNITS,

@@ -10,23 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from emulator.cyclic.contacts import Legs, contact_of_state
-from emulator.cyclic.latent import Finer, PoseLatent
-from emulator.cyclic.pace import Asked, Pace, itinerary, scatter
+from emulator.cyclic.law import CyclicLaw
+from emulator.cyclic.pace import Asked, itinerary, scatter
 from emulator.cyclic.performances import CONDITIONS, CyclicPerformances, asked_of
-from emulator.cyclic.switching_dynamics import SwitchingDynamics
-from emulator.cyclic.units import Crew, CyclicWorker, Guide, Unit
-from emulator.model.decoding import RootChannel
-from emulator.skeleton import Skeleton
+from emulator.cyclic.units import CyclicWorker
 
 if TYPE_CHECKING:
-    from emulator.cyclic.report import CyclicReport
     from emulator.recordings.take import Recording
 
 _CROWN_AND_SOLE_M = 0.20
@@ -34,40 +28,8 @@ _CHAIN = ("left_ankle", "left_knee", "spine", "chest", "neck", "head")
 
 
 @dataclass(frozen=True, eq=False)
-class CyclicEmulator:
-    """latent, dynamics : of postures; starts, stops : units from and to standing, entries : recorded beats
-
-    pace, crew : what times, steps and workers are like; control_at, control_by : log step to the dynamics' input
-    guide : what recorded beats are like, by the control
-    finer : the components of latents beyond those that the dynamics move
-    temper : share of the dynamics' predictive spread that draws have: at which they are as rough as recordings,
-             since what tells takes apart is no noise from frame to frame
-    order : 2 where the dynamics see the latents' rates besides (a hammer goes up and down the same way), else 1
-    ankle_legs, toe_legs : heights of a standing ankle and toe in legs
-    contact_states : whether the dynamics' states are left + 2 right
-    """
-
-    task: str
-    skeleton: Skeleton
-    rate_hz: float
-    latent: PoseLatent
-    dynamics: SwitchingDynamics
-    finer: Finer
-    temper: float
-    order: int
-    starts: tuple[Unit, ...]
-    stops: tuple[Unit, ...]
-    entries: tuple[Unit, ...]
-    guide: Guide
-    pace: Pace
-    crew: Crew
-    control_at: float
-    control_by: float
-    ankle_legs: float
-    toe_legs: float
-    contact_states: bool
-    beat_frames: tuple[int, int]
-    report: CyclicReport
+class CyclicEmulator(CyclicLaw):
+    """A task's model, see ``CyclicLaw``: fitted to takes, sampled, saved."""
 
     mark_names = ()
     body_keys = ("height_m", "pace", "person")
@@ -149,61 +111,6 @@ class CyclicEmulator:
     def workers(self) -> tuple[str, ...]:
         return self.crew.names
 
-    @property
-    def walks(self) -> bool:
-        """Whether its beats are steps of feet that are planted."""
-        return self.pace.steps and self.legs is not None
-
-    @property
-    def channel(self) -> RootChannel:
-        return RootChannel(self.skeleton)
-
-    @cached_property
-    def legs(self) -> Legs | None:
-        """The legs to be planted, where the skeleton has such."""
-        return Legs.of(self.skeleton)
-
-    @cached_property
-    def leg_chain(self) -> np.ndarray:
-        """(b, 3) the part of the skeleton's chain that the legs hang on."""
-        assert self.legs is not None
-        return self.legs.chain(self.skeleton)
-
-    @cached_property
-    def manner(self) -> Any:
-        """What the kernel of a beat reads besides the dynamics' tables."""
-        from emulator.cyclic.timeline import manner_of
-
-        return manner_of(self)
-
-    def contact_of(self, state: np.ndarray) -> np.ndarray:
-        """(T, 2) whether the feet bear in states (T,) of the dynamics; both, where states are of something else."""
-        if not self.contact_states:
-            return np.ones((*np.shape(state), 2), bool)
-        return contact_of_state(state)
-
-    @property
-    def n_moved(self) -> int:
-        """How many of the latents the dynamics move."""
-        return self.dynamics.n_latents // self.order
-
-    def seen(self, z: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """(d,) what the dynamics see of latents z (D,) after ``before`` (D,) one frame earlier."""
-        now = z[: self.n_moved]
-        return now if self.order == 1 else np.append(now, rates(now, before[: self.n_moved], self.beat_frames[1]))
-
-    def whole(self, z: np.ndarray, control: float) -> np.ndarray:
-        """All components (T, D) of the latents, from those that the dynamics move (T, d)."""
-        known = np.full((len(z), self.dynamics.n_controls), control)
-        return np.hstack([z, self.finer.at(np.hstack([z, known]))])
-
-    def turns(self, z: np.ndarray) -> list[int]:
-        """Frames of z (T, d) at which a new cycle begins."""
-        from emulator.cyclic.units import turns
-
-        middle = float(self.guide.usual(-1, 0.0)[0])
-        return turns(z, self.rate_hz, (middle, middle - 0.12 * float(self.guide.high[0] - self.guide.low[0])))
-
     def _repr_html_(self) -> str:
         from emulator.notebook import emulator_html
 
@@ -280,11 +187,6 @@ class CyclicEmulator:
         place, gone = np.cumsum(step), count - pace.before_first + pace.halves
         place = place * (plan.step_m[i] * gone / max(float(pace.gone_m(place[None])[0]), 1e-12))
         return ends[:-1], place, float(ends[-1])
-
-
-def rates(z: np.ndarray, before: np.ndarray, beat_frames: int) -> np.ndarray:
-    """Steps of latents from frame to frame, as large as the latents where these go round once a beat."""
-    return np.asarray((z - before) * (beat_frames / (2 * np.pi)))
 
 
 def _said(body: Any, name: str) -> Any:

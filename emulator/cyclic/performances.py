@@ -6,28 +6,25 @@ What is asked of cyclic performances: how far, how often or how long, and how fa
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from emulator.cyclic.law import CyclicLaw
 from emulator.cyclic.pace import FASTEST_M_PER_S, SLOWEST_M_PER_S, Asked
 from emulator.cyclic.timeline import timeline
 from emulator.cyclic.track import Track
 from emulator.cyclic.units import CyclicWorker
 from emulator.motion import turn
+from emulator.performances import Floats, Performances
 from emulator.skeleton import Skeleton
-
-if TYPE_CHECKING:
-    from emulator.cyclic.model import CyclicEmulator
-
-Floats = type[np.floating] | np.dtype
 
 
 @dataclass(frozen=True, eq=False)
-class CyclicPerformances:
+class CyclicPerformances(Performances):
     """n performances of a cyclic task.
 
     duration_s (n,) seconds; scores (n, K) what was drawn: the worker's own latents and step, the first foot, the speed
@@ -35,7 +32,7 @@ class CyclicPerformances:
     bone_length_m (n, B) metres; ``performances[3]`` and slices are performances again, postures the same to 1e-10
     """
 
-    model: CyclicEmulator
+    model: CyclicLaw
     duration_s: np.ndarray
     scores: np.ndarray
     beat_s: np.ndarray
@@ -45,29 +42,6 @@ class CyclicPerformances:
     bone_length_m: np.ndarray
     first_foot: np.ndarray
     seed: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.duration_s)
-
-    def __getitem__(self, index: int | slice | np.ndarray) -> CyclicPerformances:
-        rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
-        own = {one.name: getattr(self, one.name) for one in fields(self)}
-        return CyclicPerformances(**{name: value if name == "model" else value[rows] for name, value in own.items()})
-
-    def to_frame(self) -> Any:
-        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
-        from emulator.motion import performances_frame
-
-        return performances_frame(self)
-
-    def _repr_html_(self) -> str:
-        from emulator.notebook import performances_html
-
-        return performances_html(self)
-
-    @property
-    def skeleton(self) -> Skeleton:
-        return self.model.skeleton
 
     @property
     def mark_s(self) -> np.ndarray:
@@ -103,10 +77,6 @@ class CyclicPerformances:
         found = [track.joints_m(at) for track, at in zip(self.tracks, times)]
         return _stacked(found, times, len(self.skeleton.names), 3).astype(dtype, copy=False)
 
-    def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
-        """(n, T, 3) path of the root in metres; times as ``directions``."""
-        return self.path(times_s, n_times)[..., :3]
-
     def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
         times, root = self._times(times_s, n_times), self.skeleton.root
@@ -130,10 +100,6 @@ class CyclicPerformances:
         place_m = self.place_m[i][np.isfinite(self.place_m[i])] if self.model.pace.steps else None
         nodes = _node_s(line.beat_frame, len(line.z), beat_s, float(self.duration_s[i]))
         return Track(self.model, line.moved(self.offset[i]), nodes, self.bone_length_m[i], place_m)
-
-    def _times(self, times_s: np.ndarray | None, n_times: int) -> np.ndarray:
-        own = np.linspace(0, 1, n_times) * self.duration_s[:, None] if times_s is None else np.asarray(times_s, float)
-        return np.broadcast_to(own, (len(self), np.shape(own)[-1]))
 
 
 def _stacked(found: list[np.ndarray], times_s: np.ndarray, *shape: int) -> np.ndarray:
@@ -176,7 +142,7 @@ _TOGETHER_M_PER_S = (0.05, 4.0)
 _WALKED = ("distance_m", "speed_m_per_s")
 
 
-def asked_of(model: CyclicEmulator, condition: Any, n: int, leg_m: np.ndarray, who: CyclicWorker) -> Asked:
+def asked_of(model: CyclicLaw, condition: Any, n: int, leg_m: np.ndarray, who: CyclicWorker) -> Asked:
     """The condition for n performances of these workers. Raises ValueError with every mistake in it."""
     said = _checked(model.task, condition, n, model.pace.steps)
     if not set(said) & set(LENGTHS):

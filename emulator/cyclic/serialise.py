@@ -10,7 +10,6 @@ fitted, to the bit.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
@@ -24,6 +23,7 @@ from emulator.cyclic.report import CyclicReport
 from emulator.cyclic.switching_dynamics import SwitchingDynamics
 from emulator.cyclic.units import Crew, Guide, Unit
 from emulator.skeleton import Skeleton
+from emulator.stored import StoredArrays, packed
 
 FAR = 1e30
 """Distance, or its square, that nothing has."""
@@ -31,6 +31,13 @@ COUNTED = ("used", "border_used")
 KEPT = ("points", "per_length", *COUNTED[:1], "variance", "noise", "weight", "scale", "keep")
 BORDERS = ("border_points", "border_per_length", COUNTED[1], "border_weight")
 MOST_POINTS = 2000
+DYNAMICS = {
+    "points": ("S", "N", "I"), "per_length": ("S", "I"), "used": ("S",), "variance": ("S",), "noise": ("S",),
+    "weight": ("S", "N", "D"), "scale": ("S", "D"), "keep": ("S",), "border_points": ("B", "M", "I"),
+    "border_per_length": ("B", "I"), "border_used": ("B",), "border_weight": ("B", "M"), "states": ("S",),
+    "shrink": ("S", "half"),
+}  # fmt: skip
+"""S states with N points of I inputs each, of which D are latents; B borders between states."""
 
 
 def unbounded(dynamics: SwitchingDynamics) -> SwitchingDynamics:
@@ -60,17 +67,7 @@ def dynamics_of(task: str, arrays: Mapping[str, np.ndarray]) -> SwitchingDynamic
     n_borders, n_border_points, _ = _shape(task, arrays["border_points"], 3)
     if not (1 <= n_states <= 16 and 1 <= n_points <= MOST_POINTS and 1 <= d <= n_inputs and n_borders <= 16):
         raise ValueError(f"{task}: dynamics of {n_states} states, {n_points} points and {d} latents make no sense")
-    expected = {
-        "points": (n_states, n_points, n_inputs), "per_length": (n_states, n_inputs), "used": (n_states,),
-        "variance": (n_states,), "noise": (n_states,), "weight": (n_states, n_points, d), "scale": (n_states, d),
-        "keep": (n_states,), "border_points": (n_borders, n_border_points, n_inputs),
-        "border_per_length": (n_borders, n_inputs), "border_used": (n_borders,),
-        "border_weight": (n_borders, n_border_points), "states": (n_states,),
-        "shrink": (n_states, n_points * (n_points + 1) // 2),
-    }  # fmt: skip
-    for name, shape in expected.items():
-        if arrays[name].shape != shape:
-            raise ValueError(f"{task}/dynamics_{name} has shape {arrays[name].shape}, expected {shape}")
+    StoredArrays(task, arrays, {"half": n_points * (n_points + 1) // 2}).record(DYNAMICS, "")
     _counted(task, arrays, "used", n_points)
     _counted(task, arrays, "border_used", n_border_points)
     if n_borders != (n_states if n_states > 2 else n_states - 1):
@@ -109,8 +106,10 @@ def _counted(task: str, arrays: Mapping[str, np.ndarray], name: str, most: int) 
 
 KIND = "cyclic"
 UNITS = ("starts", "stops", "entries")
-GUIDE = ("anchors", "log_frames", "low", "high")
-FINER = ("points", "length", "weight", "mean")
+LATENT = {"mean": ("P",), "basis": ("P", "D"), "energy": ("E",)}
+GUIDE = {"anchors": ("F", 3, "D"), "log_frames": (2,), "low": ("M",), "high": ("M",)}
+FINER = {"points": ("N", "I"), "length": ("I",), "weight": ("N", "O"), "mean": ("O",)}
+"""Arrays of each record: D components of P numbers of a pose, of which M are moved by the dynamics of I inputs."""
 MOST_COMPONENTS, MOST_FRAMES = 200, 100_000
 
 
@@ -133,10 +132,10 @@ def pack(model: CyclicEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
         "latent_scale": model.latent.scale,
         "report": model.report.as_dict(),
     }
-    arrays = {f"latent_{name}": getattr(model.latent, name) for name in ("mean", "basis", "energy")}
+    arrays = packed(model.latent, LATENT, "latent_")
     arrays |= {f"dynamics_{name}": array for name, array in dynamics_arrays(model.dynamics).items()}
-    arrays |= {f"finer_{name}": getattr(model.finer, name) for name in FINER}
-    arrays |= {f"guide_{name}": getattr(model.guide, name) for name in GUIDE}
+    arrays |= packed(model.finer, FINER, "finer_")
+    arrays |= packed(model.guide, GUIDE, "guide_")
     arrays |= {"offsets": model.crew.offsets, "bone_length_m": model.crew.bone_length_m}
     for name in UNITS:
         plain[name], arrays[f"{name}_z"], arrays[f"{name}_contact"] = _units(getattr(model, name))
@@ -160,24 +159,18 @@ def rounded(model: CyclicEmulator) -> CyclicEmulator:
 
 def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> CyclicEmulator:
     """The model; ``arrays`` are named task/name. Raises KeyError, TypeError or ValueError for what is no model."""
-    head = f"{task}/"
-    own = {
-        name.removeprefix(head): array.astype(float) if array.dtype.kind == "f" else array
-        for name, array in arrays.items()
-        if name.startswith(head)
-    }
     skeleton = Skeleton(tuple(plain["skeleton"]["names"]), tuple(plain["skeleton"]["parents"]))
-    n_poses = 3 * skeleton.n_bones + 4
-    n = own["latent_basis"].shape[-1]
+    names = tuple(str(name) for name in plain["workers"])
+    own = StoredArrays.of(task, arrays, P=3 * skeleton.n_bones + 4, B=skeleton.n_bones, W=len(names))
+    wide = {name: array.astype(float) if array.dtype.kind == "f" else array for name, array in own.arrays.items()}
+    n = wide["latent_basis"].shape[-1]
+    own = replace(own, arrays=wide).knowing(D=n)
     if not 1 <= n <= MOST_COMPONENTS:
         raise ValueError(f"{task}: {n} components make no sense")
-    latent = PoseLatent(
-        _shaped(task, own, "latent_mean", n_poses),
-        _shaped(task, own, "latent_basis", n_poses, n),
-        _positive(task, "latent_scale", plain["latent_scale"]),
-        _shaped(task, own, "latent_energy", -1),
-    )
-    dynamics = dynamics_of(task, {k.removeprefix("dynamics_"): v for k, v in own.items() if k.startswith("dynamics_")})
+    scale = own.positive("latent_scale", plain["latent_scale"])
+    latent = PoseLatent(**own.record(LATENT, "latent_"), scale=scale)
+    heads = {name.removeprefix("dynamics_"): a for name, a in wide.items() if name.startswith("dynamics_")}
+    dynamics = dynamics_of(task, heads)
     order = int(plain["order"])
     if order not in (1, 2) or dynamics.n_latents % order:
         raise ValueError(f"{task}: dynamics of order {order} make no sense")
@@ -185,17 +178,16 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
     inputs = moved + dynamics.n_controls
     if not (moved <= n and dynamics.n_controls in (0, 1)):
         raise ValueError(f"{task}: dynamics of {moved} latents and {dynamics.n_controls} inputs for {n} components")
-    names = tuple(str(name) for name in plain["workers"])
-    log_step = np.array([_number(task, "log_step", value) for value in plain["log_step"]])
-    bones = _shaped(task, own, "bone_length_m", len(names), skeleton.n_bones)
+    log_step = np.array([own.number("log_step", value) for value in plain["log_step"]])
+    bones = own.array("bone_length_m", "W", "B")
     if not names or len(log_step) != len(names) or np.any(bones <= 0):
         raise ValueError(f"{task}: its workers make no sense")
-    pace = pace_of(task, plain["pace"])
-    control, floor = ([_number(task, name, value) for value in plain[name]] for name in ("control", "floor"))
+    pace = pace_of(own, plain["pace"])
+    control, floor = ([own.number(name, value) for value in plain[name]] for name in ("control", "floor"))
     low, usual = (int(value) for value in plain["beat_frames"])
     if not (len(control) == len(floor) == 2 and control[1] > 0 and 0 < low <= usual < MOST_FRAMES):
         raise ValueError(f"{task}: its control, floor or beats make no sense")
-    units = {name: _units_of(task, plain[name], own, name, n, pace.steps) for name in UNITS}
+    units = {name: _units_of(own, plain[name], name, pace.steps) for name in UNITS}
     if not units["entries"]:
         raise ValueError(f"{task}: it has no recorded beat")
     if pace.steps and [len(units[k]) > 0 for k in ("starts", "stops")] != [pace.start_beats > 0, pace.stop_beats > 0]:
@@ -203,16 +195,16 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
     return CyclicEmulator(
         task=task,
         skeleton=skeleton,
-        rate_hz=_positive(task, "rate_hz", plain["rate_hz"]),
+        rate_hz=own.positive("rate_hz", plain["rate_hz"]),
         latent=latent,
         dynamics=dynamics,
-        finer=_finer(task, own, inputs, n - moved),
-        temper=_positive(task, "temper", plain["temper"]),
+        finer=_finer(own, inputs, n - moved),
+        temper=own.positive("temper", plain["temper"]),
         order=order,
         **units,
-        guide=_guide(task, own, plain["guide"], n, moved, 2 if pace.steps else 1),
+        guide=_guide(own, plain["guide"], moved, 2 if pace.steps else 1),
         pace=pace,
-        crew=Crew(names, _shaped(task, own, "offsets", len(names), n), log_step, bones),
+        crew=Crew(names, own.array("offsets", "W", "D"), log_step, bones),
         control_at=control[0],
         control_by=control[1],
         ankle_legs=floor[0],
@@ -223,71 +215,47 @@ def unpack(task: str, plain: Mapping[str, Any], arrays: Mapping[str, np.ndarray]
     )
 
 
-def pace_of(task: str, plain: Mapping[str, Any]) -> Pace:
+def pace_of(own: StoredArrays, plain: Mapping[str, Any]) -> Pace:
     """Every number finite, and those that must be positive so."""
     values = {one.name: plain[one.name] for one in fields(Pace)}
     steps = values.pop("steps")
-    numbers = {name: _number(task, name, value) for name, value in values.items()}
+    numbers = {name: own.number(name, value) for name, value in values.items()}
     within = all(numbers[name] >= 0 for name in ("time_cv", "length_cv", "start_beats", "stop_beats"))
     within = within and numbers["first"] > 0 and numbers["default"] > 0 and abs(numbers["follows"]) < 1
     if not within or not isinstance(steps, bool) or max(abs(numbers[k]) for k in ("intercept", "usual", "slope")) > 20:
-        raise ValueError(f"{task}: its pace makes no sense")
+        raise ValueError(f"{own.task}: its pace makes no sense")
     return Pace(steps=steps, **numbers)
 
 
-def _finer(task: str, own: Mapping[str, np.ndarray], inputs: int, outputs: int) -> Finer:
-    points = _shaped(task, own, "finer_points", -1, inputs)
-    length = _shaped(task, own, "finer_length", inputs)
-    if np.any(length <= 0):
-        raise ValueError(f"{task}/finer_length: found a length that is not positive")
-    weight = _shaped(task, own, "finer_weight", len(points), outputs)
-    return Finer(points, length, weight, _shaped(task, own, "finer_mean", outputs))
+def _finer(own: StoredArrays, inputs: int, outputs: int) -> Finer:
+    sizes = own.knowing(I=inputs, O=outputs)
+    found = Finer(**sizes.record(FINER, "finer_"))
+    if np.any(found.length <= 0):
+        raise ValueError(f"{own.task}/finer_length: found a length that is not positive")
+    return found
 
 
-def _guide(task: str, own: Mapping[str, np.ndarray], plain: Any, n: int, moved: int, feet: int) -> Guide:
-    spread, apart = (_number(task, "guide", value) for value in plain)
-    anchors = _shaped(task, own, "guide_anchors", -1, 3, n)
-    if not 1 <= len(anchors) <= feet:
-        raise ValueError(f"{task}: found anchors of {len(anchors)} feet")
-    log_frames = _shaped(task, own, "guide_log_frames", 2)
-    if not 0 < np.exp(np.abs(log_frames) @ np.array([1.0, 4.0])) < MOST_FRAMES:
-        raise ValueError(f"{task}: the frames of its beats make no sense")
-    low, high = (_shaped(task, own, f"guide_{name}", moved) for name in ("low", "high"))
-    return Guide(anchors, log_frames, spread, apart, low, high)
+def _guide(own: StoredArrays, plain: Any, moved: int, feet: int) -> Guide:
+    spread, apart = (own.number("guide", value) for value in plain)
+    found = own.knowing(M=moved).record(GUIDE, "guide_")
+    if not 1 <= len(found["anchors"]) <= feet:
+        raise ValueError(f"{own.task}: found anchors of {len(found['anchors'])} feet")
+    if not 0 < np.exp(np.abs(found["log_frames"]) @ np.array([1.0, 4.0])) < MOST_FRAMES:
+        raise ValueError(f"{own.task}: the frames of its beats make no sense")
+    return Guide(**found, spread=spread, apart=apart)
 
 
-def _units_of(task: str, rows: Any, own: Mapping[str, np.ndarray], name: str, n: int, steps: bool) -> tuple[Unit, ...]:
+def _units_of(own: StoredArrays, rows: Any, name: str, steps: bool) -> tuple[Unit, ...]:
     frames = [int(row[0]) for row in rows]
     if any(not 2 <= count < MOST_FRAMES for count in frames):
-        raise ValueError(f"{task}: {name} of {frames} frames make no sense")
-    z = _shaped(task, own, f"{name}_z", sum(frames), n if rows else -1)
-    contact = _shaped(task, own, f"{name}_contact", sum(frames), 2).astype(bool)
+        raise ValueError(f"{own.task}: {name} of {frames} frames make no sense")
+    z = own.array(f"{name}_z", sum(frames), "D" if rows else -1)
+    contact = own.array(f"{name}_contact", sum(frames), 2).astype(bool)
     ends = np.cumsum([0, *frames])
     units = []
     for row, start, stop in zip(rows, ends[:-1], ends[1:]):
         foot = int(row[2])
         if foot not in ((0, 1) if steps else (-1,)):
-            raise ValueError(f"{task}: {name} of a foot {foot}")
-        units.append(Unit(z[start:stop], contact[start:stop], _number(task, name, row[1]), foot))
+            raise ValueError(f"{own.task}: {name} of a foot {foot}")
+        units.append(Unit(z[start:stop], contact[start:stop], own.number(name, row[1]), foot))
     return tuple(units)
-
-
-def _shaped(task: str, own: Mapping[str, np.ndarray], name: str, *shape: int) -> np.ndarray:
-    """The array of this name; -1 in shape takes any length."""
-    found = own[name]
-    if found.ndim != len(shape) or any(want not in (-1, have) for want, have in zip(shape, found.shape)):
-        raise ValueError(f"{task}/{name} has shape {found.shape}, expected {shape}")
-    return found
-
-
-def _number(task: str, name: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise ValueError(f"{task}: {name}: found {value!r}, expected a number")
-    return float(value)
-
-
-def _positive(task: str, name: str, value: Any) -> float:
-    number = _number(task, name, value)
-    if number <= 0:
-        raise ValueError(f"{task}: {name}: found {number:g}, expected a positive number")
-    return number

@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from emulator.cyclic.law import CyclicLaw, smoothed
 from emulator.cyclic.switching_dynamics import TRIES as STEP_TRIES
 from emulator.cyclic.units import FEWEST_FRAMES, ROOM, Unit, chosen, joined
-
-if TYPE_CHECKING:
-    from emulator.cyclic.model import CyclicEmulator
-    from emulator.kernels.switching import Manner
-
-SMOOTH_FRAMES = 1.2
-"""What the dynamics give is smoothed by a Gaussian of so many frames: neither noise nor switching trembles."""
 
 PULLED = 0.6
 TRIES = 4
@@ -50,7 +43,7 @@ class Timeline:
 
 
 def timeline(
-    model: CyclicEmulator, n_beats: int, control: float, first_foot: int, rng: np.random.Generator | None
+    model: CyclicLaw, n_beats: int, control: float, first_foot: int, rng: np.random.Generator | None
 ) -> Timeline:
     """A draw with so many beats; ``rng`` None follows the mean."""
     start = chosen(model.starts or model.entries, first_foot, control)
@@ -68,7 +61,7 @@ def timeline(
     return Timeline(z, contact, np.array(beats), given_up)
 
 
-def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rng: np.random.Generator | None) -> Unit:
+def one_beat(model: CyclicLaw, z: np.ndarray, foot: int, control: float, rng: np.random.Generator | None) -> Unit:
     """From a beat to the next one, drawn from the dynamics; z (1 or 2, D) are the last latents, up to the beat.
 
     A draw begins some way back towards the usual posture of a beat at this speed (``PULLED``), so that a walk of a
@@ -88,7 +81,7 @@ def one_beat(model: CyclicEmulator, z: np.ndarray, foot: int, control: float, rn
     return near[0 if rng is None else int(rng.integers(len(near)))]
 
 
-def _step(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
+def _step(model: CyclicLaw, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
     """A step of the other foot from what the dynamics see (d,) on; None where none like the recorded ones comes."""
     from emulator.kernels.switching import beat, made_whole
     from emulator.kernels.switching import usual as is_usual
@@ -122,7 +115,7 @@ def _step(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, so
     return Unit(whole, _clean(bears[state[: end + 1]], foot), control, foot)
 
 
-def _cycle(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
+def _cycle(model: CyclicLaw, seen: np.ndarray, foot: int, control: float, source: Tempered) -> Unit | None:
     """A cycle of work that is no walking, likewise."""
     drawn, state = model.dynamics.sample(
         seen[None],
@@ -134,7 +127,7 @@ def _cycle(model: CyclicEmulator, seen: np.ndarray, foot: int, control: float, s
     end = next((frame for frame in model.turns(moved) if frame > low), None)
     if end is None or not model.guide.allows(moved[: end + 1], foot, control):
         return None
-    whole = model.whole(_smoothed(moved), control)[: end + 1]
+    whole = model.whole(smoothed(moved), control)[: end + 1]
     return Unit(whole, model.contact_of(state[0])[: end + 1], control, foot)
 
 
@@ -145,30 +138,3 @@ def _clean(contact: np.ndarray, foot: int) -> np.ndarray:
     leave = int(up[0]) if len(up) else n // 4
     out[min(max(leave, 2), n - 4) : n - 1, swings] = False
     return out
-
-
-def manner_of(model: CyclicEmulator) -> Manner:
-    """What beats are like and what smooths and completes them, for the kernel."""
-    from emulator.kernels.switching import Manner
-
-    impulse = np.zeros((2 * int(4 * SMOOTH_FRAMES + 0.5) + 1, 1))
-    impulse[len(impulse) // 2] = 1.0
-    finer, guide = model.finer, model.guide
-    points = np.ascontiguousarray((finer.points / finer.length).T)
-    taps = np.ascontiguousarray(_smoothed(impulse)[:, 0])
-    return Manner(
-        guide.low,
-        guide.high,
-        taps,
-        points,
-        1 / finer.length,
-        finer.weight,
-        finer.mean,
-        model.contact_of(model.dynamics.states),
-    )
-
-
-def _smoothed(z: np.ndarray) -> np.ndarray:
-    from scipy.ndimage import gaussian_filter1d
-
-    return np.asarray(gaussian_filter1d(z, SMOOTH_FRAMES, axis=0, mode="nearest"))

@@ -12,17 +12,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from emulator.cyclic.contacts import path_from_contacts, stand_on, wanting_m
 from emulator.cyclic.latent import TRAVEL_WEIGHT, unflattened
+from emulator.cyclic.law import CyclicLaw
+from emulator.cyclic.timeline import Timeline
 from emulator.motion import stretches, turn
-
-if TYPE_CHECKING:
-    from emulator.cyclic.model import CyclicEmulator
-    from emulator.cyclic.timeline import Timeline
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +117,7 @@ class Track:
     place_m : (B,) where the feet come down along the way, or None where nothing is walked
     """
 
-    model: CyclicEmulator
+    model: CyclicLaw
     line: Timeline
     node_s: np.ndarray
     bone_length_m: np.ndarray

@@ -5,61 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from emulator.fitting.report import FitReport
-from emulator.geometry.flattening import Flattening
-from emulator.geometry.warps import coordinates_to_clock, evaluate, from_clr
-from emulator.model import dwell_times
 from emulator.model.conditioning import CONDITIONS, given
-from emulator.model.decoding import Decoder, RootChannel
-from emulator.model.dwell_times import NONE, Dwells
-from emulator.model.feet import Footing, Legs
-from emulator.model.joint_coordinates import JointScale, Margin, inverse_all
+from emulator.model.joint_law import JointLaw
 from emulator.model.performances import MotionPerformances
-from emulator.model.reduction import JointPCA
 from emulator.motion import MotionSet
-from emulator.people.workers import WorkerEffect, Workforce
-from emulator.skeleton import Skeleton
+from emulator.people.workers import WorkerEffect
 
 SCHEME = "Extrinsic/JointPCA/Smoothed"
 SCHEMES = (SCHEME, "SIEM/JointPCA/Smoothed", "SIEM/JointPCA/MVG")
-SLOPE_ROOM = np.log(1.2)
-FASTER = 1.1
 
 
 @dataclass(frozen=True, eq=False)
-class MotionEmulator:
-    """A task's model: the steps from recordings to joint coordinates z, each with its way back, and the Gaussians of z.
-
-    posture, root, pace, bones : JointPCA of flat postures (T * C), side channel (T * 4), pace (Q), log bones (B)
-    margin, mark_margins : of log moving duration (the whole duration, if nothing pauses), of each mark's coordinate
-    dwells : sites of pauses and the law of each dwell; whole duration = moving duration + dwells
-    footing : when and how the recorded feet stood, or None
-    rides : the root rides on the feet and its side channel is what they do not explain, as in libraries of before
-    """
-
-    task: str
-    skeleton: Skeleton
-    mark_names: tuple[str, ...]
-    n_times: int
-    flatten: Flattening
-    posture: JointPCA
-    root: JointPCA
-    pace: JointPCA
-    bones: JointPCA
-    margin: Margin
-    mark_margins: tuple[Margin, ...]
-    scale: JointScale
-    workforce: Workforce
-    report: FitReport
-    dwells: Dwells = NONE
-    footing: Footing | None = None
-    rides: bool = False
+class MotionEmulator(JointLaw):
+    """A task's model, see ``JointLaw``: fitted to recordings, sampled, saved."""
 
     @classmethod
     def fit(
@@ -116,35 +79,16 @@ class MotionEmulator:
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
         """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand."""
-        duration_s = self.moving_s(scores) if len(self.dwells) == 0 else dwell_times.whole_s(self, scores)
+        duration_s = self.whole_s(scores)
         return MotionPerformances(self, scores, duration_s, np.broadcast_to(body_scale, duration_s.shape))
-
-    def moving_s(self, scores: np.ndarray) -> np.ndarray:
-        """(n,) seconds of movement: the duration without its pauses."""
-        return np.asarray(np.exp(self.margin.inverse(self.scale.raw(scores, "duration")[:, 0])))
-
-    def dwell_s(self, scores: np.ndarray) -> np.ndarray:
-        """(n, S) seconds of pause at each site of ``dwells``; 0 where a performance does not pause."""
-        return self.dwells.seconds(self.scale.raw(scores, "dwells"))
-
-    def mark_share(self, scores: np.ndarray) -> np.ndarray:
-        """(n, E) the share of its own duration at which each mark of a performance falls."""
-        clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        share = evaluate(self.warps(scores), clock)
-        return share if len(self.dwells) == 0 else dwell_times.mark_share(self, scores, share)
 
     def mean_duration_s(self, worker: Any = None) -> float:
         """Mean duration in seconds of the model: of a worker with this effect, or over the population."""
-        if len(self.dwells):
-            return dwell_times.moments_s(self, self._effect(worker))[0]
-        return self._moments_s(self._effect(worker))[0]
+        return self.moments_s(self._effect(worker))[0]
 
     def duration_cv(self, worker: Any = None) -> float:
         """Coefficient of variation of the model's duration, of one worker or over the population."""
-        if len(self.dwells):
-            mean_s, spread_s = dwell_times.moments_s(self, self._effect(worker))
-        else:
-            mean_s, spread_s = self._moments_s(self._effect(worker))
+        mean_s, spread_s = self.moments_s(self._effect(worker))
         return spread_s / mean_s
 
     @property
@@ -229,64 +173,6 @@ class MotionEmulator:
 
         return body_keys(self)
 
-    def warps(self, scores: np.ndarray) -> np.ndarray:
-        """Own unit time on the common clock, (n, T), strictly increasing from 0 to 1."""
-        return from_clr(self._slopes(scores), self.n_times)
-
-    def _slopes(self, scores: np.ndarray) -> np.ndarray:
-        """(n, Q) log ratios of the warps' slopes, within ``slope_limits``."""
-        return np.minimum(
-            np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), self.slope_limits[0]), self.slope_limits[1]
-        )
-
-    @cached_property
-    def slope_limits(self) -> np.ndarray:
-        """(2, Q) least and largest log ratio of each knot: those of the recordings and a fifth beyond, if it has them.
-
-        Else a few draws of new people would rush through a part of the task three times as fast as anybody did.
-        """
-        smoothed = self.workforce.smoothed
-        if smoothed is None:
-            return np.array([[-8.0], [8.0]])
-        recorded = self.pace.inverse(self.scale.raw(smoothed.scores, "pace"))
-        return np.stack([recorded.min(axis=0) - SLOPE_ROOM, recorded.max(axis=0) + SLOPE_ROOM])
-
-    def aligned_directions(self, scores: np.ndarray) -> np.ndarray:
-        """Postures on the common clock, (n, T, B, 3)."""
-        flat = self.posture.inverse(self.scale.raw(scores, "posture"))
-        return self.flatten.inverse(flat.reshape(len(scores), self.n_times, -1))
-
-    def root_channel(self, scores: np.ndarray) -> np.ndarray:
-        """Side channel of the root on the common clock, (n, T, 4)."""
-        return self.root.inverse(self.scale.raw(scores, "root")).reshape(len(scores), self.n_times, 4)
-
-    def bone_length_m(self, scores: np.ndarray) -> np.ndarray:
-        """(n, B) metres."""
-        return np.exp(self.bones.inverse(self.scale.raw(scores, "bones")))
-
-    @property
-    def channel(self) -> RootChannel:
-        return RootChannel(self.skeleton, self.rides)
-
-    @cached_property
-    def decoder(self) -> Decoder:
-        """What makes postures of coefficients."""
-        return Decoder(self.posture, self.flatten)
-
-    @cached_property
-    def most_m_per_s(self) -> float:
-        """The greatest speed that a joint of a drawn body may have: a tenth beyond the fastest recorded one.
-
-        A draw beyond it is drawn in, see ``MotionPerformances.damped``; without a bound in libraries of before.
-        """
-        fastest = self.report.fastest_m_per_s
-        return float("inf") if self.footing is None or not fastest > 0 else FASTER * fastest
-
-    @cached_property
-    def legs(self) -> Legs | None:
-        """What of the body stands; None without ankles and toes."""
-        return Legs.of(self.skeleton)
-
     def _repr_html_(self) -> str:
         from emulator.notebook import emulator_html
 
@@ -310,23 +196,3 @@ class MotionEmulator:
         if effect is not None and np.shape(getattr(effect, "z", 0.0)) != self.scale.centre.shape:
             raise ValueError(f"{self.task}: this worker's effect was not drawn from this emulator")
         return effect
-
-    def _moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
-        """Mean and standard deviation of the duration, over the components of its law."""
-        block, law = self.scale.block("duration"), self.workforce.law(effect)
-        mean, covariance = law.coordinates(np.array([block.start]))
-        raw = self.scale.centre[block] + self.scale.spread[block] * mean
-        spread = self.scale.spread[block] * np.sqrt(covariance[:, 0])
-        first, second = self.margin.moments_s(raw[:, 0], spread[:, 0])
-        mean_s = float(law.weight @ first)
-        return mean_s, float(np.sqrt(max(law.weight @ second - mean_s**2, 0.0)))
-
-    def covariance_with(self, at: int, effect: WorkerEffect | None) -> np.ndarray:
-        """(K,) covariance of z with its coordinate ``at``: of one worker, or over the population."""
-        column = self.workforce.within.covariance_with(at)
-        return column if effect is not None else column + self.workforce.between.covariance_with(at)
-
-    def duration_z(self, log_duration: np.ndarray) -> np.ndarray:
-        """The coordinate of z at which the log duration is this."""
-        at = self.scale.block("duration").start
-        return np.asarray((self.margin.forward(log_duration) - self.scale.centre[at]) / self.scale.spread[at])

@@ -5,22 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from emulator.model import decoding
-from emulator.model.dwell_times import moving_share
 from emulator.model.feet import bend, stood
-from emulator.skeleton import Skeleton
-
-if TYPE_CHECKING:
-    from emulator.model.emulator import MotionEmulator
+from emulator.model.joint_law import JointLaw
+from emulator.performances import Floats, Performances
 
 AT_ONCE = 16
 """Performances whose paths are made at a time."""
 KEPT = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)
-Floats = type[np.floating] | np.dtype
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,39 +35,17 @@ class Ground:
 
 
 @dataclass(frozen=True, eq=False)
-class MotionPerformances:
+class MotionPerformances(Performances):
     """n performances of a task.
 
     duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone.
     ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
     """
 
-    model: MotionEmulator
+    model: JointLaw
     scores: np.ndarray
     duration_s: np.ndarray
     body_scale: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.duration_s)
-
-    def __getitem__(self, index: int | slice | np.ndarray) -> MotionPerformances:
-        rows = slice(index, index + 1 or None) if isinstance(index, (int, np.integer)) else index
-        return MotionPerformances(self.model, self.scores[rows], self.duration_s[rows], self.body_scale[rows])
-
-    def to_frame(self) -> Any:
-        """A pandas DataFrame, a row each: duration and marks. Raises ImportError where pandas is absent."""
-        from emulator.motion import performances_frame
-
-        return performances_frame(self)
-
-    def _repr_html_(self) -> str:
-        from emulator.notebook import performances_html
-
-        return performances_html(self)
-
-    @property
-    def skeleton(self) -> Skeleton:
-        return self.model.skeleton
 
     @cached_property
     def mark_s(self) -> np.ndarray:
@@ -97,10 +70,6 @@ class MotionPerformances:
         dtype   : of the answer and of its computation; float32 takes half the time and memory, and agrees to 1e-6
         """
         return self._directions(self._place(times_s, n_times), dtype)
-
-    def root_m(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
-        """(n, T, 3) path of the root, metres, from x = y = 0, starting heading along x; times as ``directions``."""
-        return self.path(times_s, n_times)[..., :3]
 
     def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
@@ -198,6 +167,4 @@ class MotionPerformances:
         """(n, T) places on the common grid, in cells, of the times asked for."""
         own = np.linspace(0, 1, n_times) if times_s is None else np.asarray(times_s) / self.duration_s[:, None]
         own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
-        if len(self.model.dwells):
-            own = moving_share(self.model, self.scores, own)
-        return decoding.places(self.model.warps(self.scores), own)
+        return decoding.places(self.model.warps(self.scores), self.model.moving_share(self.scores, own))

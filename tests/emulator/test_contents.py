@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import emulator
+from emulator import covariates
 from emulator.kernels.compiled import compiled
 
 
@@ -50,3 +51,19 @@ def test_kernels_are_compiled_where_no_cache_can_be_written(monkeypatch):
 
     assert np.array_equal(double(np.arange(3.0)), [0, 2, 4])
     assert asked == [{"cache": True, "nogil": True}, {"nogil": True}]
+
+
+@pytest.mark.parametrize("name", covariates.__all__)
+def test_every_name_of_the_contents_is_there_contents(name):
+    assert getattr(covariates, name) is not None
+
+
+def test_an_unknown_name_is_refused_with_the_contents_of_covariates():
+    with pytest.raises(AttributeError, match=r"emulator.covariates has no 'Boddy'; it has .*Body"):
+        _ = covariates.Boddy
+
+
+def test_importing_loads_no_numpy():
+    code = "import sys, emulator.covariates; print(sorted({'numpy', 'scipy'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

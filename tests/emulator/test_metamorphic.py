@@ -70,6 +70,7 @@ def assert_same(
     assert other.between_share == pytest.approx(emulator.between_share, abs=ROUNDING)
 
 
+@pytest.mark.slow
 def test_recordings_taken_elsewhere_in_the_room_give_the_same_draws():
     places = np.random.default_rng(0).uniform(-50, 50, (len(MADE), 3)) * [1, 1, 0]
     assert_same(fitted(), refitted(filmed(lambda joints, number: joints + places[number])))
@@ -117,6 +118,7 @@ def test_names_of_workers_decide_not_a_single_bit_as_long_as_their_order_stays()
         assert one.scores.tobytes() == two.scores.tobytes() and one.duration_s.tobytes() == two.duration_s.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate_hz", [25.0, 120.0])
 def test_another_frame_rate_gives_the_same_times_and_hardly_other_postures(rate_hz):
     """A posture between two frames is a guess: at 25 frames a second a lifting hand turns by 3 degrees between two."""

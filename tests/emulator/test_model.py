@@ -137,6 +137,7 @@ def test_the_report_is_that_of_the_recordings(emulator):
     assert 0 < report.reconstruction_deg < 1.5
 
 
+@pytest.mark.slow
 def test_more_components_reconstruct_better():
     motions = made("lift")[0]
     few, many = (MotionEmulator.fit(motions, n_components=n).report for n in (2, 10))

@@ -72,6 +72,7 @@ def two_tasks():
     return z
 
 
+@pytest.mark.slow
 def test_effects_of_two_tasks_agree_as_the_people_of_both_do():
     """The correlation of drawn effects is that of the recorded people's, by the shrinkage given up; else it is 0."""
     one, two = two_tasks()

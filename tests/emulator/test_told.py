@@ -68,6 +68,7 @@ def test_new_people_vary_as_those_do_of_whom_no_more_is_known(crews, everybody, 
     assert np.all(drawn / true > 0.7) and np.all(drawn / true < most)
 
 
+@pytest.mark.slow
 def test_what_a_body_tells_makes_no_bond_between_what_it_does_not():
     """Height drives two coordinates, each with a rest of its own: people of one height are not correlated in them."""
     bonds = []
@@ -81,6 +82,7 @@ def test_what_a_body_tells_makes_no_bond_between_what_it_does_not():
     assert abs(np.mean(bonds)) < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("n_people", "share"), [(8, 0.5), (8, 0.9), (12, 0.7), (18, 0.5)])
 def test_new_people_vary_about_their_forecast_as_much_as_it_errs(n_people, share):
     """The R^2 that scores are chosen by flatters them: drawn with it, eight people's like varied by 0.4 of this.
@@ -118,6 +120,7 @@ def test_a_known_worker_is_drawn_towards_those_of_his_body():
     assert error[0] < 0.7 * error[1]
 
 
+@pytest.mark.slow
 def test_a_pace_that_changes_from_repetition_to_repetition_is_no_variation_of_its_own():
     """Everybody goes through six paces: at his own a worker varies as little as at one of them (0.031, not 0.12)."""
     motions, truth = make_cohort("lift", 12, 6, seed=1)
@@ -130,6 +133,7 @@ def test_a_pace_that_changes_from_repetition_to_repetition_is_no_variation_of_it
     assert drawn == pytest.approx(at_one_pace, rel=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pace", [0.8, 1.0, 1.25])
 def test_a_pace_is_kept_where_the_recordings_tell_of_paces(pace):
     model = MotionEmulator.fit(make_cohort("lift", 12, 6, seed=1)[0], n_times=21, n_knots=8)

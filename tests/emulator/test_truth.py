@@ -12,7 +12,6 @@ import pytest
 from emulator.geometry.alignment import resample
 from emulator.geometry.sphere import angle
 from emulator.judge.held_out import holm
-from emulator.model.emulator import MotionEmulator
 from emulator.people.population import predictive_sizes
 from emulator.people.variance_components import anova
 from emulator.synthetic import tasks as synthetic
@@ -172,11 +171,6 @@ class TestOfNineCrews:
         drawn, recorded = np.mean(found, axis=0)
         print(scheme, "mean posture, degrees", drawn, recorded)
         assert drawn < min(1.25 * recorded, 1.0) and np.max(found) < 2.0
-
-    def test_one_gaussian_is_the_same_model_but_for_the_density(self):
-        fitted = MotionEmulator.fit(truths.trained(CREWS[0])[0], scheme=BOTH[1])
-        same = truths.emulator_of(CREWS[0], BOTH[1])
-        assert np.array_equal(truths.drawn(fitted, 50).scores, truths.drawn(same, 50).scores)
 
 
 def _mean_posture(motions):

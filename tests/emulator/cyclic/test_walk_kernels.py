@@ -9,7 +9,7 @@ from scipy.interpolate import PchipInterpolator
 from scipy.ndimage import gaussian_filter1d
 
 from emulator.cyclic.contacts import path_from_contacts, shares, stand_on, wanting_m
-from emulator.cyclic.timeline import SMOOTH_FRAMES
+from emulator.cyclic.law import SMOOTH_FRAMES
 from emulator.cyclic.units import FEWEST_FRAMES
 from emulator.kernels.planting import settle
 from emulator.kernels.switching import beat, fading, made_whole, squared

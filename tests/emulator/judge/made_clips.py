@@ -4,7 +4,7 @@ import numpy as np
 
 from emulator.judge.clips import Clips
 from emulator.skeleton import Skeleton
-from tests.emulator.judge.test_joint_angles import SKELETON, standing
+from tests.emulator.judge.test_joint_limits import SKELETON, standing
 
 FEET = {side: [SKELETON.index(f"{side}_{joint}") for joint in ("ankle", "toe")] for side in ("left", "right")}
 NO_FEET = Skeleton(("pelvis", "chest", "left_wrist"), (-1, 0, 1))

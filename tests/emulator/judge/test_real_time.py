@@ -95,6 +95,7 @@ def test_recorded_clips_are_the_recordings_at_even_times():
     assert np.allclose(uneven.positions_m[0][[0, -1]], few.positions_m()[[0, -1]])
 
 
+@pytest.mark.slow
 def test_left_out_people_are_looked_for_among_new_ones():
     motions = make("reach", 3, 4, seed=2)[0]
     rows = coverage(motions, n_drawn=60)

@@ -127,6 +127,7 @@ def test_one_repetition_six_times_is_fitted_with_one_clear_note(made_reach, tmp_
     assert code == 0 and "nan" not in shown and shown.count("one and the same movement") == 1
 
 
+@pytest.mark.slow
 def test_the_motion_commands_of_the_docs_work_one_after_the_other(tmp_path, monkeypatch):
     page = (shipped_folder().parent / "docs" / "motion.md").read_text(encoding="utf-8")
     lines = [line.partition("#")[0] for line in page.splitlines() if re.match("opsim motion .*squat", line)]

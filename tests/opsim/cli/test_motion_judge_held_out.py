@@ -61,6 +61,7 @@ def test_the_table_has_a_row_for_each_and_a_line_on_each_column(reach, small):
     assert paper.split()[-5:] == ["-"] * 5
 
 
+@pytest.mark.slow
 def test_the_csv_has_each_split_in_full_and_json_the_same_figures(reach, small, tmp_path):
     out = tmp_path / "new" / "judged.csv"
     code, shown, _ = opsim("motion", "judge", reach, "--splits", 2, "-o", out, "--json")

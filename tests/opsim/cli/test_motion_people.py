@@ -59,6 +59,7 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.slow
 def test_tables_are_printed_and_written(recorded, tmp_path):
     out = tmp_path / "out"
     code, shown, progress = opsim("motion", "people", recorded / "reach.npz", recorded / "lift.npz", "-o", out)
@@ -72,6 +73,7 @@ def test_tables_are_printed_and_written(recorded, tmp_path):
     assert len(rows_of(out / "left_out.csv")) == 16
 
 
+@pytest.mark.slow
 def test_json_says_the_same_and_the_seed_decides(recorded, tmp_path):
     def of(seed):
         words = ("motion", "people", recorded / "reach.npz", "-o", tmp_path / str(seed), "--seed", seed, "--json")
@@ -85,6 +87,7 @@ def test_json_says_the_same_and_the_seed_decides(recorded, tmp_path):
     assert one["tasks"]["reach"]["left_out"] != other["tasks"]["reach"]["left_out"]
 
 
+@pytest.mark.slow
 def test_a_task_that_fails_takes_nothing_from_the_others(recorded, tmp_path, monkeypatch):
     monkeypatch.setattr(people, "people_of", fails_at_the_second(ValueError("lift: something odd")))
     files = recorded / "reach.npz", recorded / "lift.npz"
@@ -94,6 +97,7 @@ def test_a_task_that_fails_takes_nothing_from_the_others(recorded, tmp_path, mon
     assert {row["task"] for row in rows_of(tmp_path / "out" / "people.csv")} == {"reach"}
 
 
+@pytest.mark.slow
 def test_what_was_done_before_ctrl_c_is_kept_and_it_says_so(recorded, tmp_path, monkeypatch):
     monkeypatch.setattr(people, "people_of", fails_at_the_second(KeyboardInterrupt()))
     files = recorded / "reach.npz", recorded / "lift.npz"

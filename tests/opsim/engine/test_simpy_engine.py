@@ -1,12 +1,25 @@
-"""The engine against recursions that are exact for the same draws, and against laws that hold in any scenario."""
+"""The engine against recursions that are exact for the same draws, and against laws that hold in any scenario.
+
+The estimate of work is made of visits, which a run counts.
+
+Dispatching where it comes to no rest.
+
+Who wants in where there is no room: only who would come back is looked for among the others.
+"""
+
+from types import SimpleNamespace
 
 import numpy as np
+import plans
 import pytest
 from plans import CELL, line, plan, queue
 
 from opsim.clock import on_grid
+from opsim.engine.choice import simpy_s, visits
 from opsim.engine.draws import Draws
-from opsim.engine.floor import run_plan
+from opsim.engine.endless import EndlessInstant, endless_instant
+from opsim.engine.floor import build, routing, run_plan, settle
+from opsim.engine.floor.settle import ENDLESS, dispatch
 from opsim.kpi import figures
 from opsim.log import BLOCKED, COLUMNS, CREATE, FINISH, HELD, JOB_BLOCKED, LOST, WAIT, WALK, WORK
 
@@ -169,3 +182,85 @@ def test_parallel_stations_share_jobs_by_the_shortest_queue():
 def test_each_rule_of_allocation_serves_everybody(rule):
     log = run_plan(plan(CELL.replace("rule: nearest", f"rule: {rule}")))
     assert len(log.of(FINISH)) > 60
+
+
+def counted(made):
+    return int(np.sum(run_plan(made).columns["kind"] == WORK))
+
+
+def test_what_comes_by_itself_makes_as_many_visits_as_a_run_counts():
+    made = plan(queue(horizon="3 h", every="10 s"))
+    assert visits(made) == pytest.approx(counted(made), rel=0.15)
+
+
+def test_no_more_than_the_bottleneck_lets_through():
+    crowded = plan(queue(horizon="3 h", every="0.1 s", mean="10 s"))
+    assert visits(crowded) == pytest.approx(1080, rel=0.01)
+
+
+def test_a_line_that_is_never_idle_makes_about_as_many_as_its_bottleneck():
+    made = plan(line(3, 5, horizon="1 h", mean="5 s"))
+    assert counted(made) <= visits(made) <= 2 * counted(made)
+
+
+def test_twice_the_time_is_twice_the_work():
+    one, two = (plan(queue(horizon=of)) for of in ("1 h", "2 h"))
+    assert simpy_s(two) == pytest.approx(2 * simpy_s(one)) and simpy_s(one) > 0
+
+
+NAMES = ("saw", "press", "drill", "anvil")
+PLAN = SimpleNamespace(stations=[SimpleNamespace(name=name) for name in NAMES])
+
+
+def gate(*names):
+    stations = [SimpleNamespace(rank=NAMES.index(name)) for name in names]
+    return SimpleNamespace(stations=stations, n_stations=len(stations))
+
+
+def test_an_instant_without_an_end_names_its_stations_in_order_and_each_once(monkeypatch):
+    """Gates that are still moving stand in no order of their names."""
+    monkeypatch.setattr(settle, "_admit", lambda floor: None)
+    moving = [gate("saw", "press"), gate("drill", "saw"), gate("anvil")]
+    floor = SimpleNamespace(stirred=moving, saturated=[], losing=False, dispatchers=[], free=[], now=60.0, error=0)
+    dispatch(floor)
+    assert floor.error == ENDLESS
+    with pytest.raises(EndlessInstant, match=r"^t = 60\.0 s: .* still moving at: anvil, drill, press, saw$"):
+        raise endless_instant(PLAN, floor)
+
+
+BACKLOG = """
+opsim: 1
+name: backlog
+run: {horizon: 200 s}
+layout: {places: {hall: [0 m, 0 m]}}
+tasks: {cut: {fixed: 5 s, automatic: true}, drill: {fixed: 4 s, automatic: true}}
+stations: {saw: {at: hall, tasks: [cut], buffer: 1}, mill: {at: hall, tasks: [drill], buffer: 1}}
+products: {bar: {route: [saw, mill]}}
+release: {kind: poisson, every: 2 s}
+"""
+ROUTES = {
+    "straight on": [],
+    "twice at one station": [("route: [saw, mill]", "route: [saw, saw, mill]")],
+    "back to one of two": [("route: [saw, mill]", "route: [[saw, mill], [saw, mill]]")],
+    "place first": [("buffer: 1}, mill", "buffer: 1, blocking: before}, mill")],
+    "rework": [("at: hall, tasks: [drill], buffer: 1", "at: hall, tasks: [drill], buffer: 1, yield: 0.7, "
+               "inspect: {finds: 1, then: {rework: mill}}")],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("edits", ROUTES.values(), ids=ROUTES)
+def test_looking_at_every_claim_would_find_the_same(edits, monkeypatch):
+    log, _ = plans.ran(BACKLOG, *edits)
+    monkeypatch.setattr(build, "_comes_back", lambda *_: True)
+    twin, _ = plans.ran(BACKLOG, *edits)
+    assert all(np.array_equal(log[name], twin[name], equal_nan=True) for name in log.columns)
+
+
+def test_a_queue_outside_is_not_gone_through_where_nobody_comes_back(monkeypatch):
+    asked = []
+    may_enter = routing.may_enter
+    monkeypatch.setattr(routing, "may_enter", lambda *what: asked.append(what) or may_enter(*what))
+    plans.ran(BACKLOG)
+    assert not asked
+    plans.ran(BACKLOG, *ROUTES["twice at one station"])
+    assert asked

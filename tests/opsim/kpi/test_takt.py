@@ -1,12 +1,13 @@
 """The rhythm that demand asks for."""
 
 from math import exp, isnan, sqrt
+from types import SimpleNamespace
 
 import pytest
 from plans import line, plan, queue
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.takt import takt
+from opsim.kpi.takt import _takt_s, takt
 from opsim.log import CREATE, FINISH
 from tests.opsim.kpi.made_logs import made, row
 
@@ -62,3 +63,8 @@ def test_the_hours_in_which_the_floor_works_are_there_for_what_came_in_an_hour()
 def test_gaps_longer_than_takt_miss_it_long_after_the_last_job_came():
     p = plan(MORNING.replace("fixed: 5 min", "fixed: 7 min"))
     assert {f.kpi: f.value for f in takt(run_plan(p), p)} == {"takt_s": pytest.approx(360), "takt_attainment": 0}
+
+
+def test_two_sources_together_are_as_quick_as_both():
+    sources = [SimpleNamespace(job_every_s=lambda horizon_s, every_s=every_s: every_s) for every_s in (10.0, 15.0)]
+    assert _takt_s(SimpleNamespace(sources=sources, horizon_s=100.0), None) == pytest.approx(6.0)

@@ -42,6 +42,7 @@ def test_both_engines_write_the_same_bytes_and_the_manifest_says_which_it_was(by
     assert digest(ours) == digest(theirs) and {key for key in ours if ours[key] != theirs[key]} == {"engine"}
 
 
+@pytest.mark.slow
 def test_the_fast_engine_itself_writes_the_same_bytes(by_simpy, tmp_path):
     run_scenario(loaded(CELL), folder=tmp_path, processes=2, engine="fast")
     assert bytes_of(tmp_path) == bytes_of(by_simpy)

@@ -13,8 +13,16 @@ from opsim.viewer.posed import joints_m
 from opsim.viewer.stage import scene_of
 from opsim.viewer.write import LEVEL
 
+QUICK = ("walking_cell",)
+"""The scene that ``make test`` looks at; the others take long."""
 
-@pytest.mark.parametrize("name", SHOWN)
+
+def quickly(*names):
+    """Cases of which ``make test`` runs those that are quick."""
+    return [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in names]
+
+
+@pytest.mark.parametrize("name", quickly(*SHOWN))
 def test_the_page_shows_what_the_emulators_say(name):
     """From the packed columns alone, at random times of random people: within 2 mm at every joint, mostly far less."""
     shown, twin = scene(name), Twin(*packed_scene(name))
@@ -52,7 +60,7 @@ def test_what_is_told_is_plain_json_and_every_column_is_there():
     assert {model["codec"] for model in meta["models"]} == {"frames"}
 
 
-@pytest.mark.parametrize("name", ["two_shift_plant", "forklift", "walking_cell"])
+@pytest.mark.parametrize("name", quickly("two_shift_plant", "forklift", "walking_cell"))
 def test_a_segment_names_station_and_task_as_the_log_has_them(name):
     """Stores and conveyors lie between the stations of a plan, not between those that the page lists."""
     run, (meta, data) = run_of(name), packed_scene(name)

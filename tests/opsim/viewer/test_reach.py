@@ -5,7 +5,9 @@ from made_scene import scene
 from opsim.viewer.posed import joints_m
 
 
-@pytest.mark.parametrize("name", ["kitting", "two_shift_plant", "walking_cell"])
+@pytest.mark.parametrize(
+    "name", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("kitting", "two_shift_plant")), "walking_cell"]
+)
 def test_nobody_is_ever_outside_of_what_is_framed(name):
     shown = scene(name)
     west, south, east, north = shown.reach_m

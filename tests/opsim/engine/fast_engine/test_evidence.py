@@ -103,6 +103,7 @@ def test_a_station_to_which_nothing_comes_counts_for_nothing():
     assert blocks_of(plan_of(json.dumps(SHOP | more))) == blocks_of(plan_of(json.dumps(SHOP)))
 
 
+@pytest.mark.slow
 def test_the_sample_shows_the_whole_vocabulary():
     found = set()
     for number in SAMPLE:

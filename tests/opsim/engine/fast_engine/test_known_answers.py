@@ -1,12 +1,24 @@
 """Known answers on the fast engine: the same rows at a part of the horizon, and theory itself at the whole one.
 
 ``python -m known_answers.show --engine fast`` simulates all of them as often as their files ask for.
+
+The fast engine writes the log of the SimPy engine of every shipped scenario, in every variant, to its horizon.
+
+Two replications: the second is run on the floor that the first one leaves.
+
+The fast engine writes the log of the SimPy engine, to the last bit, on random floors over the whole vocabulary.
+
+``python -m engine_evidence.equality`` compares all 1,000; here is a sample that together uses every block, and a
+deterministic part of the others in the slow tests.
 """
 
 from dataclasses import replace
 
 import pytest
+from checked_floors import plan_of as floor_plan_of
+from engine_evidence.floors import N_FLOORS, floor_text, replication_of
 from engine_evidence.rows import first_difference
+from engine_evidence.sample import SAMPLE
 from known_answers import staffing
 from known_answers.cases import CASES, TAKE_LONG
 from known_answers.crews import VELOCITIES, brigade, expected, positions, rates
@@ -15,6 +27,9 @@ from known_answers.simulate import plan_of, simulate
 from opsim.engine.choice import FAST
 from opsim.engine.fast_engine import run_plan as run_fast
 from opsim.engine.floor import run_plan as run_simpy
+from opsim.plan import compile_plan
+from opsim.scenario.read import scenarios_in
+from opsim.shipped import shipped_folder
 from opsim.study.interval import t_interval
 
 ASKED = [*CASES, *staffing.CASES]
@@ -25,6 +40,7 @@ PART, LEAST_S = 50, 1000.0
 """One of so many parts of the horizon is compared row by row, but so much at least."""
 
 
+@pytest.mark.slow
 def test_every_known_answer_is_simulated_from_the_same_rows():
     n_rows = []
     for file, variant in VARIANTS:
@@ -55,3 +71,57 @@ def runs():
 def test_theory_is_within_four_standard_errors(case, runs):
     interval = t_interval(runs[case.file, case.variant][case.kpi])
     assert abs(interval.mean - case.answer()) <= 4 * interval.sd / interval.n**0.5 + 1e-6 * case.answer()
+
+
+FILES = sorted(shipped_folder().glob("*.yaml"))
+EACH = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+
+
+def difference(plan):
+    """The first row that differs: on a new floor, or on one that has drawn most of its numbers ahead."""
+    wanted, new = run_simpy(plan), run_fast(plan)
+    return first_difference(wanted, new) or first_difference(wanted, run_fast(plan))
+
+
+def plans(path):
+    return {name: compile_plan(loaded) for name, loaded in scenarios_in(path.read_bytes(), path).items()}
+
+
+@EACH
+def test_every_variant_of_a_shipped_scenario_has_one_log(path):
+    found = {name: difference(plan) for name, plan in plans(path).items()}
+    assert found == dict.fromkeys(found, "")
+
+
+@pytest.mark.slow
+@EACH
+def test_the_second_replication_has_one_log_too(path):
+    for name, plan in plans(path).items():
+        run_fast(plan)
+        assert (name, first_difference(run_simpy(plan, 1), run_fast(plan, 1))) == (name, "")
+
+
+EVERY = 4
+"""Of the others, one of so many is run here."""
+PARTS = 4
+
+
+def floor_differs(number):
+    """The first row that differs, in words; nothing where the logs are equal: on a new floor, and on one that has drawn
+    most of its numbers ahead."""
+    plan, replication = floor_plan_of(floor_text(number)), replication_of(number)
+    wanted, new = run_simpy(plan, replication), run_fast(plan, replication)
+    run_fast(plan, replication + 1)
+    return first_difference(wanted, new) or first_difference(wanted, run_fast(plan, replication))
+
+
+@pytest.mark.parametrize("number", SAMPLE)
+def test_a_floor_of_the_sample_has_one_log(number):
+    assert floor_differs(number) == ""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(PARTS))
+def test_many_random_floors_have_one_log(part):
+    numbers = [number for number in range(0, N_FLOORS, EVERY) if number not in SAMPLE][part::PARTS]
+    assert {number: words for number in numbers if (words := floor_differs(number))} == {}

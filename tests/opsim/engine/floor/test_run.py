@@ -68,16 +68,16 @@ def test_a_rule_that_raises_is_seen_in_the_file_in_which_it_is_written(monkeypat
 
 
 @pytest.mark.parametrize(
-    ("group", "path", "module", "ours", "name"),
+    ("group", "path", "ours", "name"),
     [
-        ("opsim.dispatch", "allocation.rule", "allocation", "nearest", "assembly"),
-        ("opsim.sequencing", "flow.dispatch", "sequencing", "downstream_first", "press_shop"),
-        ("opsim.routing", "flow.routing", "routing", "in_order", "press_shop"),
+        ("opsim.dispatch", "allocation.rule", "nearest", "assembly"),
+        ("opsim.sequencing", "flow.dispatch", "downstream_first", "press_shop"),
+        ("opsim.routing", "flow.routing", "in_order", "press_shop"),
     ],
 )
-def test_rules_of_others_have_keys_of_any_length(group, path, module, ours, name, tmp_path, monkeypatch):
+def test_rules_of_others_have_keys_of_any_length(group, path, ours, name, tmp_path, monkeypatch):
     """One number more than ours has, which is always the same: the rows are those of ours."""
-    like = f"lambda *n: (*__import__('opsim.engine.rules.{module}', fromlist=['x']).{ours}(*n), 1.0)"
+    like = f"lambda *n: (*__import__('opsim.engine.rules', fromlist=['x']).{ours}(*n), 1.0)"
     install_rule(tmp_path, monkeypatch, group, "theirs", like)
     logs = [run_plan(shipped(name, **{path: rule})) for rule in (ours, "theirs")]
     assert difference(*logs) is None

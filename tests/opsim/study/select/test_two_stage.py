@@ -50,3 +50,11 @@ def test_two_stages_keep_their_promise_where_it_is_hardest(procedure):
         for m in range(300)
     ]
     assert winners.count("s3") >= 276
+
+
+def test_the_first_weight_solves_the_equation_and_is_no_less_than_the_first_stages_share():
+    """Dudewicz & Dalal 1975: w^2 / n_0 + (1 - w)^2 / (n - n_0) = (indifference / (h s))^2, the larger of its roots."""
+    for n, ratio in ((20, 4.0), (35, 5.5), (12, 3.3)):
+        weight = first_weight(10, n, ratio)
+        assert weight**2 / 10 + (1 - weight) ** 2 / (n - 10) == pytest.approx(1 / ratio**2, rel=1e-12)
+        assert weight >= 10 / n

@@ -1,15 +1,24 @@
-"""Every stream of every shipped scenario against the SimPy engine's, to the bit."""
+"""Every stream of every shipped scenario against the SimPy engine's, to the bit.
+
+Numbers that are kept whole: all of them, in their order, without copying all at each step.
+
+What numba keeps are tables of these ziggurats: held against the densities.
+"""
 
 from dataclasses import replace
 from itertools import islice
 from threading import Thread
 
+import numba
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from opsim.engine.draws import Draws
-from opsim.engine.fast_engine.luck import of_plan
-from opsim.engine.fast_engine.luck.draws import BlockDraws
+from opsim.engine.fast_engine.streams import generators, of_plan
+from opsim.engine.fast_engine.streams.of_plan import BlockDraws, Whole
+from opsim.engine.fast_engine.streams.seeds import product_high
 from opsim.plan import compile_plan
 from opsim.plan.failures import BreakdownPlan
 from opsim.plan.orders import ANY, OrderPlan
@@ -164,3 +173,59 @@ def test_two_threads_that_draw_at_once_draw_what_one_draws():
     for thread in threads:
         thread.join()
     assert found == {0: alone, 1: alone}
+
+
+GROWTHS, AT_ONCE = 300, 64
+
+
+def test_all_numbers_are_there_in_their_order():
+    whole = Whole()
+    for i in range(GROWTHS):
+        whole.add(np.arange(i * AT_ONCE, (i + 1) * AT_ONCE, dtype=float))
+        assert whole.n == (i + 1) * AT_ONCE
+        assert np.array_equal(whole.numbers, np.arange(whole.n))
+
+
+def test_all_that_was_ever_given_takes_little_more_than_the_last():
+    whole, given = Whole(), {}
+    for _ in range(GROWTHS):
+        whole.add(np.ones(AT_ONCE))
+        given[id(whole.numbers.base)] = whole.numbers.base
+    assert sum(room.nbytes for room in given.values()) < 4 * whole.numbers.nbytes
+
+
+def test_what_was_given_before_stays_as_it_was():
+    whole = Whole()
+    whole.add(np.zeros(AT_ONCE))
+    before = whole.numbers
+    for _ in range(GROWTHS):
+        whole.add(np.ones(AT_ONCE))
+    assert not before.any()
+
+
+WORD = st.integers(0, 2**64 - 1)
+
+
+@numba.njit
+def upper_half(one, other):
+    return product_high(one, other)
+
+
+@given(WORD, WORD)
+def test_the_upper_half_is_that_of_whole_numbers_of_any_length(one, other):
+    assert upper_half(np.uint64(one), np.uint64(other)) == one * other >> 64
+
+
+@pytest.mark.parametrize(
+    ("table", "density", "bits"),
+    [
+        (generators.exponential(), lambda x: np.exp(-x), 53),
+        (generators.normal(), lambda x: np.exp(-(x**2) / 2), 52),
+    ],
+    ids=["exponential", "normal"],
+)
+def test_widths_densities_and_bounds_go_together(table, density, bits):
+    edges = table.w * 2.0**bits
+    assert np.allclose(table.f[1:], density(edges[1:]), rtol=1e-12) and table.f[0] == 1.0
+    inner = edges[1:-1] / edges[2:]
+    assert np.allclose(table.k[2:] / 2.0**bits, inner, rtol=1e-12) and table.k[1] == 0

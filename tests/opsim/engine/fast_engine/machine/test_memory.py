@@ -1,17 +1,35 @@
-"""Memory that is given back is taken again for what is no larger; where there is none, that is an error."""
+"""Memory that is given back is taken again for what is no larger; where there is none, that is an error.
+
+Memory seen from Python: what is written is read, what is frozen comes back.
+
+Lists of raw memory against Python's own.
+"""
 
 import ctypes
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor, entered
+from made_machine import Box, as_box, as_floor, empty_floor, entered
 from twins import twins
 
+from opsim.engine.fast_engine.machine import (
+    clear,
+    drop,
+    drop_at,
+    fresh,
+    give_back,
+    index_of,
+    insert,
+    pop_first,
+    pop_last,
+    push,
+)
 from opsim.engine.fast_engine.machine.arena import MORE
-from opsim.engine.fast_engine.machine.memory import CLASSES, class_of, give_bytes_back, room_of, take_bytes
+from opsim.engine.fast_engine.machine.lists import CLASSES, class_of, give_bytes_back, room_of, take_bytes
 from opsim.log import FINISH, QUEUE
 
 N_STEPS = 260
@@ -89,3 +107,147 @@ def test_where_python_gives_no_more_memory_nothing_is_written_beyond():
     with pytest.raises(MemoryError):
         addresses_of(floor, [1 << 20])
     assert arena.memory.at <= arena.memory.end
+
+
+_new_box, _forget_box = fresh(Box), give_back(Box)
+
+
+@entered
+def made_boxes(floor_at, box_at, n, keep):
+    """Makes boxes, each after the other; gives all but those of ``keep`` back. How many are in the row at the end."""
+    floor, first = as_floor(floor_at), as_box(box_at)
+    for i in range(n):
+        box = _new_box(floor)
+        if box.n != 0 or box.weight != 0 or len(box.numbers) != 0:
+            return -1
+        box.n, box.weight = i + 1, 0.5
+        if i % keep == 0:
+            box.next = first.next
+            first.next = box
+        else:
+            _forget_box(floor, box)
+    count = 0
+    box = first.next
+    while box:
+        count += 1
+        box = box.next
+    return count
+
+
+def test_fields_hold_what_is_written():
+    arena, _ = empty_floor()
+    box, other = arena.new("Box"), arena.new("Box")
+    box.n, box.weight, box.next = -5, inf, other
+    box.weights.fill([0.25, -1.0])
+    box.others.fill([other, box])
+    assert (box.n, box.weight, box.next) == (-5, inf, other)
+    assert list(box.weights) == [0.25, -1.0]
+    assert list(box.others) == [other, box]
+    box.next = None
+    assert not box.next
+    with pytest.raises(AttributeError, match="Box has no 'm'"):
+        box.m = 1
+
+
+def test_what_was_given_back_is_used_again_and_comes_empty():
+    arena, floor = empty_floor()
+    box = arena.new("Box")
+    arena.freeze()
+    assert made_boxes(floor.address, box.address, 100_000, 1000) == 100
+    assert arena.n_bytes < 1_000_000, "100 boxes are kept: the others' memory serves again and again"
+    arena.restore()
+    assert made_boxes(floor.address, box.address, 20_000, 1) == 20_000
+
+
+def test_a_frozen_floor_is_had_again_at_the_same_addresses():
+    arena, floor = empty_floor()
+    box = arena.new("Box")
+    box.numbers.fill(range(10))
+    arena.freeze()
+    for _ in range(3):
+        assert made_boxes(floor.address, box.address, 50_000, 7) == 7143
+        box.numbers.append(4)
+        n_bytes = arena.n_bytes
+        arena.restore()
+        assert not box.next
+        assert list(box.numbers) == list(range(10))
+        assert arena.n_bytes == n_bytes, "memory is kept for the next run"
+
+
+PUSH, INSERT, POP_FIRST, POP_LAST, DROP_AT, DROP, CLEAR, INDEX = range(8)
+
+
+@entered
+def done_to(floor_at, box_at, what, which, answers):
+    floor, box = as_floor(floor_at), as_box(box_at)
+    numbers = box.numbers
+    for i in range(what.size):
+        n = len(numbers)
+        at = which[i] % (n + 1)
+        if what[i] == PUSH:
+            push(floor, numbers, which[i])
+        elif what[i] == INSERT:
+            insert(floor, numbers, at, which[i])
+        elif what[i] == CLEAR:
+            clear(numbers)
+        elif what[i] == INDEX:
+            answers[i] = index_of(numbers, which[i])
+        elif what[i] == DROP:
+            answers[i] = drop(numbers, which[i])
+        elif n and what[i] == POP_FIRST:
+            answers[i] = pop_first(numbers)
+        elif n and what[i] == POP_LAST:
+            answers[i] = pop_last(numbers)
+        elif n and what[i] == DROP_AT:
+            drop_at(numbers, which[i] % n)
+
+
+def done_in_python(actions):
+    numbers, answers = [], []
+    for what, which in actions:
+        answer = -9
+        if what == PUSH:
+            numbers.append(which)
+        elif what == INSERT:
+            numbers.insert(which % (len(numbers) + 1), which)
+        elif what == CLEAR:
+            numbers.clear()
+        elif what == INDEX:
+            answer = numbers.index(which) if which in numbers else -1
+        elif what == DROP:
+            answer = int(which in numbers)
+            if answer:
+                numbers.remove(which)
+        elif numbers and what in (POP_FIRST, POP_LAST):
+            answer = numbers.pop(0 if what == POP_FIRST else -1)
+        elif numbers and what == DROP_AT:
+            del numbers[which % len(numbers)]
+        answers.append(answer)
+    return numbers, answers
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from([PUSH] * 3 + list(range(8))), st.integers(0, 12)), max_size=80))
+def test_a_list_is_what_pythons_would_be(actions):
+    arena, floor = empty_floor()
+    box, other = arena.new("Box"), arena.new("Box")
+    other.numbers.fill([7, 8, 9])
+    arena.freeze()
+    what, which = (np.array([pair[i] for pair in actions], dtype=np.int64) for i in (0, 1))
+    answers = np.full(len(actions), -9)
+    done_to(floor.address, box.address, what, which, answers)
+    numbers, wanted = done_in_python(actions)
+    assert list(box.numbers) == numbers
+    assert answers.tolist() == wanted
+    assert list(other.numbers) == [7, 8, 9], "memory of something else was written"
+
+
+def test_lists_of_many_items_grow_over_several_chunks_of_memory():
+    arena, floor = empty_floor()
+    boxes = [arena.new("Box") for _ in range(3)]
+    arena.freeze()
+    which = np.arange(100_000, dtype=np.int64)
+    for box in boxes:
+        done_to(floor.address, box.address, np.zeros_like(which), which, np.zeros_like(which))
+    assert all(len(box.numbers) == 100_000 and box.numbers[99_999] == 99_999 for box in boxes)
+    assert all(list(box.numbers)[:1000] == list(range(1000)) for box in boxes)

@@ -1,0 +1,1 @@
+"""Whether the emulator of this checkout gives what that of another gives."""
