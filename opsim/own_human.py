@@ -16,7 +16,7 @@ class OwnHuman:
     """A floor with one worker; times are those of the environment. Between performances he rests, whatever he does."""
 
     def __init__(self, env: simpy.Environment, luck: OwnLuck, human: HumanPlan):
-        from opsim.engine.floor.human_side import human_side_of
+        from opsim.engine.in_model import human_side_of
         from opsim.ergonomics.shift.worker_plans import plan_of
 
         self._env = env

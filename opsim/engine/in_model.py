@@ -1,22 +1,30 @@
-"""A floor as a part of somebody's own SimPy model: its clock there, jobs that are asked for, its log so far."""
+"""A floor as a part of somebody's own SimPy model: its clock there, jobs that are asked for, its log so far.
+
+What human effects do to one worker, without anything else on a floor: for models that are not ours.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from heapq import heappush
 from math import inf, nextafter
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import simpy
 
 from opsim.clock import TICKS_PER_S
+from opsim.engine.floor.build import Build
 from opsim.engine.floor.event_list import new_event
 from opsim.engine.floor.flow import new_job
-from opsim.engine.floor.loop import AFTER_EVERYTHING, run_until
+from opsim.engine.floor.human_state import level
 from opsim.engine.floor.machine import STRUCTS
 from opsim.engine.floor.routing import want_in
+from opsim.engine.floor.run import AFTER_EVERYTHING, run_until
 from opsim.engine.floor.settle import close
+from opsim.engine.floor.worker import human_drawn, stops, works
 from opsim.engine.rules import ARRIVAL
 from opsim.log import ORDER, EventLog, LogWriter, pack_row, row
 from opsim.plan import Plan
@@ -176,3 +184,45 @@ def _until(log: EventLog) -> EventLog:
     columns = {**kept.columns, "end_s": np.minimum(kept["end_s"], at_s)}
     order = np.lexsort([columns[name] for name in reversed(ORDER)])
     return EventLog(log.replication, at_s, columns, log.names).where(order)
+
+
+class HumanSide:
+    """Of the only worker of a floor on which nothing happens by itself."""
+
+    def __init__(self, build: Build):
+        self._floor: Any = build.floor
+        self._worker: Any = build.workers[0]
+
+    def level(self, now: float) -> float:
+        """How tired he is, 0 (fresh, or where nobody tires) to 1."""
+        self._floor.now = now
+        return float(level(self._floor, self._worker.human))
+
+    def drawn(self, now: float, task: int, k: int, drawn_s: float) -> tuple[float, float]:
+        """Seconds of his k-th performance of a task, which begins now; and the shift that postures follow."""
+        self._floor.now = now
+        time_s = human_drawn(self._floor, None, self._worker, task, k, drawn_s)
+        return time_s, self._worker.pace_shift
+
+    def works(self, now: float, task: int, k: int, until_s: float, done: float) -> None:
+        """He works on his k-th of a task from now, ``done`` of which is done, until then if nothing comes between."""
+        self._floor.now = now
+        works(self._floor, self._worker, task, until_s, done, k)
+
+    def stops(self, now: float) -> None:
+        """He is broken off."""
+        self._floor.now = now
+        stops(self._floor, self._worker)
+
+
+def human_side_of(plan: Plan, workforce: int, now: float) -> HumanSide:
+    """Of a plan with one worker and human effects, from now on."""
+    build = Build(replace(plan, rule="nearest", idle="stay", start_s=plan.human.start_s))
+    build.floor.draws = SimpleNamespace(workforce=workforce)
+    for one in build.answers:
+        one.begin(build.floor)
+    human = build.workers[0].human
+    human.at_s = now
+    if plan.human.fatigue is not None:
+        human.state.at_s = now
+    return HumanSide(build)

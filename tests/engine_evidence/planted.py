@@ -47,13 +47,12 @@ def make_ready(plan: Plan, faulty: Callable) -> int:
 
     Raises RuntimeError where a sound step is not on disk: ``fast_engine.ready`` of a process without faults puts it.
     """
-    from opsim.engine.fast_engine.build import Build
-
     from opsim.engine.fast_engine.machine import TABLE, needed
     from opsim.engine.fast_engine.machine.table import is_on_disk
+    from opsim.engine.fast_engine.run import built
 
     touched = 0
-    for one in needed(Build(plan).steps.values()):
+    for one in needed(built(plan).steps.values()):
         has_it = any(function is faulty for function in _within(one.function, set()))
         touched += has_it
         if not TABLE[one.line] and has_it:

@@ -17,7 +17,7 @@ from numba.core import types
 from numba.extending import overload_method, register_jitable
 
 from opsim.engine.fast_engine.floor_state import NO_LUCK, Floor
-from opsim.engine.fast_engine.human_state import Human, Model, pass_to_now
+from opsim.engine.fast_engine.human_state import Human, Model, pass_to_now, posts_by_strain
 from opsim.engine.fast_engine.machine import call_out, inlined, step
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.calling import handled
@@ -204,10 +204,8 @@ class Bodies:
         into[:] = self._orders[rotation]
 
     def _heaviest_first(self, rotation: int) -> list[int]:
-        from opsim.engine.heaviest_first import heaviest_first
-
         plan = self.plan.rotations[rotation]
-        return heaviest_first(self.plan, self._rates(), plan.posts, plan.workers)
+        return posts_by_strain(self.plan, self._rates(), plan.posts, plan.workers)
 
     def _rates(self) -> Any:
         from opsim.ergonomics.shift.dose_rates import dose_rates_of

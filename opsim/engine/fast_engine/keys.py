@@ -8,7 +8,7 @@ from opsim.engine import rules
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import ask_3, inlined, new_floats
 from opsim.engine.fast_engine.state import Job, Station, Worker
-from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES
+from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.plan.evenness import LEAST_EXPOSED
 
 ALLOCATION = tuple(ALLOCATION_RULES)
@@ -99,6 +99,84 @@ assert (*("longest_queue", "nearest", "oldest_job", "most_downstream", "best_ski
 )
 
 
+SEQUENCING, ROUTING = tuple(SEQUENCING_RULES), tuple(ROUTING_RULES)
+"""Rules of queues, and of several stations, by their numbers."""
+_fifo, _spt, _edd = map(inlined, (rules.fifo, rules.spt, rules.edd))
+_critical_ratio, _least_setup = inlined(rules.critical_ratio), inlined(rules.least_setup)
+_downstream_first = inlined(rules.downstream_first)
+_queue_key = inlined(rules.queue_key)
+_shortest_queue, _least_loaded = inlined(rules.shortest_queue), inlined(rules.least_loaded)
+_first_free, _in_order = inlined(rules.first_free), inlined(rules.in_order)
+
+
+def queue_rule(rule: str) -> int:
+    """The rule of a name by which the next job of a queue is chosen."""
+    return SEQUENCING.index(rule)
+
+
+def routing_rule(rule: str) -> int:
+    """The rule of a name by which one of several stations is chosen."""
+    return ROUTING.index(rule)
+
+
+@inlined
+def put_queue_key(
+    floor: Floor, rule: int, job: Job, work_s: float, left_s: float, left_steps: float, setup_s: float, goes_on: bool
+) -> None:
+    """The key of a job in a queue."""
+    now, since_s, due_s, number = floor.now, job.since_s, job.due_s, float(job.number)
+    begin_key(floor)
+    if rule == 0:
+        key = _fifo(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+        first = _queue_key(job.priority, goes_on, key[0], key[1])
+        put(floor, first[0])
+        put(floor, 1.0 if first[1] else 0.0)
+        put(floor, first[2])
+        put(floor, first[3])
+        return
+    if rule == 1:
+        found = _spt(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+    elif rule == 2:
+        found = _edd(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+    elif rule == 3:
+        found = _critical_ratio(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+    elif rule == 4:
+        found = _least_setup(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+    else:
+        found = _downstream_first(now, since_s, work_s, left_s, left_steps, due_s, setup_s, number)
+    whole = _queue_key(job.priority, goes_on, found[0], found[1], found[2])
+    put(floor, whole[0])
+    put(floor, 1.0 if whole[1] else 0.0)
+    put(floor, whole[2])
+    put(floor, whole[3])
+    put(floor, whole[4])
+
+
+@inlined
+def put_station_key(
+    floor: Floor, rule: int, station: Station, mean_s: float, setup_s: float, distance_m: float, position: int
+) -> None:
+    """The key of a station for a job."""
+    n_inside, servers = float(station.n_inside - len(station.put_away)), float(station.servers)
+    rank, n_free, place = float(station.rank), float(station.free_servers), float(position)
+    if rule == 2:
+        first = _first_free(n_inside, servers, rank, n_free, mean_s, setup_s, distance_m, place)
+        put(floor, first[0])
+        put(floor, first[1])
+        put(floor, first[2])
+        return
+    if rule == 0:
+        key = _shortest_queue(n_inside, servers, rank, n_free, mean_s, setup_s, distance_m, place)
+    elif rule == 1:
+        key = _least_loaded(n_inside, servers, rank, n_free, mean_s, setup_s, distance_m, place)
+    else:
+        key = _in_order(n_inside, servers, rank, n_free, mean_s, setup_s, distance_m, place)
+    put(floor, key[0])
+    put(floor, key[1])
+
+
+assert SEQUENCING == ("fifo", "spt", "edd", "critical_ratio", "least_setup", "downstream_first"), "see put_queue_key"
+assert ROUTING == ("shortest_queue", "least_loaded", "first_free", "in_order"), "see put_station_key"
 KEY = 6
 """Numbers in the key of a queue at most, and how many these are."""
 
@@ -130,7 +208,7 @@ IN_TURN, LEAST_TIME, BY_DOSE = range(3)
 WIDTH = 3
 """Numbers in a key."""
 _in_turn, _least_time = inlined(rules.in_turn), inlined(rules.least_time)
-_least_exposed_rotation_rules = inlined(rules.least_exposed_member)
+_least_exposed_member = inlined(rules.least_exposed_member)
 _less_gone_through = inlined(rules.less_gone_through)
 
 
@@ -151,7 +229,7 @@ def set_key(rotation: Any, number: int, member: int, post: int, away: int) -> No
         keys[at], keys[at + 1] = _in_turn(float(away), time_s, here_s, float(member))
     else:
         keys[at] = _less_gone_through(rotation.dose[member])[0]
-        keys[at + 1], keys[at + 2] = _least_exposed_rotation_rules(float(away), time_s, here_s, float(member))
+        keys[at + 1], keys[at + 2] = _least_exposed_member(float(away), time_s, here_s, float(member))
 
 
 assert (RULES[IN_TURN], RULES[LEAST_TIME], RULES[BY_DOSE]) == ("in_turn", "least_time", LEAST_EXPOSED), RULES

@@ -11,9 +11,10 @@ import numpy as np
 
 from opsim.engine.endless import endless_instant
 from opsim.engine.fast_engine.build import Build
-from opsim.engine.fast_engine.log_rows import Columns
-from opsim.engine.fast_engine.loop import DONE, FAILED, run_on
-from opsim.engine.fast_engine.machine import TABLE, complete, needed
+from opsim.engine.fast_engine.event_list import is_last_of_instant, pop_event
+from opsim.engine.fast_engine.floor_state import Floor
+from opsim.engine.fast_engine.log_rows import Columns, flush_rows
+from opsim.engine.fast_engine.machine import TABLE, complete, here, line_of, needed, step
 from opsim.engine.fast_engine.machine.calling import Waiting, caller, signals_wait
 from opsim.engine.fast_engine.machine.code_cache import folder, is_marked, mark
 from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Told, n_helpers
@@ -21,13 +22,44 @@ from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.machine.table import lacking
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.random_numbers import MOST_RANKS
-from opsim.engine.fast_engine.settle import close, start
+from opsim.engine.fast_engine.settle import close, happen, settle, start
 from opsim.engine.fast_engine.streams.blocks import is_trusted
 from opsim.engine.fast_engine.streams.of_plan import luck_of
 from opsim.engine.plugin_rules import plugin_rules
 from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+
+DONE, MORE, FAILED = range(3)
+
+
+@step
+def run_on(floor: Floor, most: int) -> int:
+    """Everything that happens before the horizon, but so many events at most: DONE, MORE to come, or FAILED."""
+    for _ in range(most):
+        if floor.settle_pending and is_last_of_instant(floor):
+            settle(floor)
+        elif floor.heap_n == 0 or floor.heap_time[0] >= floor.horizon_s:
+            return DONE
+        else:
+            floor.env_now = floor.heap_time[0]
+            _happens(floor, pop_event(floor))
+        if floor.error:
+            return FAILED
+    return MORE
+
+
+_happens = here(happen)
+
+
+def built(plan: Plan) -> Build:
+    """The floor of a Plan with its loop, and somebody who puts rows into columns."""
+    build = Build(plan)
+    build.line(run_on)
+    build.line(flush_rows)
+    build.floor.flush_line = line_of(flush_rows)
+    return build
+
 
 _RANKED = ("workers", "tasks", "stations", "operations", "sources", "stops", "breakdowns")
 
@@ -54,7 +86,7 @@ def refuse_plug_ins(plan: Plan) -> None:
 start_floor = caller(start)
 """Everything that happens before the first instant, of the floor at an address."""
 run_floor = caller(run_on)
-"""So many events at most, see ``loop.run_on``."""
+"""So many events at most, see ``run_on``."""
 close_floor = caller(close)
 """The rows that are open at the horizon."""
 
@@ -67,9 +99,7 @@ LUCK, EMULATED = "luck", "emulated"
 
 def compiling_s(plan: Plan) -> float:
     """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
-    from opsim.engine.fast_engine.build import Build
-
-    n_steps = sum(1 for _ in lacking(needed(Build(plan).steps.values())))
+    n_steps = sum(1 for _ in lacking(needed(built(plan).steps.values())))
     cpu_s = n_steps * STEP_S
     if _luck():
         cpu_s += LUCK_S
@@ -85,10 +115,8 @@ def is_kept() -> bool:
 
 def ready(plan: Plan, told: Told | None = None) -> None:
     """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
-    from opsim.engine.fast_engine.build import Build
-
     emulated = [] if is_marked(EMULATED) else _emulated(plan)
-    ready_for(needed(Build(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
+    ready_for(needed(built(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
 
 
 def ready_for(steps: Iterable[Step], told: Told | None = None, only_here: Iterable[Callable[[], object]] = ()) -> None:
@@ -129,7 +157,7 @@ class Machine:
     def __init__(self, plan: Plan, told: Callable[[int, int], None] | None = None):
         refuse_plug_ins(plan)
         refuse_too_many(plan)
-        self.plan, self.build = plan, Build(plan)
+        self.plan, self.build = plan, built(plan)
         self.floor = self.build.floor
         complete(needed(self.build.steps.values()), told)
         self.floor.table = TABLE.ctypes.data

@@ -182,14 +182,13 @@ def install_kits(build: Any) -> None:
 class Split:
     """n : products of pieces; products, pieces : of each, how many a unit becomes
 
-    n_ways : sources of pieces: of jobs of the source ``of``, those of the product ``made`` come from ``source``, at
+    source : of pieces: of jobs of the source ``of``, those of the product ``made`` come from ``source``, at
     most ``most`` of them a job
     """
 
     n: int
     products: Array[int]
     pieces: Array[int]
-    n_ways: int
     of: Array[int]
     made: Array[int]
     source: Array[int]
@@ -301,7 +300,7 @@ def install_splits(build: Any) -> None:
 
 def _split(build: Any, plan: Any) -> Any:
     made = build.arena.new("Split")
-    made.n, made.n_ways = len(plan.pieces), len(plan.sources)
+    made.n = len(plan.pieces)
     made.products = build.ints(product for product, _ in plan.pieces)
     made.pieces = build.ints(n for _, n in plan.pieces)
     made.of, made.made, made.source, made.most = (build.ints(way[i] for way in plan.sources) for i in range(4))

@@ -14,7 +14,7 @@ from opsim.engine.floor.hand_over import (
     be_wanted_no_more,
     go_back,
     goes_off,
-    met_ties,
+    meets_tied_job,
     put_down,
     release,
     send_carriers,
@@ -196,7 +196,7 @@ _as_presence, _as_pause = cast(Presence), cast(Pause)
 @step
 def act(floor: Floor, subject: Any, job: Job, worker: Worker) -> bool:
     """Somebody is about to begin a task: he waits to carry, or has to go and does not begin it."""
-    if met_ties(floor, job, worker):
+    if meets_tied_job(floor, job, worker):
         return True
     one = worker.presence
     if not one:

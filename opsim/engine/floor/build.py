@@ -20,7 +20,6 @@ from opsim.engine.floor import (
     human_effects,
     indexed_and_moving_lines,
     interruption,
-    loop,
     quality,
     rotations,
     sequencing,
@@ -88,7 +87,6 @@ class Build:
         self._put("Gate", "gates", list(self.gates.values()))
         self.floor.saturated.extend(source for source in self.sources if plan.sources[source.rank].kind == SATURATED)
         self.floor.free.extend(self.workers)
-        loop.prepare(self)
         for call in ALWAYS:
             self.line(call)
         for install in BLOCKS:
@@ -150,7 +148,6 @@ class Build:
         have_room(self)
         use_rule(floor, plan.rule)
         floor.idle = WHEN_IDLE.index(plan.idle)
-        floor.serves_one = plan.serve == "one"
         floor.held_when_blocked = plan.when_blocked == "held"
         floor.losing = any(source.when_full == "lose" for source in plan.sources)
         floor.has_orders = any(source.kind == SCHEDULE for source in plan.sources)

@@ -22,7 +22,7 @@ from opsim.log import QUEUE, TRANSPORT
 
 @struct
 class Belt:
-    """See ``belts``. rank : where its reports come among those of an instant, as a station's
+    """rank : where its reports come among those of an instant, as a station's
 
     rigid : whether it stands still as a whole; on_at_s : of each of its ``jobs``, how long it had moved when it got on
     get_on_line, get_off_line : steps told of a job that gets on, or off

@@ -15,7 +15,7 @@ from opsim.log import ABSENT, AFTER, BLOCKED, BREAK, HELD, NO_PLACE, OFF, QUEUE,
 
 @struct
 class Crew:
-    """See ``crew``, ``crew_line`` and ``crew_people``, which are one here.
+    """A bucket brigade, or a rabbit chase.
 
     jobs, carried, gates : of its line; place : by the rank of a station, where in the line it is, -1: elsewhere
     hand, goal, stand : by the number of a member; of ``stand`` -1: he comes from elsewhere

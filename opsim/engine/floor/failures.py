@@ -239,7 +239,7 @@ line_of_may_begin = line_of(may_begin)
 ORDER = 50
 """Among the preparations of a job on a server: the last, where its operation would begin."""
 BECOMES = {"resume": RESUMES, "restart": RESTARTS, "scrap": SCRAPPED}
-_as_countdown, _as_stop_failures = cast(Countdown), cast(Stop)
+_as_countdown = cast(Countdown)
 
 
 @step
@@ -294,7 +294,7 @@ def worn_out(floor: Floor, event: Event) -> None:
 @step
 def maintenance_due(floor: Floor, event: Event) -> None:
     """It falls due again, and begins as soon as it may."""
-    stop: Stop = _as_stop_failures(event.subject)
+    stop: Stop = _as_stop(event.subject)
     _set_alarm(floor, stop)
     fall_due(floor, stop)
 
@@ -308,7 +308,7 @@ def _set_alarm(floor: Floor, stop: Stop) -> None:
 @step
 def station_repaired(floor: Floor, event: Event) -> None:
     """A repair is over."""
-    stop: Stop = _as_stop_failures(event.subject)
+    stop: Stop = _as_stop(event.subject)
     repaired(floor, stop.failing)
 
 

@@ -45,7 +45,6 @@ class Floor:
     active: Worker
     has_orders: int
     reports: List[Event]
-    n_settled: int
     row_first: int
     row_at: int
     row_end: int
@@ -91,7 +90,6 @@ class Floor:
     n_performances: int
     rule: int
     idle: int
-    serves_one: int
     held_when_blocked: int
     routing: int
     n_limits: int
@@ -123,7 +121,6 @@ class Floor:
     asked_s: float
     asked_until_s: float
     asked_done: float
-    seen_to: int
     stretch_line: Call
     automatic_line: Call
     operation_line: Call

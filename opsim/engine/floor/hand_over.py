@@ -297,7 +297,7 @@ def _may_go_on(floor: Floor, job: Job) -> bool:
 
 
 @step
-def met_ties(floor: Floor, job: Job, worker: Worker) -> bool:
+def meets_tied_job(floor: Floor, job: Job, worker: Worker) -> bool:
     """He has come to a job; True where he has nothing to do there but to wait until he can carry it."""
     if worker.tied is not job:
         return False

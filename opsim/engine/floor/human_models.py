@@ -9,7 +9,7 @@ from collections.abc import Callable
 from math import nan
 from typing import Any
 
-from opsim.engine.floor.human_state import Human, pass_to_now
+from opsim.engine.floor.human_state import Human, pass_to_now, posts_by_strain
 from opsim.engine.floor.machine import more_of
 from opsim.human.tired import tired
 
@@ -127,11 +127,9 @@ class Bodies:
 
     def answer_order(self, rotation: int, into: list[int]) -> None:
         """The posts of a rotation, the heaviest first, where the rules want them."""
-        from opsim.engine.heaviest_first import heaviest_first
-
         if rotation not in self._orders:
             plan = self.plan.rotations[rotation]
-            self._orders[rotation] = heaviest_first(self.plan, self._rates(), plan.posts, plan.workers)
+            self._orders[rotation] = posts_by_strain(self.plan, self._rates(), plan.posts, plan.workers)
         into[:] = self._orders[rotation]
 
     def _rates(self) -> Any:

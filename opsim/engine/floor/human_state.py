@@ -5,10 +5,14 @@ Fatigue, memory of tasks and dose are told when he works and when he is broken o
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 from opsim.engine.floor.floor_state import Floor
 from opsim.engine.floor.machine import Array, Call, List, address_of, call_out, inlined, struct
 from opsim.engine.floor.records import Hook
 from opsim.engine.floor.state import Event, Worker
+from opsim.plan import Plan
 
 
 @struct
@@ -84,7 +88,7 @@ class Human:
     shares : address of (J, 5) numbers of his muscles; heaviness, courses : by task, how heavy it is for him, NaN where
             nobody has asked; address of the (PARTS, J) course of loads, 0 where none is known, -1 before
     units .. busy_until_s : see ``opsim.human.memory``; last_s : NaN where he has never done it
-    has_worked, resting : see ``human_rest``
+    has_worked, resting : see ``human_effects``
     """
 
     worker: Worker
@@ -221,3 +225,17 @@ def heaviest_first(floor: Floor, worker: Worker, rotation: int, order: Array[int
     NOTE: Python sums it, which is not the same in all its versions.
     """
     call_out(worker.dose.ask_order, rotation, address_of(order))
+
+
+def posts_by_strain(plan: Plan, rates: Any, posts: Sequence[Sequence[int]], members: Sequence[int]) -> list[int]:
+    """What is answered: those first where a job adds most to a body, on the mean of the members; else as they stand."""
+
+    def added(post: Sequence[int]) -> float:
+        tasks = [task for station in post for task in plan.stations[station].tasks]
+        return sum(plan.tasks[task].mean_s() * per_s(task) for task in tasks)
+
+    def per_s(task: int) -> float:
+        return sum(rates.per_s(member, task) for member in members) / len(members)
+
+    strain = [added(post) for post in posts]
+    return sorted(range(len(posts)), key=lambda post: (-strain[post], post))

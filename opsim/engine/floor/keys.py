@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.rules import less_gone_through
+from opsim.engine.rules import less_gone_through, queue_key
 from opsim.plan.evenness import LEAST_EXPOSED
 from opsim.plugins import dispatch_rule, rule_of
 
@@ -55,6 +55,32 @@ def pair_key(floor: Any, worker: Any, station: Any, job: Any, n_waiting: float, 
     for hook in floor.prefixes:
         hook.line(floor, worker, station, job)
     floor.key += pair_numbers(floor, worker, station, n_waiting, since_s)
+
+
+def queue_rule(rule: str) -> Any:
+    """The rule of a name by which the next job of a queue is chosen."""
+    return rule_of("opsim.sequencing", rule)
+
+
+def routing_rule(rule: str) -> Any:
+    """The rule of a name by which one of several stations is chosen."""
+    return rule_of("opsim.routing", rule)
+
+
+def put_queue_key(
+    floor: Any, rule: Any, job: Any, work_s: float, left_s: float, left_steps: float, setup_s: float, goes_on: bool
+) -> None:
+    """The key of a job in a queue."""
+    key = rule(floor.now, job.since_s, work_s, left_s, left_steps, job.due_s, setup_s, job.number)
+    floor.key = queue_key(job.priority, goes_on, *key)
+
+
+def put_station_key(
+    floor: Any, rule: Any, station: Any, mean_s: float, setup_s: float, distance_m: float, position: int
+) -> None:
+    """The key of a station for a job."""
+    n_inside, n_free = station.n_inside - len(station.put_away), station.free_servers
+    floor.key = rule(n_inside, station.servers, station.rank, n_free, mean_s, setup_s, distance_m, position)
 
 
 def keep_key(floor: Any, job: Any) -> None:

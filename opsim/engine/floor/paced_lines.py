@@ -39,7 +39,7 @@ TICK = -1
 
 @struct
 class Line:
-    """See ``paced_line``, ``indexed_line`` and ``moving_line``. reach_m, start_s : see ``plan.LinePlan``
+    """Indexed, or moving. reach_m, start_s : see ``plan.LinePlan``
 
     move_line, stood_line : steps that move it, and that are told when it has come to stand, or to run
     act_line, stop_walks_line : of a moving line, see ``line_walks``; 0 where nobody walks along it
@@ -153,7 +153,7 @@ class LineGate:
 
 @struct
 class Andon:
-    """See ``andon``. coming : by the number of a floater, the job he is on his way to
+    """Of a line. coming : by the number of a floater, the job he is on his way to
 
     asked : the jobs that wait when they are gone through
     """

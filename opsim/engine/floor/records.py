@@ -18,7 +18,7 @@ class Hook:
 
 @struct
 class Stream:
-    """Numbers of a named stream. id : purpose and ranks, see ``luck``; data : those from number ``first`` up to ``end``
+    """Numbers of a named stream. id : purpose and ranks; data : those from number ``first`` up to ``end``
 
     next : number of the one that comes next; data_2, data_3 : of holds, the moments beside the durations
     """

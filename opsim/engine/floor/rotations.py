@@ -42,7 +42,7 @@ class Posts:
 
 @struct
 class Rotation:
-    """See ``rotations``. limit : its number among limits; rule : see ``rotation_rules``
+    """limit : its number among limits; rule : as ``keys`` knows it
 
     by_dose : whether the rule evens doses out
 

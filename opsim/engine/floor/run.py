@@ -1,20 +1,87 @@
-"""Plan -> EventLog, one replication, by the rules of the floor as CPython reads them."""
+"""Plan -> EventLog, one replication, by the rules of the floor as CPython reads them, on a SimPy environment.
+
+The floor's events are told to it as they come there, and an instant is settled after the last of them.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from heapq import heappop, heappush
 from threading import local
 from typing import Any
 
 import simpy
 
 from opsim.engine.draws import Draws
+from opsim.engine.endless import endless_instant
 from opsim.engine.floor.build import Build
 from opsim.engine.floor.event_list import new_event
-from opsim.engine.floor.loop import live_in, run_until, working_life
-from opsim.engine.floor.settle import close, start
+from opsim.engine.floor.settle import close, happen, settle, start
 from opsim.log import EventLog, LogWriter, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+
+AFTER_EVERYTHING = 2
+"""SimPy's priorities are 0 (urgent) and 1 (normal): settle comes after both."""
+
+
+class _AtEnd:
+    """The event that settles an instant."""
+
+    __slots__ = ("_defused", "callbacks")
+    _ok, _value = True, None
+
+    def __init__(self, call: Any):
+        self.callbacks = [call]
+
+
+def live_in(env: simpy.Environment, floor: Any) -> None:
+    """From now on the floor's events are those of an environment."""
+
+    def happens(event: Any) -> None:
+        floor.env_now = env._now
+        happen(floor, event)
+        if floor.error:
+            raise endless_instant(floor.plan, floor)
+
+    def settles(_event: Any) -> None:
+        floor.env_now = env._now
+        settle(floor)
+        if floor.error:
+            raise endless_instant(floor.plan, floor)
+
+    def settle_at_end() -> None:
+        heappush(env._queue, (env._now, AFTER_EVERYTHING, next(env._eid), _AtEnd(settles)))  # type: ignore[arg-type, misc]
+
+    floor.env, floor.happens, floor.settle_at_end = env, happens, settle_at_end
+
+
+def working_life(floor: Any, worker: Any) -> Generator[Any, Any, None]:
+    """The SimPy process of a worker: spend the stretch of time he was given, report it, wait for the next."""
+    while True:
+        event = worker.stretch_over
+        try:
+            yield event
+        except simpy.Interrupt:  # the stretch means nothing any more; another event is in its place
+            continue
+        worker.stretch_over = new_event(floor)
+        floor.happens(event)
+
+
+def run_until(env: simpy.Environment, until_s: float) -> None:
+    """Everything that happens before a time.
+
+    NOTE: what ``env.run(until=...)`` does, with ``Environment.step`` written out: 5 % of a run.
+    """
+    queue = env._queue
+    while queue and queue[0][0] < until_s:
+        env._now, _, _, event = heappop(queue)
+        callbacks, event.callbacks = event.callbacks, None  # type: ignore[assignment]
+        for callback in callbacks:
+            callback(event)
+        if not event._ok and not hasattr(event, "_defused"):
+            raise event._value
+
 
 MOST_KEPT = 2
 """Floors of the last Plans that a thread has run: a sweep goes from Plan to Plan, and does not come back."""
@@ -37,7 +104,7 @@ class FloorOfPlan:
 
     @property
     def floor(self) -> Any:
-        """The floor itself, see ``parts.state.Floor``."""
+        """The floor itself, see ``floor_state.Floor``."""
         return self.build.floor
 
     def open(self, env: simpy.Environment, replication: int = 0, *, processes: bool = True) -> None:

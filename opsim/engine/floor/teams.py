@@ -48,7 +48,7 @@ class Teams:
 
 @struct
 class Stint:
-    """See ``stints``."""
+    """What of it goes into the row of the member."""
 
     station: int
     product: int

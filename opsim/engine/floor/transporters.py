@@ -73,7 +73,7 @@ class Leg:
 
 @struct
 class Pool:
-    """The vehicles of a transporter. drive_s : by place and place; ready, calls : see ``vehicles``
+    """The vehicles of a transporter. drive_s : by place and place; ready : for their next step; calls : in their order
 
     turns, idle : vehicles that are gone through just now: those that were ready, and those that are free
     """

@@ -47,10 +47,7 @@ LESS = _compiler()
 
 
 def inlined(function: F) -> F:
-    """A small function that is compiled into each step that calls it. It may not call itself, in no way round.
-
-    Used in another file, it belongs into ``parts/`` or ``machine/``: see ``stamp``.
-    """
+    """A small function that is compiled into each step that calls it. It may not call itself, in no way round."""
     made: F = _helper(function)
     return made
 

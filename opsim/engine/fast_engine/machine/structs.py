@@ -347,11 +347,6 @@ def cast(struct: Any) -> Any:
     return taken_for
 
 
-@intrinsic
-def _as_any(_typingctx: Any, address: Any) -> Any:
-    return Ref("Any")(types.int64), lambda _c, builder, _s, args: builder.inttoptr(args[0], POINTER)
-
-
 def size_of(struct: Any) -> int:
     """Bytes of a struct, a multiple of 16."""
     return -(-LAYOUTS[struct.__name__].size // (2 * WORD)) * 2 * WORD

@@ -8,6 +8,7 @@ from engine_evidence.rows import first_difference
 from plans import plan
 
 from opsim.engine.fast_engine import numbers
+from opsim.engine.fast_engine.random_numbers import DURATION, HOLD
 from opsim.engine.fast_engine.run import Machine
 from opsim.engine.floor import run_plan as run_simpy
 from opsim.log import COLUMNS
@@ -87,7 +88,7 @@ def test_people_who_are_redrawn_are_called_for_and_all_else_is_drawn_ahead(shop)
     for replication in (0, 1, 2, 0):
         assert first_difference(run_simpy(redrawn, replication), machine.run(replication)) == ""
     purposes = {stream >> 48 for stream in machine.numbers._asked}
-    assert purposes == {numbers.random_numbers.DURATION, numbers.random_numbers.HOLD}
+    assert purposes == {DURATION, HOLD}
 
 
 def test_a_log_keeps_its_numbers_while_others_are_drawn(shop):
