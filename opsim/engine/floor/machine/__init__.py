@@ -1,7 +1,10 @@
 """What the rules of the floor are written in, where CPython runs them: structs are objects with slots, lists are lists.
 
-The compiled engine has the same names over raw memory, see ``fast_engine.machine``.
+The compiled engine has the same names over raw memory, see ``fast_engine.machine``. With ``OPSIM_SANITIZE=1`` some of
+them look at what they are given, see ``sanitizer``.
 """
+
+from os import environ
 
 from opsim.engine.floor.machine.arena import Arena as Arena
 from opsim.engine.floor.machine.lists import drop as drop
@@ -30,3 +33,8 @@ from opsim.engine.floor.machine.structs import cast as cast
 from opsim.engine.floor.machine.structs import fresh as fresh
 from opsim.engine.floor.machine.structs import give_back as give_back
 from opsim.engine.floor.machine.structs import struct as struct
+
+if environ.get("OPSIM_SANITIZE", "0") not in ("", "0"):
+    from opsim.engine.floor.machine import sanitizer
+
+    globals().update(sanitizer.NAMES)

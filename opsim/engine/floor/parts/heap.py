@@ -5,7 +5,10 @@ from __future__ import annotations
 from heapq import heappush
 from typing import Any
 
+from opsim.engine.floor.machine import give_back
 from opsim.engine.floor.parts.records import Event
+
+forget_event = give_back(Event)
 
 
 class Coming(Event):
@@ -22,10 +25,6 @@ class Coming(Event):
 def new_event(_floor: Any) -> Coming:
     """An event that nobody waits for yet."""
     return Coming()
-
-
-def forget_event(_floor: Any, _event: Any) -> None:
-    """Nobody refers to it any more: Python finds that out by itself."""
 
 
 def is_last_of_instant(floor: Any) -> bool:

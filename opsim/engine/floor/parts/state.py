@@ -296,6 +296,7 @@ class Floor:
     settle_pending: int
     alone: int
     at_once: int
+    done: Job
     active: Worker
     has_orders: int
     reports: List[Event]
