@@ -109,7 +109,7 @@ def _fast_engine() -> Iterator[Finding]:
     """How much of the fast engine is compiled, of these sources and by this numba."""
     from numba import config
 
-    from opsim.engine.fast_engine.machine.store import folder
+    from opsim.engine.fast_engine.machine.code_cache import folder
 
     where = folder()
     if getattr(config, "DISABLE_JIT", 0):

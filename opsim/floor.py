@@ -23,9 +23,7 @@ import simpy
 
 from opsim.clock import LONGEST_S
 from opsim.engine.floor.run import FloorOfPlan
-from opsim.engine.in_model.asked_for import ask_for, source_for, watch
-from opsim.engine.in_model.inside import Inside
-from opsim.engine.in_model.so_far import log_so_far
+from opsim.engine.in_model import Inside, ask_for, log_so_far, source_for, watch
 from opsim.log import BAD, FINISH, JOIN, LOST, SCRAP, SPLIT, EventLog, names_of
 from opsim.plan import Plan
 from opsim.plan.until import until

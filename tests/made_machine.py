@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine.parts.state import Floor
+from opsim.engine.fast_engine.floor_state import Floor
 
 from opsim.engine.fast_engine.machine import TABLE, Arena, Handle, List, cast, step, struct
 from opsim.ergonomics.kernels.compiled import compiled

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from opsim.engine.rules.rotation import in_turn
+from opsim.engine.rules import in_turn
 from opsim.names import natural_key
 from opsim.posts import given_out, turns_away
 
@@ -21,7 +21,7 @@ class RotationPlan:
     """workers : ranks in the order of the list; posts : ranks of the stations of each post, in the order of the list
 
     every_s : changes by the clock; after : by so many operations at one of the posts; None where not so
-    rule    : who takes which post, one of ``opsim.engine.rules.rotation.ROTATION_RULES`` or a plug-in's
+    rule    : who takes which post, one of ``opsim.engine.rules.ROTATION_RULES`` or a plug-in's
     """
 
     name: str

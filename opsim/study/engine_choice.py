@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from opsim.engine.choice import AUTO, FAST, Choice, NotFast, Refusal, Told, able_to, make_ready, worth
-from opsim.engine.simpy_work import simpy_s
+from opsim.engine.choice import AUTO, FAST, Choice, NotFast, Refusal, Told, able_to, make_ready, simpy_s, worth
 from opsim.plan import Plan
 from opsim.problems import Problem, ScenarioError
 from opsim.scenario.like import without_likes

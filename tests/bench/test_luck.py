@@ -9,8 +9,7 @@ import pytest
 from bench.cpu import best_s
 
 from opsim.engine.draws import _performed, _uniform
-from opsim.engine.fast_engine.luck.blocks import Stream, uniforms
-from opsim.engine.fast_engine.luck.sampled import durations
+from opsim.engine.fast_engine.streams.blocks import Stream, durations, uniforms
 from opsim.streams import BLOCK, Items, _key
 from opsim.tasks import Erlang, Exponential, Lognormal, Triangular, Weibull
 

@@ -46,27 +46,27 @@ class Fault:
 MUTANTS = {
     "wrong_tie": Fault(
         "of two workers to whom everything else is alike the last goes, not the first",
-        *("parts.keys.pair_numbers", "float(worker.rank)", "-float(worker.rank)"),
+        *("keys.pair_numbers", "float(worker.rank)", "-float(worker.rank)"),
     ),
     "stale_timeout": Fault(
         "what was called off happens all the same",
-        *("parts.events.cancel", "event.alive = 0", "event.alive = 1"),
+        *("routing.cancel", "event.alive = 0", "event.alive = 1"),
     ),
     "lost_interruption": Fault(
         "who is stopped in the middle of a stretch never hears of it, and goes on to its end",
-        *("parts.stretches.end_stretch", "worker.version += 1", "worker.version += 0"),
+        *("event_list.end_stretch", "worker.version += 1", "worker.version += 0"),
     ),
     "last_who_waits": Fault(
         "tools that are given back go to who has waited shortest for them",
-        *("crib.give_out", "crib.asked.append(claim)", "crib.asked.insert(0, claim)"),
+        *("tool_store.give_out", "crib.asked.append(claim)", "crib.asked.insert(0, claim)"),
     ),
     "late_breaks": Fault(
         "what a calendar says happens one tick late, 2^-20 s",
-        *("duty.turn", "due.at_s - floor.now,", "due.at_s - floor.now + 2.0**-20,"),
+        *("calendar.turn", "due.at_s - floor.now,", "due.at_s - floor.now + 2.0**-20,"),
     ),
     "rest_of_two": Fault(
         "what two were at and is broken off takes one of them no longer than both",
-        *("helping.help_broken_off", "job.rest_s * job.block.slower", "job.rest_s"),
+        *("andon.help_broken_off", "job.rest_s * job.block.slower", "job.rest_s"),
     ),
 }
 """By name: three faults of any simulator, then three of single blocks."""
@@ -74,7 +74,7 @@ CONTROL = "control"
 PLANTED = MUTANTS | {
     CONTROL: Fault(
         "nothing: the engine's own words are planted",
-        "helping.help_broken_off",
+        "andon.help_broken_off",
         *2 * ("job.rest_s * job.block.slower",),
     )
 }

@@ -29,27 +29,27 @@ from engine_evidence.planted import is_sanitized, make_ready, plant, planted_in_
 FAULTS = {
     "wrong_tie": Fault(
         "of two jobs that wait since the same instant the one of the higher number is served first",
-        *("parts.claims.is_before", "one.number < other.number", "one.number > other.number"),
+        *("routing.is_before", "one.number < other.number", "one.number > other.number"),
     ),
     "stale_timeout": Fault(
         "what was called off happens all the same",
-        *("parts.events.cancel", "event.alive = 0", "event.alive = 1"),
+        *("routing.cancel", "event.alive = 0", "event.alive = 1"),
     ),
     "lost_interruption": Fault(
         "who is stopped in the middle of a stretch never hears of it, and goes on to its end",
-        *("parts.effects.stop", "end_stretch(floor, worker)", "pass"),
+        *("worker.stop", "end_stretch(floor, worker)", "pass"),
     ),
     "begun_twice": Fault(
         "a job that moves up to a server stays in the queue, and is begun once more",
-        *("material.leave_station", "station.queue.pop(0)", "station.queue[0]"),
+        *("flow.leave_station", "station.queue.pop(0)", "station.queue[0]"),
     ),
     "one_too_many": Fault(
         "a job that goes straight on to a buffer is let in where it is full by one",
-        *("parts.gates.goes_in_next", ".n_inside < gate", ".n_inside - 1 < gate"),
+        *("routing.goes_in_next", ".n_inside < gate", ".n_inside - 1 < gate"),
     ),
     "used_after": Fault(
         "a job that has left the floor, and is given back, is asked whether it is there",
-        *("completion.operation_over", "floor.done is job", "job.on_floor"),
+        *("settle.operation_over", "floor.done is job", "job.on_floor"),
     ),
 }
 JUDGES = ("twins", "golden", "audit", "sanitizer", "drivers")

@@ -40,7 +40,7 @@ def planted_in_simpy(place: str, old: str, new: str) -> Iterator[None]:
     ast.increment_lineno(tree.body[1], _line_of(function) - 2)
     try:
         if is_sanitized():
-            from opsim.engine.floor.machine.sanitizer import watch
+            from opsim.engine.sanitizer import watch
 
             watch(function, tree.body[1])
         else:

@@ -6,9 +6,7 @@ from collections.abc import Iterator
 
 from engine_evidence.used_times import used_tasks
 
-from opsim.engine.rules.allocation import ALLOCATION_RULES
-from opsim.engine.rules.duty import INTERRUPTION_RULES
-from opsim.engine.rules.rotation import ROTATION_RULES
+from opsim.engine.rules import ALLOCATION_RULES, INTERRUPTION_RULES, ROTATION_RULES
 from opsim.human.catalogue import catalogue
 from opsim.plan import Plan
 

@@ -8,7 +8,7 @@ from math import isfinite
 
 from engine_evidence.used_material import reached
 
-from opsim.engine.rules.sequencing import SEQUENCING_RULES
+from opsim.engine.rules import SEQUENCING_RULES
 from opsim.plan import Plan
 from opsim.plan.quality import NOWHERE
 from opsim.plan.station import STATION, StationPlan

@@ -7,7 +7,7 @@ from typing import Any
 
 from engine_evidence.used_material import reached
 
-from opsim.engine.rules.duty import INTERRUPTION_RULES
+from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.plan import Plan
 from opsim.plan.tasks import TaskPlan
 

@@ -45,7 +45,7 @@ def test_where_nothing_can_be_written_it_is_said_and_not_wrong(monkeypatch):
 
 
 def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(monkeypatch, tmp_path):
-    monkeypatch.setattr("opsim.engine.fast_engine.machine.store.folder", lambda: tmp_path)
+    monkeypatch.setattr("opsim.engine.fast_engine.machine.code_cache.folder", lambda: tmp_path)
     assert found("fast engine").said == f"compiled when it is first used, in {tmp_path}"
     (tmp_path / "00001-a.step").touch()
     assert found("fast engine").said == f"1 of its steps are compiled, in {tmp_path}"
@@ -62,7 +62,7 @@ def test_a_file_is_no_folder(tmp_path):
 
 
 def test_why_there_is_no_fast_engine_is_said(monkeypatch):
-    monkeypatch.setattr("opsim.engine.fast_engine.machine.store.folder", lambda: None)
+    monkeypatch.setattr("opsim.engine.fast_engine.machine.code_cache.folder", lambda: None)
     assert found("fast engine").said == "compiled anew by each command, as it can be kept nowhere"
     monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
     assert found("fast engine").said.startswith("off, as NUMBA_DISABLE_JIT is set")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from opsim.engine.fast_engine import sources
-from opsim.engine.fast_engine.limits import plug_ins_of, refuse_too_many
-from opsim.engine.fast_engine.readiness import compiling_s, is_kept, ready
-from opsim.engine.fast_engine.run import run_plan
+from opsim.engine.fast_engine import lowering
+from opsim.engine.fast_engine.run import compiling_s, is_kept, plug_ins_of, ready, refuse_too_many, run_plan
 from opsim.plan import Plan
 
-__all__ = ["compiling_s", "is_kept", "ready", "run_plan", "sources", "unsupported"]
+__all__ = ["compiling_s", "is_kept", "lowering", "ready", "run_plan", "unsupported"]
 
 
 def unsupported(plan: Plan) -> list[str]:

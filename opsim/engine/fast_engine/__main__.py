@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import sys
 
-from opsim.engine.fast_engine import sources
+from opsim.engine.fast_engine import lowering
 from opsim.engine.fast_engine.machine.steps import STEPS
 from opsim.engine.fast_engine.machine.table import lacking
-from opsim.engine.fast_engine.readiness import ready_for
+from opsim.engine.fast_engine.run import ready_for
 
 
 def main() -> int:
@@ -20,7 +20,7 @@ def main() -> int:
         if done % 100 == 0 or done == total:
             print(f"compiling the fast engine: {done} of {total}", flush=True)
 
-    sources.know_all()
+    lowering.know_all()
     n_compiled = len(list(lacking(STEPS.values())))
     ready_for(STEPS.values(), told)
     print(f"{len(STEPS)} steps are ready, {n_compiled} of them compiled now")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.fast_engine import columns
+from opsim.engine.fast_engine import log_rows
+from opsim.engine.fast_engine.event_list import is_last_of_instant, pop_event
+from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import here, line_of, step
-from opsim.engine.fast_engine.parts.heap import is_last_of_instant, pop_event
-from opsim.engine.fast_engine.parts.state import Floor
 from opsim.engine.fast_engine.settle import happen, settle
 
 DONE, MORE, FAILED = range(3)
@@ -35,5 +35,5 @@ _happens = here(happen)
 def prepare(build: Any) -> None:
     """A floor needs its loop, and somebody who puts rows into columns."""
     build.line(run_on)
-    build.line(columns.flush_rows)
-    build.floor.flush_line = line_of(columns.flush_rows)
+    build.line(log_rows.flush_rows)
+    build.floor.flush_line = line_of(log_rows.flush_rows)

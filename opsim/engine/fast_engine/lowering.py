@@ -9,11 +9,24 @@ What a step may say of lists and hooks, and what becomes of it:
     for x in xs                         a count that goes up to len(xs) as it is then, as Python's does
 
 All else is as it is written, and stands on the lines where it is written: errors and debuggers show these.
+
+Modules of this package that are rules of the floor: found in ``opsim.engine.floor``, and lowered as they are read.
+
+What was lowered is kept beside what Python has compiled, as long as neither the rule nor the pass changes.
 """
 
 from __future__ import annotations
 
 import ast
+import importlib
+import importlib.abc
+import importlib.util
+import marshal
+import sys
+from contextlib import suppress
+from os import getpid, replace
+from pathlib import Path
+from types import CodeType, ModuleType
 from typing import Any
 
 WRITTEN, COMPILED = "opsim.engine.floor", "opsim.engine.fast_engine"
@@ -141,3 +154,71 @@ class _Body(ast.NodeTransformer):
 def _is_line(node: ast.expr) -> bool:
     """Whether what is called is the line of a hook."""
     return isinstance(node, ast.Attribute) and (node.attr == "line" or node.attr.endswith("_line"))
+
+
+HERE = Path(__file__).parent
+FLOOR = HERE.parent / "floor"
+
+
+def know_all() -> None:
+    """Have all steps known by their lines: also those of rules that a block comes to only where a plan asks for it."""
+    for name in (*rules(), *(path.stem for path in HERE.glob("[!_]*.py"))):
+        importlib.import_module(f"{COMPILED}.{name}")
+
+
+def rules() -> list[str]:
+    """Names of all modules of rules, within the package."""
+    return [
+        path.stem
+        for path in sorted(FLOOR.glob("[!_]*.py"))
+        if path.stem != "machine" and not (HERE / path.name).exists()
+    ]
+
+
+class Lowering(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Asked after Python's own finders: what this package has a file of is that file."""
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
+        """Where a module is."""
+        if name.startswith(COMPILED + "."):
+            file = FLOOR.joinpath(*name.removeprefix(COMPILED + ".").split(".")).with_suffix(".py")
+            if file.is_file():
+                return importlib.util.spec_from_file_location(name, file, loader=self)
+        return None
+
+    def create_module(self, spec: Any) -> ModuleType | None:
+        """An ordinary one."""
+        return None
+
+    def exec_module(self, module: ModuleType) -> None:
+        """What stands in it, lowered."""
+        exec(_code(Path(str(module.__file__))), module.__dict__)
+
+
+def _code(path: Path) -> CodeType:
+    """From disk where it is that of today's source, of this pass and this Python."""
+    kept = Path(importlib.util.cache_from_source(str(HERE / path.relative_to(FLOOR))))
+    times = [of.stat() for of in (path, Path(str(__file__)))]
+    key = importlib.util.MAGIC_NUMBER + repr([(one.st_mtime_ns, one.st_size) for one in times] + [str(path)]).encode()
+    with suppress(OSError, ValueError, EOFError, TypeError):
+        data = kept.read_bytes()
+        if data.startswith(key):
+            found: CodeType = marshal.loads(data[len(key) :])
+            return found
+    made = compile(lowered(path.read_text(encoding="utf-8"), str(path)), str(path), "exec")
+    if not sys.dont_write_bytecode:
+        with suppress(OSError):
+            _write(kept, key + marshal.dumps(made))
+    return made
+
+
+def _write(kept: Path, data: bytes) -> None:
+    """Under another name first, as several processes may do so at once."""
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    part = kept.with_name(f"{kept.name}.{getpid()}")
+    part.write_bytes(data)
+    replace(part, kept)
+
+
+# NOTE: done as this is imported, first of all in this package: the modules after it are found that way.
+sys.meta_path.append(Lowering())

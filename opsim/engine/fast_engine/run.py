@@ -1,22 +1,123 @@
-"""Plan -> EventLog, one replication, by compiled code."""
+"""Plan -> EventLog, one replication, by compiled code; what that needs before, and which Plans it does not run."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from functools import partial
 from threading import local
+
+import numpy as np
 
 from opsim.engine.endless import endless_instant
 from opsim.engine.fast_engine.build import Build
-from opsim.engine.fast_engine.entry import close_floor, run_floor, start_floor
-from opsim.engine.fast_engine.interrupts import Waiting, signals_wait
-from opsim.engine.fast_engine.limits import refuse_plug_ins, refuse_too_many
-from opsim.engine.fast_engine.loop import DONE, FAILED
+from opsim.engine.fast_engine.log_rows import Columns
+from opsim.engine.fast_engine.loop import DONE, FAILED, run_on
 from opsim.engine.fast_engine.machine import TABLE, complete, needed
+from opsim.engine.fast_engine.machine.calling import Waiting, caller, signals_wait
+from opsim.engine.fast_engine.machine.code_cache import folder, is_marked, mark
+from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Told, n_helpers
+from opsim.engine.fast_engine.machine.steps import Step
+from opsim.engine.fast_engine.machine.table import lacking
 from opsim.engine.fast_engine.numbers import Numbers
-from opsim.engine.fast_engine.room import Columns
+from opsim.engine.fast_engine.random_numbers import MOST_RANKS
+from opsim.engine.fast_engine.settle import close, start
+from opsim.engine.fast_engine.streams.blocks import is_trusted
+from opsim.engine.fast_engine.streams.of_plan import luck_of
+from opsim.engine.plugin_rules import plugin_rules
 from opsim.log import EventLog, names_of
 from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+
+_RANKED = ("workers", "tasks", "stations", "operations", "sources", "stops", "breakdowns")
+
+
+def refuse_too_many(plan: Plan) -> None:
+    """Raises NotImplementedError for a Plan with more of anything than ids can tell apart."""
+    for what in _RANKED:
+        n = len(getattr(plan, what))
+        if n > MOST_RANKS:
+            raise NotImplementedError(f"{n:,} {what}, where it tells {MOST_RANKS:,} apart")
+
+
+def plug_ins_of(plan: Plan) -> list[str]:
+    """Rules that only Python can follow, in words, each once."""
+    return list(dict.fromkeys(map(str, plugin_rules(plan))))
+
+
+def refuse_plug_ins(plan: Plan) -> None:
+    """Raises NotImplementedError for a Plan with rules that only Python can follow."""
+    if said := plug_ins_of(plan):
+        raise NotImplementedError("; ".join(said))
+
+
+start_floor = caller(start)
+"""Everything that happens before the first instant, of the floor at an address."""
+run_floor = caller(run_on)
+"""So many events at most, see ``loop.run_on``."""
+close_floor = caller(close)
+"""The rows that are open at the horizon."""
+
+
+STEP_S, LUCK_S, EMULATED_S = 0.07, 12.0, 3.0
+"""About so many CPU seconds are compiled for a step, what draws numbers and every floor's steps, emulators."""
+LUCK, EMULATED = "luck", "emulated"
+"""Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
+
+
+def compiling_s(plan: Plan) -> float:
+    """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
+    from opsim.engine.fast_engine.build import Build
+
+    n_steps = sum(1 for _ in lacking(needed(Build(plan).steps.values())))
+    cpu_s = n_steps * STEP_S
+    if _luck():
+        cpu_s += LUCK_S
+    if _emulated(plan) and not is_marked(EMULATED):
+        cpu_s += EMULATED_S
+    return cpu_s / (1 + n_helpers() if n_steps >= WORTH_HELP else 1)
+
+
+def is_kept() -> bool:
+    """Whether there is a place on disk for what is compiled."""
+    return folder() is not None
+
+
+def ready(plan: Plan, told: Told | None = None) -> None:
+    """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
+    from opsim.engine.fast_engine.build import Build
+
+    emulated = [] if is_marked(EMULATED) else _emulated(plan)
+    ready_for(needed(Build(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
+
+
+def ready_for(steps: Iterable[Step], told: Told | None = None, only_here: Iterable[Callable[[], object]] = ()) -> None:
+    """The same for some steps, and for what draws numbers; ``only_here``: what no other process knows of."""
+    luck = _luck()
+    complete(steps, told, luck, only_here)
+    if luck:
+        mark(LUCK)
+
+
+def _luck() -> list[Callable[[], object]]:
+    """What compiles all that draws numbers, where that is not done: the look at it that a first run takes anyway."""
+    return [] if is_marked(LUCK) or is_trusted.cache_info().currsize else [is_trusted]
+
+
+def _emulated(plan: Plan) -> list[int]:
+    """A task of each kind of the emulator's models, by rank: of others nothing is compiled."""
+    kinds = {type(task.model): rank for rank, task in enumerate(plan.tasks) if plan.workers}
+    return [rank for kind, rank in kinds.items() if kind.__module__.startswith("emulator.")]
+
+
+def _draw(plan: Plan, tasks: Iterable[int]) -> None:
+    """Performances of some tasks. NOTE: what a model has to say against it is raised by the run, where it belongs."""
+    luck, workforce = luck_of(plan), plan.workforce_of(0)
+    with suppress(Exception):
+        for task in tasks:
+            luck.of_worker(task, 0, workforce)(np.zeros(6, np.uint32), 0, 1)
+        mark(EMULATED)
+
 
 MOST_EVENTS = 1 << 17
 """Before signals are handled: 10 ms of a small floor, a second of one of thousands of stations."""

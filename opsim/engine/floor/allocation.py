@@ -1,17 +1,95 @@
-"""Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round."""
+"""Free workers are sent to stations that call; who is not sent stays, goes home, or walks on his round.
+
+Whose work it is comes before the rule of allocation: zones, floaters, priorities, the way ahead, and what each worker's
+body has gone through so far.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
+from opsim.engine import rules
+from opsim.engine.floor.event_list import lowest_bit
+from opsim.engine.floor.floor_state import CREWS, Floor
+from opsim.engine.floor.human_effects import hang
+from opsim.engine.floor.human_models import bodies_of
+from opsim.engine.floor.human_state import dose_so_far
+from opsim.engine.floor.keys import is_better, keep_best, pair_key, pair_numbers, put
+from opsim.engine.floor.log_rows import log_worker
 from opsim.engine.floor.machine import here, inlined, step
-from opsim.engine.floor.parts.bits import clear_bit, may_serve
-from opsim.engine.floor.parts.claims import take_claim
-from opsim.engine.floor.parts.clock import lowest_bit
-from opsim.engine.floor.parts.keys import is_better, keep_best, pair_key, pair_numbers
-from opsim.engine.floor.parts.rounds import on_round
-from opsim.engine.floor.parts.rows import log_worker
-from opsim.engine.floor.parts.state import CREWS, Floor, Job, Station, Worker
+from opsim.engine.floor.routing import take_claim
+from opsim.engine.floor.state import Job, Station, Worker
 from opsim.engine.floor.station import call_off, perform
-from opsim.engine.floor.worker import be_busy, walk
+from opsim.engine.floor.worker import be_busy, clear_bit, may_serve, on_round, walk
+from opsim.plan.evenness import LEAST_EXPOSED, evens_out
+from opsim.plan.sequence import MOST_DOWNSTREAM
+
+ORDER = 1
+"""Among the ways to begin a task: somebody on patrol has come for one before anything else is looked at."""
+_whose_it_is, _more_urgent = inlined(rules.whose_it_is), inlined(rules.more_urgent)
+_nearer_to_its_end = inlined(rules.nearer_to_its_end)
+
+
+def install_preferences(build: Any) -> None:
+    """What comes before the rule of allocation, where there is some; one operation a stop, where the plan says so."""
+    for part in _parts(build.plan):
+        build.hang(build.floor.prefixes, part)
+    if build.plan.idle == "patrol" and build.plan.serve == "one":
+        for station in build.stations:
+            build.hang(station.acts, serves, None, ORDER)
+
+
+def _parts(plan: Any) -> Any:
+    if any(worker.zone or worker.floater for worker in plan.workers):
+        yield by_zone
+    by = {"stations": by_station, "products": by_product}
+    wanted = {"stations": any(station.priority for station in plan.stations), "products": True}
+    yield from (by[name] for name in plan.priorities if wanted[name])
+    if plan.rule == MOST_DOWNSTREAM:
+        yield by_way_ahead
+    if plan.rule == LEAST_EXPOSED:
+        pass
+
+        yield by_dose
+
+
+@step
+def by_zone(floor: Floor, worker: Worker, station: Station, job: Job) -> bool:
+    """People whose own station it is come first, then floaters."""
+    outside = 1 if worker.has_zone and not worker.zone[station.rank] else 0
+    key = _whose_it_is(outside, worker.floater)
+    put(floor, float(key[0]))
+    put(floor, float(key[1]))
+    return True
+
+
+@step
+def by_station(floor: Floor, worker: Worker, station: Station, job: Job) -> bool:
+    """The station of the higher priority."""
+    put(floor, _more_urgent(station.priority)[0])
+    return True
+
+
+@step
+def by_product(floor: Floor, worker: Worker, station: Station, job: Job) -> bool:
+    """The job of the higher priority."""
+    put(floor, _more_urgent(job.priority)[0])
+    return True
+
+
+@step
+def by_way_ahead(floor: Floor, worker: Worker, station: Station, job: Job) -> bool:
+    """The job with the fewest operations left, on average."""
+    put(floor, _nearer_to_its_end(job.plan.left_steps[job.step])[0])
+    return True
+
+
+@step
+def serves(floor: Floor, subject: Any, job: Job, worker: Worker) -> bool:
+    """He has come to work at this stop of his round: he does one operation, and walks on."""
+    worker.served = 1
+    return False
+
 
 STAY, HOME, PATROL = range(3)
 
@@ -182,3 +260,27 @@ def _walk_on(floor: Floor) -> bool:
 
 
 _serve_one, _send = here(_serve_best), here(send)
+
+
+_less_gone_through = inlined(rules.less_gone_through)
+
+
+def install_doses(build: Any) -> None:
+    """Doses are counted where a rule of the plan asks for them; ``humans`` tells them who works."""
+    if not evens_out(build.plan):
+        return
+    bodies = bodies_of(build)
+    ask_rate, ask_order = bodies.asks(bodies.answer_rate), bodies.asks(bodies.answer_order)
+    for worker in build.workers:
+        dose = worker.dose = build.arena.new("Dose")
+        dose.rates = bodies.rates_of(worker.rank)
+        dose.ask_rate, dose.ask_order = ask_rate, ask_order
+    if not build.floor.has_humans:
+        hang(build)
+
+
+@step
+def by_dose(floor: Floor, worker: Worker, station: Station, job: Job) -> bool:
+    """Who has gone through less so far."""
+    put(floor, _less_gone_through(dose_so_far(floor, worker))[0])
+    return True

@@ -1,25 +1,181 @@
-"""Andon: somebody is called to a job of a paced line that is not done in time; he takes over, or helps."""
+"""Andon: somebody is called to a job of a paced line that is not done in time; he takes over, or helps, or it goes on.
+
+Who helps takes his own share of what is left, and both are done at once. When a job leaves a station unfinished,
+whoever is at it is free, and nothing more is done there.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
+from opsim.engine import rules
 from opsim.engine.floor.allocation import send
-from opsim.engine.floor.helping import begin_helping, can_help, hang_helping
-from opsim.engine.floor.interruption import take_over
-from opsim.engine.floor.machine import NOTHING, Handle, inlined, step
-from opsim.engine.floor.parts.bits import may_serve
-from opsim.engine.floor.parts.claims import claim_at, give_up_claims, put_claim, take_claim
-from opsim.engine.floor.parts.keys import is_better, keep_best, pair_key
-from opsim.engine.floor.parts.line_clocks import is_open
-from opsim.engine.floor.parts.lines import Andon
-from opsim.engine.floor.parts.performing import task_of
-from opsim.engine.floor.parts.state import LINES, Floor, Job, Station, Worker
-from opsim.engine.floor.sent_on import tell_lost_server, turn_away
-from opsim.engine.floor.station import go_on
-from opsim.engine.floor.worker import set_free
-from opsim.log import AWAY, HELD, NO_WORKER, SETUP, WORK
+from opsim.engine.floor.event_list import on_grid, stretch
+from opsim.engine.floor.floor_state import LINES, Floor
+from opsim.engine.floor.interruption import forget_progress, interrupt, release_team, take_over, tell_broken_off
+from opsim.engine.floor.keys import is_better, keep_best, pair_key
+from opsim.engine.floor.log_rows import job_now, log_instant, log_job, progress
+from opsim.engine.floor.machine import NOTHING, Handle, drop, fresh, inlined, step, struct
+from opsim.engine.floor.paced_lines import Andon, is_open
+from opsim.engine.floor.routing import claim_at, give_up_claims, put_claim, take_claim
+from opsim.engine.floor.state import Job, Station, Worker
+from opsim.engine.floor.station import call_off, drawn_s, go_on
+from opsim.engine.floor.teams import Stint, disband
+from opsim.engine.floor.worker import may_serve, set_free, stop, task_of, works
+from opsim.log import AWAY, CLOSED, HELD, IS_DOWN, NO_WORKER, QUEUE, SENT_ON, SETUP, UNFINISHED, WALK, WORK
 from opsim.plan import LinePlan
+
+OUTERMOST = -100
+"""Among what follows when a stretch is over: who helps is free before anything else."""
+_together_s = inlined(rules.together_s)
+_new_stint = fresh(Stint)
+
+
+@step
+def begin_helping(floor: Floor, job: Job, worker: Worker) -> None:
+    """From now on two are at the task, whose rest goes by the sum of their paces."""
+    station, now = job.station, floor.now
+    done = progress(job, now)
+    alone_s = job.since_s + job.duration_s - now
+    his_s = drawn_s(floor, station, worker, job.task)
+    k = floor.asked_k
+    rest_s = on_grid(_together_s(alone_s, his_s * (1.0 - done)))
+    job.block.helped, job.block.slower = 1, alone_s / rest_s
+    _go_on_at_another_pace(floor, job, done, rest_s)
+    stint: Stint = _new_stint(floor)
+    stint.station, stint.product, stint.operation, stint.task = station.rank, job.product, job.operation, job.task
+    stint.performance_id, stint.k, stint.duration_s = _another(floor), k, rest_s
+    stint.progress_from, stint.pace_shift = done, worker.pace_shift
+    worker.stint = stint
+    works(floor, worker, job.task, now + rest_s, done, k)
+    worker.job, worker.station = job, station
+    worker.kind, worker.since_s = WORK, now
+    job.has_team = 1
+    job.team.clear()
+    job.team.append(worker)
+
+
+@step
+def end(floor: Floor, job: Job) -> None:
+    """Who helps has to go, and the other one goes on alone."""
+    rest_s = (job.since_s + job.duration_s - floor.now) * job.block.slower
+    job.block.helped = 0
+    _go_on_at_another_pace(floor, job, progress(job, floor.now), on_grid(rest_s))
+    release_team(floor, job)
+
+
+@step
+def help_broken_off(floor: Floor, subject: Any, job: Job) -> None:
+    """Who goes on alone needs longer for the rest."""
+    if job.block.helped:
+        job.block.helped = 0
+        if job.rest_s:
+            job.rest_s = on_grid(job.rest_s * job.block.slower)
+            job.performance_id = _another(floor)
+
+
+@step
+def help_over(floor: Floor, subject: Any, job: Job, worker: Worker) -> bool:
+    """Who helps is free when the task is done; what else follows is asked too."""
+    if job.block.helped:
+        job.block.helped = 0
+        release_team(floor, job)
+    return False
+
+
+@inlined
+def _go_on_at_another_pace(floor: Floor, job: Job, done: float, rest_s: float) -> None:
+    """Who works at the job goes on, and needs another time for the rest: a piece of its own begins."""
+    worker = floor.workers[job.worker]
+    log_job(floor, job)
+    job.since_s, job.progress_from, job.rest_s, job.duration_s = floor.now, done, rest_s, rest_s
+    job.performance_id = _another(floor)
+    stop(floor, worker)
+    worker.since_s = floor.now
+    works(floor, worker, job.task, floor.now + rest_s, done, job.k)
+    stretch(floor, worker, floor.stretch_line, rest_s)
+
+
+@inlined
+def _another(floor: Floor) -> int:
+    """The number of a performance, or of a part of one that goes at a pace of its own."""
+    number = floor.n_performances
+    floor.n_performances = number + 1
+    return number
+
+
+@step
+def can_help(floor: Floor, job: Job) -> bool:
+    """Whether somebody works at a task that two can share: one without a tool in the hands or a time of the station."""
+    if job.kind != WORK or job.worker < 0:
+        return False
+    task = floor.tasks[job.task]
+    return task.hold_tool < 0 and not task.attended
+
+
+def hang_helping(build: Any, ranks: tuple[int, ...]) -> None:
+    """Help can be had at some stations."""
+    if not build.floor.helping:
+        build.floor.helping = build.arena.new("Helping")
+        build.hang(build.floor.broken_off, help_broken_off)
+    for rank in ranks:
+        build.hang(build.stations[rank].acteds, help_over, None, OUTERMOST)
+
+
+@step
+def send_on(floor: Floor, job: Job) -> bool:
+    """The job's operation is over as it is, and the job is bad; False where its station stands, and so does the line.
+
+    What waits for parts, tools or a worker goes on without them.
+    """
+    station = job.station
+    if job.kind == HELD and (job.cause == IS_DOWN or job.cause == CLOSED):
+        return False
+    if job.kind == WORK or job.kind == SETUP:
+        interrupt(floor, job, UNFINISHED)
+    elif job.kind == QUEUE:
+        drop(station.queue, job)
+    else:
+        _wait_no_more(floor, job)
+    tell_lost_server(floor, job)
+    forget_progress(floor, job)
+    job.setup_task, job.bad = -1, 1
+    log_instant(floor, SENT_ON, job, UNFINISHED, station.rank, -1)
+    floor.operation_line(floor, job)
+    return True
+
+
+@step
+def tell_lost_server(floor: Floor, job: Job) -> None:
+    """Whoever has to know that a job loses what it had at its server."""
+    for told in floor.lost_server:
+        told.line(floor, told.subject, job, job.station)
+
+
+@step
+def turn_away(floor: Floor, job: Job, but: int) -> None:
+    """Whoever is on his way to the job comes all the same, and is free there; who waits at it is free now."""
+    for rank in range(floor.n_workers):
+        worker = floor.workers[rank]
+        if worker.job is job and rank != but:
+            if worker.kind == WALK:
+                worker.job = NOTHING
+                worker.station = NOTHING
+            else:
+                set_free(floor, worker)
+
+
+@inlined
+def _wait_no_more(floor: Floor, job: Job) -> None:
+    call_off(floor, job.station, job)
+    for hook in floor.call_off:
+        _ = hook.line(floor, hook.subject, job)
+    if job.has_team:
+        disband(floor, job)
+    turn_away(floor, job, -1)
+    tell_broken_off(floor, job)
+    job_now(floor, job, HELD, UNFINISHED)
+
 
 ORDER = 5
 """Among the ways to begin a task: the first, since who comes to a job that somebody is at begins none."""
@@ -215,3 +371,10 @@ def _left_to(build: Any, worker: Handle) -> set[int]:
     words = worker.limits
     at = LINES * build.floor.n_words
     return {rank for rank in everywhere if words[at + (rank >> 6)] >> (rank & 63) & 1}
+
+
+@struct
+class Helping:
+    """Of a floor where somebody may help; what is known of each job that is helped with stands in its block."""
+
+    there: int

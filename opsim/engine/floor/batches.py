@@ -1,26 +1,51 @@
-"""Batches: several jobs take one server together, and its tasks are done once for all of them."""
+"""Stations that serve batches.
+
+Batches: several jobs take one server together, and its tasks are done once for all of them.
+"""
 
 from __future__ import annotations
 
 from math import inf
 from typing import Any
 
-from opsim.engine.floor.machine import NOTHING, cast, drop, fresh, inlined, line_of, step
-from opsim.engine.floor.material import ask_after
-from opsim.engine.floor.parts.clock import INF
-from opsim.engine.floor.parts.events import alarm, stir
-from opsim.engine.floor.parts.ovens import Oven
-from opsim.engine.floor.parts.queue_keys import comes_before, keep_key
-from opsim.engine.floor.parts.records import Event, Seat
-from opsim.engine.floor.parts.rows import job_now
-from opsim.engine.floor.parts.state import Floor, Job, Station
+from opsim.engine import rules
+from opsim.engine.floor.event_list import INF
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.flow import ask_after
+from opsim.engine.floor.keys import comes_before, keep_key
+from opsim.engine.floor.log_rows import job_now
+from opsim.engine.floor.machine import NOTHING, Array, List, cast, drop, fresh, inlined, line_of, step, struct
+from opsim.engine.floor.records import Seat
+from opsim.engine.floor.routing import alarm, stir
+from opsim.engine.floor.state import Event, Job, Station
 from opsim.engine.floor.station import seat, see_seated
-from opsim.engine.rules import CALENDAR, batch
+from opsim.engine.rules import CALENDAR
 from opsim.log import BATCH, HELD, QUEUE
+
+
+@struct
+class Oven:
+    """overdue : whether one of the jobs in the queue may have waited long enough; class_of : (P,)
+
+    line : the jobs in the order of the queue; classes : of those, as they come first; n_of, since_s : (C,) of each, how
+    many wait, and since when the first does; together : the next batch
+    """
+
+    station: Station
+    size: int
+    most_wait_s: float
+    class_of: Array[int]
+    overdue: int
+    line: List[Job]
+    classes: List[int]
+    n_of: Array[int]
+    since_s: Array[float]
+    together: List[Job]
+
 
 ORDER = 0
 """Among what is asked when an operation is done."""
-_batch_begins = inlined(batch.batch_begins)
+_batch_begins = inlined(rules.batch_begins)
 _as_oven, _new_seat = cast(Oven), fresh(Seat)
 
 

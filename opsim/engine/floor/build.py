@@ -1,27 +1,60 @@
-"""Plan -> the floor of a run in raw memory, frozen before its first instant; each replication begins with that."""
+"""Plan -> the floor of a run, frozen before its first instant; each replication begins with that."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import nan
 from typing import Any
 
-from opsim.engine.floor import blocks, completion, loop, material, release, settle
-from opsim.engine.floor.machine import Arena, Handle, line_of, step_of
-from opsim.engine.floor.machine.steps import Step
-from opsim.engine.floor.parts import structs_of_blocks
-from opsim.engine.floor.parts.keys import have_room, use_rule
-from opsim.engine.floor.parts.state import FIRST_ROTATION
-from opsim.engine.floor.release import BY_FLOOR, BY_ORDER, BY_TIME
-from opsim.engine.rules.duty import INTERRUPTION_RULES
+from opsim.engine.floor import (
+    allocation,
+    assembly,
+    batches,
+    bucket_brigades,
+    buffers,
+    calendar,
+    cards,
+    conveyors,
+    failures,
+    flow,
+    human_effects,
+    indexed_and_moving_lines,
+    interruption,
+    loop,
+    quality,
+    rotations,
+    sequencing,
+    settle,
+    setups,
+    sources,
+    stores,
+    tools,
+    transporters,
+    work_sharing,
+)
+from opsim.engine.floor.floor_state import FIRST_ROTATION
+from opsim.engine.floor.keys import have_room, use_rule
+from opsim.engine.floor.machine import Arena, Handle, Step, line_of, step_of
+from opsim.engine.floor.sources import BY_FLOOR, BY_ORDER, BY_TIME
+from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.log import IDLE, IS_DOWN, WAIT
 from opsim.plan import Plan
 from opsim.plan.calendar import OPEN
 from opsim.plan.release import POISSON, RENEWAL, SATURATED, SCHEDULE
 
+BLOCKS: tuple[Callable[[Any], None], ...] = (
+    *(allocation.install_preferences, stores.install, assembly.install_kits, assembly.install_splits, batches.install),
+    *(setups.install, sequencing.install, buffers.install, cards.install, sources.install_base_stock, quality.install),
+    *(work_sharing.install, tools.install, failures.install, interruption.install_preemption),
+    *(calendar.install_opening_hours, conveyors.install, transporters.install, indexed_and_moving_lines.install),
+    *(calendar.install_shifts, bucket_brigades.install, rotations.install, human_effects.install),
+    allocation.install_doses,
+)
+"""What hangs in, in this order: each looks at its own part of the plan, and does nothing where that is empty."""
 WHEN_IDLE = ("stay", "home", "patrol")
 ALWAYS = (
     *(settle.start, settle.close, settle.report),
-    *(completion.stretch_done, completion.automatic_done, material.operation_done, release.arrived, release.ordered),
+    *(settle.stretch_done, settle.automatic_done, flow.operation_done, sources.arrived, sources.ordered),
 )
 """Steps that every floor needs, by way of its lines."""
 
@@ -58,7 +91,8 @@ class Build:
         loop.prepare(self)
         for call in ALWAYS:
             self.line(call)
-        blocks.install_all(self)
+        for install in BLOCKS:
+            install(self)
         self._see_skills()
 
     def line(self, call: Any) -> Any:
@@ -122,8 +156,8 @@ class Build:
         floor.has_orders = any(source.kind == SCHEDULE for source in plan.sources)
         floor.n_limits = FIRST_ROTATION + len(plan.rotations)
         floor.start_s = plan.start_s
-        floor.stretch_line, floor.automatic_line = line_of(completion.stretch_done), line_of(completion.automatic_done)
-        floor.operation_line, floor.report_line = line_of(material.operation_done), line_of(settle.report)
+        floor.stretch_line, floor.automatic_line = line_of(settle.stretch_done), line_of(settle.automatic_done)
+        floor.operation_line, floor.report_line = line_of(flow.operation_done), line_of(settle.report)
 
     def _outside(self) -> Handle:
         made = self.arena.new("Station")
@@ -278,6 +312,3 @@ def _comes_back(plan: Plan, ranks: tuple[int, ...]) -> bool:
         for step, ways in zip(product.route, product.onward)
         for _, then in ways
     )
-
-
-assert structs_of_blocks.__all__, "structs of blocks are known by their names once they are imported"

@@ -6,9 +6,9 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
+from opsim.engine.floor import worker
 from opsim.engine.floor.build import Build
-from opsim.engine.floor.parts import effects
-from opsim.engine.floor.parts.tiring import level
+from opsim.engine.floor.human_state import level
 from opsim.plan import Plan
 
 
@@ -27,18 +27,18 @@ class HumanSide:
     def drawn(self, now: float, task: int, k: int, drawn_s: float) -> tuple[float, float]:
         """Seconds of his k-th performance of a task, which begins now; and the shift that postures follow."""
         self._floor.now = now
-        time_s = effects.human_drawn(self._floor, None, self._worker, task, k, drawn_s)
+        time_s = worker.human_drawn(self._floor, None, self._worker, task, k, drawn_s)
         return time_s, self._worker.pace_shift
 
     def works(self, now: float, task: int, k: int, until_s: float, done: float) -> None:
         """He works on his k-th of a task from now, ``done`` of which is done, until then if nothing comes between."""
         self._floor.now = now
-        effects.works(self._floor, self._worker, task, until_s, done, k)
+        worker.works(self._floor, self._worker, task, until_s, done, k)
 
     def stops(self, now: float) -> None:
         """He is broken off."""
         self._floor.now = now
-        effects.stops(self._floor, self._worker)
+        worker.stops(self._floor, self._worker)
 
 
 def human_side_of(plan: Plan, workforce: int, now: float) -> HumanSide:

@@ -5,26 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.clock import STEP_S
+from opsim.engine import rules
+from opsim.engine.floor.event_list import on_grid, stretch
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.log_rows import log_worker
 from opsim.engine.floor.machine import Handle, cast, drop, inlined, line_of, step
-from opsim.engine.floor.parts.clock import on_grid
-from opsim.engine.floor.parts.effects import stop
-from opsim.engine.floor.parts.events import alarm
-from opsim.engine.floor.parts.line_clocks import job_m
-from opsim.engine.floor.parts.lines import Along, Line
-from opsim.engine.floor.parts.records import Event
-from opsim.engine.floor.parts.rows import log_worker
-from opsim.engine.floor.parts.state import Floor, Job, Worker
-from opsim.engine.floor.parts.stretches import stretch
-from opsim.engine.floor.worker import set_free
-from opsim.engine.rules import COMPLETION, lines
+from opsim.engine.floor.paced_lines import Along, Line, job_m
+from opsim.engine.floor.routing import alarm
+from opsim.engine.floor.state import Event, Job, Worker
+from opsim.engine.floor.worker import set_free, stop
+from opsim.engine.rules import COMPLETION
 from opsim.log import IDLE, WAIT, WALK
 from opsim.plan import LinePlan
 
 ORDER = 30
 """Among the ways to begin a task: a worker comes to his job first."""
 
-INFINITE_S = lines.INFINITE_S
-_meeting_s, _strolled_m = inlined(lines.meeting_s), inlined(lines.strolled_m)
+INFINITE_S = rules.INFINITE_S
+_meeting_s, _strolled_m = inlined(rules.meeting_s), inlined(rules.strolled_m)
 _as_along = cast(Along)
 
 

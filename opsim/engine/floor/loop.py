@@ -9,7 +9,7 @@ from typing import Any
 import simpy
 
 from opsim.engine.endless import endless_instant
-from opsim.engine.floor.parts.heap import new_event
+from opsim.engine.floor.event_list import new_event
 from opsim.engine.floor.settle import happen, settle
 
 AFTER_EVERYTHING = 2

@@ -4,23 +4,59 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.floor.machine import index_of, inlined, step
-from opsim.engine.floor.material import go_to, leave_floor, leave_station, withdraw
-from opsim.engine.floor.parts.gauges import Chances, Gauge
-from opsim.engine.floor.parts.luck import QUALITY, YIELD, number_at, stream_of
-from opsim.engine.floor.parts.passed import counted
-from opsim.engine.floor.parts.rows import log_instant
-from opsim.engine.floor.parts.state import Floor, Job, Station, Worker
-from opsim.engine.rules import quality
+from opsim.engine import rules
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.flow import go_to, leave_floor, leave_station, withdraw
+from opsim.engine.floor.log_rows import log_instant
+from opsim.engine.floor.machine import Array, List, index_of, inlined, step, struct
+from opsim.engine.floor.random_numbers import QUALITY, YIELD, number_at, stream_of
+from opsim.engine.floor.records import Stream
+from opsim.engine.floor.state import Job, Station, Worker
 from opsim.log import BAD, FALSE_ALARM, REWORK, SCRAP
 from opsim.plan.quality import NOWHERE
+
+
+@struct
+class Chances:
+    """Streams of an operation, by visit x sources + source."""
+
+    streams: List[Stream]
+
+
+@struct
+class Gauge:
+    """Of a station, see ``plan.QualityPlan``. back : by product x n_steps + step, -1: nowhere; n_steps 0: always scrap
+
+    yields, chances : by operation
+    """
+
+    station: int
+    yield_share: float
+    inspects: int
+    finds: float
+    false_alarms: float
+    by_worker: int
+    n_steps: int
+    back: Array[int]
+    most: float
+    yields: Array[Chances]
+    chances: Array[Chances]
+
+
+@inlined
+def counted(floor: Floor, counts: List[int], rank: int) -> int:
+    """How often so far, where it may be that it was never."""
+    while len(counts) <= rank:
+        counts.append(0)
+    return counts[rank]
+
 
 ORDER = 10
 """Among what is asked when an operation is done."""
 ACT = 45
 """Among the ways to begin a task: after those who do not begin it yet, or take over."""
-_leaves_defect, _share_of_good = inlined(quality.leaves_defect), inlined(quality.share_of_good)
-_turned_down, _reworked = inlined(quality.turned_down), inlined(quality.reworked)
+_leaves_defect, _share_of_good = inlined(rules.leaves_defect), inlined(rules.share_of_good)
+_turned_down, _reworked = inlined(rules.turned_down), inlined(rules.reworked)
 
 
 def install(build: Any) -> None:

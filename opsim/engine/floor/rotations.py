@@ -1,21 +1,180 @@
-"""Job rotation: people change posts by the clock, by what was done, or by a rule."""
+"""Job rotation: people change posts by the clock, by what was done, or by a rule; each post gets one who can."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.floor.machine import Handle, cast, inlined, line_of, part_of, step
-from opsim.engine.floor.parts.bits import leave_all, leave_those
-from opsim.engine.floor.parts.doses import dose_so_far, heaviest_first
-from opsim.engine.floor.parts.events import alarm
-from opsim.engine.floor.parts.records import Event
-from opsim.engine.floor.parts.rotating import Counted, Rotation
-from opsim.engine.floor.parts.rotation_rules import WIDTH, set_key, use_rule
-from opsim.engine.floor.parts.state import FIRST_ROTATION, Floor, Job, Worker
-from opsim.engine.floor.posts import one_each
+from opsim.engine.floor.floor_state import FIRST_ROTATION, Floor
+from opsim.engine.floor.human_state import dose_so_far, heaviest_first
+from opsim.engine.floor.keys import WIDTH, set_key, use_rotation_rule
+from opsim.engine.floor.machine import Array, Handle, List, cast, inlined, line_of, part_of, step, struct
+from opsim.engine.floor.routing import alarm
+from opsim.engine.floor.state import Event, Job, Worker
+from opsim.engine.floor.worker import leave_all, leave_those
 from opsim.engine.rules import CALENDAR
 from opsim.log import ABSENT, OFF
 from opsim.posts import turns_away
+
+
+@struct
+class Posts:
+    """One person each for some posts, see ``opsim.posts``. Pairs are by post, then by member.
+
+    can : pairs; width : numbers in a key; keys : pairs, that many numbers each
+    left : members without a post, in order; wanted : by post, members by their keys, n_wanted of them
+    holder : by post, the member or -1; taken : by member, the post or -1; asked : by post, whether it was asked
+    in_turn : posts in the order in which they are filled
+    """
+
+    n_posts: int
+    n_members: int
+    can: Array[int]
+    width: int
+    keys: Array[float]
+    left: List[int]
+    wanted: Array[int]
+    n_wanted: Array[int]
+    holder: Array[int]
+    taken: Array[int]
+    asked: Array[int]
+    in_turn: List[int]
+
+
+@struct
+class Rotation:
+    """See ``rotations``. limit : its number among limits; rule : see ``rotation_rules``
+
+    by_dose : whether the rule evens doses out
+
+    can : by post, then member; leaves : by post, n_words of stations as bits
+    every_s : 0 where not by the clock; after : operations, 0 where they are not counted
+    there, position : members who are there, in order, and by member where he is in that list
+    at : by member, the post or -1; found : the same, from now on
+    n_done : by post; time_s, here_s : by member, then post; dose : by member
+    heaviest : posts by how heavy they are, once a rule has asked, which is_known then; else as they stand
+    """
+
+    rank: int
+    limit: int
+    rule: int
+    by_dose: int
+    every_s: float
+    after: int
+    n_members: int
+    members: Array[Worker]
+    n_posts: int
+    can: Array[int]
+    leaves: Array[int]
+    turn: int
+    due: int
+    there: List[int]
+    position: Array[int]
+    at: Array[int]
+    found: Array[int]
+    since_s: float
+    n_done: Array[int]
+    time_s: Array[float]
+    here_s: Array[float]
+    dose: Array[float]
+    is_known: int
+    heaviest: Array[int]
+    posts: Posts
+
+
+@struct
+class Counted:
+    """Operations at a station count for the n posts that it is part of."""
+
+    rotation: Rotation
+    n: int
+    posts: Array[int]
+
+
+@step
+def one_each(floor: Floor, posts: Posts) -> None:
+    """One person of those who are left at each post, by their keys; the first posts first. See ``posts.taken``."""
+    for person in range(posts.n_members):
+        posts.taken[person] = -1
+    posts.in_turn.clear()
+    for post in range(posts.n_posts):
+        posts.holder[post] = -1
+        _sort_wanted(posts, post)
+        if posts.n_wanted[post]:
+            posts.in_turn.append(post)
+    if len(posts.left) < posts.n_posts:
+        _sort_posts(floor, posts)
+    for one in posts.in_turn:
+        for post in range(posts.n_posts):
+            posts.asked[post] = 0
+        fill(floor, posts, one)
+
+
+@step
+def fill(floor: Floor, posts: Posts, post: int) -> bool:
+    """Somebody is found for a post: one without a post, or one whose post somebody else takes."""
+    first = post * posts.n_members
+    for i in range(posts.n_wanted[post]):
+        person = posts.wanted[first + i]
+        if posts.taken[person] < 0:
+            _take(posts, post, person)
+            return True
+    for i in range(posts.n_wanted[post]):
+        person = posts.wanted[first + i]
+        other = posts.taken[person]
+        if not posts.asked[other]:
+            posts.asked[other] = 1
+            if fill(floor, posts, other):
+                _take(posts, post, person)
+                return True
+    return False
+
+
+@inlined
+def _take(posts: Posts, post: int, person: int) -> None:
+    posts.holder[post], posts.taken[person] = person, post
+
+
+@inlined
+def _is_before(posts: Posts, one: int, other: int) -> bool:
+    """Whether a pair's key is the smaller one. Pairs are numbers: of a post and a person."""
+    for i in range(posts.width):
+        if posts.keys[one * posts.width + i] != posts.keys[other * posts.width + i]:
+            return posts.keys[one * posts.width + i] < posts.keys[other * posts.width + i]
+    return False
+
+
+@inlined
+def _sort_wanted(posts: Posts, post: int) -> None:
+    """Those who are left and can be at a post, by their keys."""
+    first, n = post * posts.n_members, 0
+    for person in posts.left:
+        if posts.can[first + person]:
+            at = n
+            while at > 0 and _is_before(posts, first + person, first + posts.wanted[first + at - 1]):
+                posts.wanted[first + at] = posts.wanted[first + at - 1]
+                at -= 1
+            posts.wanted[first + at] = person
+            n += 1
+    posts.n_wanted[post] = n
+
+
+@inlined
+def _sort_posts(floor: Floor, posts: Posts) -> None:
+    """Those whose first choice has the smallest key come first."""
+    n = len(posts.in_turn)
+    for i in range(1, n):
+        post, at = posts.in_turn[i], i
+        while at > 0 and _is_before(posts, _first_choice(posts, post), _first_choice(posts, posts.in_turn[at - 1])):
+            posts.in_turn[at] = posts.in_turn[at - 1]
+            at -= 1
+        posts.in_turn[at] = post
+
+
+@inlined
+def _first_choice(posts: Posts, post: int) -> int:
+    """The pair of a post and whoever comes first there."""
+    return post * posts.n_members + posts.wanted[post * posts.n_members]
+
 
 COUNT = 1
 """Among what is asked when an operation is done: it is counted before anything becomes of the job."""
@@ -203,7 +362,7 @@ def install(build: Any) -> None:
 def _rotation(build: Any, plan: Any, rank: int) -> Handle:
     n_posts, n_members, made = len(plan.posts), len(plan.workers), build.arena.new("Rotation")
     made.rank, made.limit = rank, FIRST_ROTATION + rank
-    use_rule(made, plan.rule)
+    use_rotation_rule(made, plan.rule)
     made.every_s, made.after = plan.every_s or 0.0, plan.after or 0
     made.n_members, made.n_posts = n_members, n_posts
     made.members = build.arena.array("Worker", [build.workers[worker] for worker in plan.workers])
@@ -213,8 +372,7 @@ def _rotation(build: Any, plan: Any, rank: int) -> Handle:
     made.leaves = build.ints(word for bits in left for word in build.bits(r for r in ranks if bits >> r & 1))
     made.position, made.n_done = build.ints([0] * n_members), build.ints([0] * n_posts)
     made.at, made.found = build.ints([-1] * n_members), build.ints([-1] * n_members)
-    for name in ("time_s", "here_s"):
-        setattr(made, name, build.floats([0.0] * (n_members * n_posts)))
+    made.time_s, made.here_s = (build.floats([0.0] * (n_members * n_posts)) for _ in range(2))
     made.dose, made.heaviest = build.floats([0.0] * n_members), build.ints(range(n_posts))
     can = plan.can(build.plan.workers)
     able = [can(member, post) for post in range(n_posts) for member in range(n_members)]
@@ -228,8 +386,7 @@ def posts_of(build: Any, n_posts: int, n_members: int, able: list[bool]) -> Hand
     made.n_posts, made.n_members, made.width = n_posts, n_members, WIDTH
     made.can, made.keys = build.ints(able), build.floats([0.0] * (n_posts * n_members * WIDTH))
     made.wanted = build.ints([0] * (n_posts * n_members))
-    for name in ("n_wanted", "holder", "asked"):
-        setattr(made, name, build.ints([0] * n_posts))
+    made.n_wanted, made.holder, made.asked = (build.ints([0] * n_posts) for _ in range(3))
     made.taken = build.ints([0] * n_members)
     return made
 

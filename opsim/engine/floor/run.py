@@ -9,8 +9,8 @@ import simpy
 
 from opsim.engine.draws import Draws
 from opsim.engine.floor.build import Build
+from opsim.engine.floor.event_list import new_event
 from opsim.engine.floor.loop import live_in, run_until, working_life
-from opsim.engine.floor.parts.heap import new_event
 from opsim.engine.floor.settle import close, start
 from opsim.log import EventLog, LogWriter, names_of
 from opsim.one_thread import one_blas_thread

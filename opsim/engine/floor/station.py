@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from opsim.engine.floor.event_list import new_event, on_grid, push_event, stretch
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.keys import is_better, keep_best
+from opsim.engine.floor.log_rows import job_now
 from opsim.engine.floor.machine import NOTHING, here, step
-from opsim.engine.floor.parts.bits import clear_bit, has_bit, set_bit
-from opsim.engine.floor.parts.claims import give_up_claims, put_claim
-from opsim.engine.floor.parts.clock import on_grid
-from opsim.engine.floor.parts.effects import human_drawn
-from opsim.engine.floor.parts.heap import new_event, push_event
-from opsim.engine.floor.parts.keys import is_better, keep_best
-from opsim.engine.floor.parts.performing import begin, drawn_run_s, is_ready, own_next_s, task_of
-from opsim.engine.floor.parts.records import Event
-from opsim.engine.floor.parts.rows import job_now
-from opsim.engine.floor.parts.state import GOES_ON, Floor, Job, Station, Worker
-from opsim.engine.floor.parts.stretches import stretch
-from opsim.engine.floor.worker import set_free
+from opsim.engine.floor.routing import give_up_claims, put_claim
+from opsim.engine.floor.state import GOES_ON, Event, Job, Station, Worker
+from opsim.engine.floor.worker import (
+    begin,
+    clear_bit,
+    drawn_run_s,
+    has_bit,
+    human_drawn,
+    is_ready,
+    own_next_s,
+    set_bit,
+    set_free,
+    task_of,
+)
 from opsim.engine.rules import COMPLETION
 from opsim.log import HELD, NO_WORKER
 

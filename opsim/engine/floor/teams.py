@@ -4,22 +4,149 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.floor.crib import break_off, grip
-from opsim.engine.floor.machine import NOTHING, fresh, give_back, index_of, inlined, step
-from opsim.engine.floor.members import all_may_stay, choose, comes_again, disband
-from opsim.engine.floor.parts.claims import give_up_claims, put_claim, take_claim
-from opsim.engine.floor.parts.clock import on_grid
-from opsim.engine.floor.parts.effects import works
-from opsim.engine.floor.parts.grips import Want, grip_at, is_free
-from opsim.engine.floor.parts.performing import begin, drawn_run_s, ended, task_done
-from opsim.engine.floor.parts.records import Claim
-from opsim.engine.floor.parts.rows import job_now, log_worker
-from opsim.engine.floor.parts.state import Floor, Job, Station, Worker
-from opsim.engine.floor.parts.stints import Stint
-from opsim.engine.floor.parts.stretches import stretch
+from opsim.engine.floor.event_list import on_grid, stretch
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.keys import is_better, keep_best, pair_key
+from opsim.engine.floor.log_rows import job_now, log_worker
+from opsim.engine.floor.machine import NOTHING, Array, List, drop, fresh, give_back, index_of, inlined, step, struct
+from opsim.engine.floor.routing import give_up_claims, put_claim, take_claim
+from opsim.engine.floor.state import Claim, Job, Station, Worker
 from opsim.engine.floor.station import drawn_s, perform, stand_still
-from opsim.engine.floor.worker import be_busy, set_free, wait_by, walk
-from opsim.log import HELD, NO_WORKER, TEAM, WORK
+from opsim.engine.floor.tool_grips import Want, grip_at, is_free
+from opsim.engine.floor.tool_store import break_off, grip
+from opsim.engine.floor.worker import (
+    be_busy,
+    begin,
+    drawn_run_s,
+    ended,
+    may_serve,
+    set_free,
+    task_done,
+    units,
+    wait_by,
+    walk,
+    works,
+)
+from opsim.log import HELD, NO_WORKER, TEAM, WALK, WORK
+
+
+@struct
+class Teams:
+    """gathering : claims; turn, able, team : those that are gone through just now
+
+    seconds, ks, shifts : of each in a team, how long his part takes, its number, and the shift of his log time
+    """
+
+    gathering: List[Claim]
+    turn: List[Claim]
+    able: List[Worker]
+    team: List[Worker]
+    seconds: Array[float]
+    ks: Array[int]
+    shifts: Array[float]
+
+
+@struct
+class Stint:
+    """See ``stints``."""
+
+    station: int
+    product: int
+    operation: int
+    task: int
+    performance_id: int
+    k: int
+    duration_s: float
+    progress_from: float
+    pace_shift: float
+
+
+@step
+def choose(floor: Floor, job: Job, station: Station) -> bool:
+    """The free workers who go, by the rule of allocation, in natural order: ``teams.team``. False: they are too few.
+
+    Who stays until the job's tasks here are done comes first.
+    """
+    able, team = floor.teams.able, floor.teams.team
+    able.clear()
+    team.clear()
+    for worker in floor.free:
+        if _may_work(worker, job, station):
+            able.append(worker)
+    n = floor.tasks[station.tasks[job.task_position]].team
+    if len(able) < n:
+        return False
+    while len(team) < n:
+        best = _best_of(floor, job, station)
+        drop(able, best)
+        _insort(floor, team, best)
+    return True
+
+
+@step
+def _best_of(floor: Floor, job: Job, station: Station) -> Worker:
+    """Of those who can go, who comes first."""
+    able, best = floor.teams.able, floor.no_worker
+    for worker in able:
+        stays = worker.staying is job
+        if best and stays != (best.staying is job) and not stays:
+            continue
+        pair_key(floor, worker, station, job, 1 + len(station.queue), job.since_s)
+        better = True
+        if best:
+            better = stays != (best.staying is job) or is_better(floor)
+        if better:
+            best = worker
+            keep_best(floor)
+    return best
+
+
+@inlined
+def _insort(floor: Floor, team: List[Worker], worker: Worker) -> None:
+    """Put somebody into a team at his place in natural order."""
+    at = len(team)
+    while at > 0 and worker.rank < team[at - 1].rank:
+        at -= 1
+    team.insert(at, worker)
+
+
+@step
+def disband(floor: Floor, job: Job) -> None:
+    """Who has come is free; who is on his way comes, and is free there."""
+    if not job.has_team:
+        return
+    job.has_team = 0
+    for worker in job.team:
+        if worker.kind == WALK:
+            worker.job = NOTHING
+            worker.station = NOTHING
+        else:
+            set_free(floor, worker)
+    job.team.clear()
+
+
+@step
+def comes_again(floor: Floor, job: Job) -> bool:
+    """Whether the performance that ends now is followed by another one of the same task."""
+    return job.repeats_done + 1 < job.station.repeats[job.task_position] * units(job)
+
+
+@step
+def all_may_stay(floor: Floor, job: Job) -> bool:
+    """Whether the whole team is there, and each of them may still be sent to where it works, or stays for the job."""
+    if len(job.team) != floor.tasks[job.station.tasks[job.task_position]].team:
+        return False
+    for worker in job.team:
+        if not _may_work(worker, job, job.station):
+            return False
+    return True
+
+
+@inlined
+def _may_work(worker: Worker, job: Job, station: Station) -> bool:
+    """Whether somebody may be sent to a station, or is about to go and does the job's tasks there first."""
+    return may_serve(worker, station) or worker.staying is job
+
 
 _new_want, _forget_want = fresh(Want), give_back(Want)
 _new_stint, _forget_stint = fresh(Stint), give_back(Stint)

@@ -4,31 +4,159 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.floor.machine import NOTHING, Handle, cast, drop, give_back, inlined, line_of, step
-from opsim.engine.floor.material import leave_station
-from opsim.engine.floor.parts.events import alarm
-from opsim.engine.floor.parts.records import Event
-from opsim.engine.floor.parts.rows import job_now
-from opsim.engine.floor.parts.state import Floor, Job, Station
-from opsim.engine.floor.parts.vehicles import Leg, Pickup, Pool, Vehicle
-from opsim.engine.floor.station import arrive
-from opsim.engine.floor.vehicles import (
-    BRINGING,
-    COMING,
-    FREE,
-    GOING_HOME,
-    LOADING,
-    UNLOADING,
-    log_vehicle,
-    next_call_at,
-    now_does,
-    take_call,
+from opsim.engine import rules
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.flow import leave_station
+from opsim.engine.floor.log_rows import job_now, new_row
+from opsim.engine.floor.machine import (
+    NOTHING,
+    Array,
+    Handle,
+    List,
+    cast,
+    drop,
+    fresh,
+    give_back,
+    inlined,
+    line_of,
+    step,
+    struct,
 )
+from opsim.engine.floor.routing import alarm
+from opsim.engine.floor.state import Event, Job, Station
+from opsim.engine.floor.station import arrive
 from opsim.engine.floor.worker import set_free
-from opsim.engine.rules import COMPLETION, transport
-from opsim.log import HELD, PICKUP, QUEUE, TRANSPORT
+from opsim.engine.rules import COMPLETION
+from opsim.log import HELD, IDLE, PICKUP, QUEUE, TRANSPORT
 
-_soonest_there, _nearest_stop = inlined(transport.soonest_there), inlined(transport.nearest_stop)
+
+@struct
+class Pickup:
+    """A job that waits for a vehicle, its place at the next station sure; calls are ordered as claims are."""
+
+    before: float
+    since_s: float
+    number: int
+    job: Job
+    station: Station
+    place_from: int
+
+
+@struct
+class Vehicle:
+    """number : counted over all transporters; doing : one of FREE to GOING_HOME
+
+    place, came_from : where it is, or drives to, and from where; since_s : since when it does what it does
+    answers : the call it is on its way to, or loads; aboard : its jobs, first the one that was loaded first
+
+    rank : where its reports come among those of an instant.
+    """
+
+    number: int
+    rank: int
+    pool: Pool
+    place: int
+    came_from: int
+    doing: int
+    since_s: float
+    answers: Pickup
+    aboard: List[Job]
+
+
+@struct
+class Leg:
+    """From a station to another. place_from : where jobs are loaded."""
+
+    pool: Pool
+    place_from: int
+
+
+@struct
+class Pool:
+    """The vehicles of a transporter. drive_s : by place and place; ready, calls : see ``vehicles``
+
+    turns, idle : vehicles that are gone through just now: those that were ready, and those that are free
+    """
+
+    place: int
+    capacity: int
+    load_s: float
+    unload_s: float
+    goes_home: int
+    drive_s: Array[float]
+    n_vehicles: int
+    vehicles: Array[Vehicle]
+    calls: List[Pickup]
+    ready: List[Vehicle]
+    n_free: int
+    turns: List[Vehicle]
+    idle: List[Vehicle]
+
+
+FREE, COMING, LOADING, BRINGING, UNLOADING, GOING_HOME = range(6)
+_new_pickup, _as_pickup = fresh(Pickup), cast(Pickup)
+
+
+@inlined
+def _is_before(one: Pickup, other: Pickup) -> bool:
+    """Whether one is served before another."""
+    if one.before != other.before:
+        return one.before < other.before
+    if one.since_s != other.since_s:
+        return one.since_s < other.since_s
+    return one.number < other.number
+
+
+@step
+def take_call(floor: Floor, leg: Leg, job: Job, station: Station) -> None:
+    """A job calls, to be brought to a station."""
+    call: Pickup = _new_pickup(floor)
+    call.before, call.since_s, call.number = -job.priority, floor.now, job.number
+    call.job, call.station, call.place_from = job, station, leg.place_from
+    calls = leg.pool.calls
+    at = len(calls)
+    while at > 0 and _is_before(call, calls[at - 1]):
+        at -= 1
+    calls.insert(at, call)
+
+
+@step
+def next_call_at(floor: Floor, pool: Pool, place: int) -> Pickup:
+    """The first call from a place, taken out; or nothing."""
+    for at in range(len(pool.calls)):
+        call = pool.calls[at]
+        if call.place_from == place:
+            del pool.calls[at]
+            return call
+    return _as_pickup(0)
+
+
+@step
+def now_does(floor: Floor, vehicle: Vehicle, doing: int, place: int) -> None:
+    """The vehicle does something else from now on, at a place or on its way to it; what it did is written."""
+    log_vehicle(floor, vehicle)
+    if vehicle.doing == FREE:
+        vehicle.pool.n_free -= 1
+    if doing == FREE:
+        vehicle.pool.n_free += 1
+    vehicle.came_from, vehicle.place = vehicle.place, place
+    vehicle.doing, vehicle.since_s = doing, floor.now
+
+
+@step
+def log_vehicle(floor: Floor, vehicle: Vehicle) -> None:
+    """Write what the vehicle did until now, where it was not free: it drove, was loaded or unloaded."""
+    if vehicle.doing == FREE or floor.now <= vehicle.since_s:
+        return
+    row = new_row(floor, TRANSPORT, vehicle.since_s)
+    row.place_from, row.place_to, row.k = vehicle.came_from, vehicle.place, vehicle.number
+    if vehicle.doing == COMING:
+        row.cause = PICKUP
+    elif vehicle.doing == GOING_HOME:
+        row.cause = IDLE
+
+
+_soonest_there, _nearest_stop = inlined(rules.soonest_there), inlined(rules.nearest_stop)
 _as_vehicle, _forget_pickup = cast(Vehicle), give_back(Pickup)
 
 

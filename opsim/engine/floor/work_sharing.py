@@ -1,20 +1,39 @@
-"""Work sharing: the last tasks of a station are done there, or first at the next one, as the job comes to them."""
+"""Work that two stations share.
+
+Work sharing: the last tasks of a station are done there, or first at the next one, as the job comes to them.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.floor.completion import operation_over
-from opsim.engine.floor.machine import inlined, new_ints, step
-from opsim.engine.floor.material import operation_done
-from opsim.engine.floor.parts.sharing import Shared
-from opsim.engine.floor.parts.state import Floor, Job, Worker
-from opsim.engine.rules import work_sharing
+from opsim.engine import rules
+from opsim.engine.floor.floor_state import Floor
+from opsim.engine.floor.flow import operation_done
+from opsim.engine.floor.machine import inlined, new_ints, step, struct
+from opsim.engine.floor.settle import operation_over
+from opsim.engine.floor.state import Job, Station, Worker
 from opsim.log import WALK
+
+
+@struct
+class Shared:
+    """number : among all of them; n_shares : how many these are; n : tasks that are shared
+
+    filled : the share of the partner's buffer from which on the station does them itself
+    """
+
+    number: int
+    n_shares: int
+    station: Station
+    partner: Station
+    n: int
+    filled: float
+
 
 FIRST = 0
 """Among what is asked before each task, and when an operation is done: a task is looked at when it is to be done."""
-_keeps_shared = inlined(work_sharing.keeps_shared)
+_keeps_shared = inlined(rules.keeps_shared)
 
 
 @inlined

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from opsim.engine.rules.rotation import ROTATION_RULES
+from opsim.engine.rules import ROTATION_RULES
 from opsim.problems import Problem, shown
 from opsim.scenario.checks.references import named
 from opsim.scenario.checks.sequence import rule_problems

@@ -7,8 +7,20 @@ from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from opsim.engine.choice import AUTO, FAST, REFERENCE, SIMPY, Choice, NotFast, Told, able_to, known, make_ready, worth
-from opsim.engine.simpy_work import simpy_s
+from opsim.engine.choice import (
+    AUTO,
+    FAST,
+    REFERENCE,
+    SIMPY,
+    Choice,
+    NotFast,
+    Told,
+    able_to,
+    known,
+    make_ready,
+    simpy_s,
+    worth,
+)
 from opsim.plan import Plan
 from opsim.problems import Problem, ScenarioError
 from opsim.study.engine_choice import Chosen, problems_of

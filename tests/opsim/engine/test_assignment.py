@@ -7,9 +7,9 @@ from plans import plan, ran
 
 from opsim.engine.floor import FloorOfPlan
 from opsim.engine.floor.allocation import _walk_on
-from opsim.engine.floor.parts.bits import leave_those
-from opsim.engine.floor.parts.records import Claim
-from opsim.engine.floor.parts.state import DUTY
+from opsim.engine.floor.floor_state import DUTY
+from opsim.engine.floor.state import Claim
+from opsim.engine.floor.worker import leave_those
 from opsim.kpi import figures
 from opsim.log import BAD, FINISH, WALK, WORK
 

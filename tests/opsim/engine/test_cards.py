@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import card_gates, run_plan
+from opsim.engine.floor import cards as card_gates
+from opsim.engine.floor import run_plan
 from opsim.laws import audit
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, LOST, NO_CARD, REWORK, WORK
 from tests.opsim.kpi.locking import LOOPS

@@ -4,8 +4,7 @@ import numpy as np
 import plans
 import pytest
 
-from opsim.engine.floor import build
-from opsim.engine.floor.parts import gates
+from opsim.engine.floor import build, routing
 
 BACKLOG = """
 opsim: 1
@@ -37,8 +36,8 @@ def test_looking_at_every_claim_would_find_the_same(edits, monkeypatch):
 
 def test_a_queue_outside_is_not_gone_through_where_nobody_comes_back(monkeypatch):
     asked = []
-    may_enter = gates.may_enter
-    monkeypatch.setattr(gates, "may_enter", lambda *what: asked.append(what) or may_enter(*what))
+    may_enter = routing.may_enter
+    monkeypatch.setattr(routing, "may_enter", lambda *what: asked.append(what) or may_enter(*what))
     plans.ran(BACKLOG)
     assert not asked
     plans.ran(BACKLOG, *ROUTES["twice at one station"])

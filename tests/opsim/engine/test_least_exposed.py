@@ -10,9 +10,9 @@ from checked_floors import differ
 from made_pool import POOL
 
 from opsim.engine.floor import FloorOfPlan, run_plan
-from opsim.engine.floor.humans import stops, works
+from opsim.engine.floor.human_effects import stops, works
+from opsim.engine.floor.human_state import Dose, dose_so_far
 from opsim.engine.floor.loop import run_until
-from opsim.engine.floor.parts.doses import Dose, dose_so_far
 from opsim.ergonomics.shift.dose_rates import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from plans import line, plan, queue
 
+from opsim.engine.choice import simpy_s, visits
 from opsim.engine.floor import run_plan
-from opsim.engine.simpy_work import simpy_s, visits
 from opsim.log import WORK
 
 

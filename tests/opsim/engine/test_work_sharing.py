@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
-from opsim.engine.rules.work_sharing import keeps_shared
+from opsim.engine.rules import keeps_shared
 from opsim.kpi.cycle import visits
 from opsim.log import FINISH, WORK
 from opsim.plan.loads.work import tasks_at, visit_s

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD, Field
-from opsim.engine.fast_engine.machine.lists import DATA, FIRST, ROOM, N
-from opsim.engine.fast_engine.machine.memory import CLASSES
+from opsim.engine.fast_engine.machine.lists import CLASSES, DATA, FIRST, ROOM, N
+from opsim.engine.fast_engine.machine.structs import LAYOUTS, WORD, Field
 
 CHUNK = 1 << 18
 _INT, _FLOAT = ctypes.c_int64, ctypes.c_double

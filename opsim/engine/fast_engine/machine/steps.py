@@ -16,12 +16,12 @@ from typing import Any, TypeVar
 from llvmlite import ir
 from numba.core import cgutils, types
 
+from opsim.engine.fast_engine.machine.code_cache import stamp_of
 from opsim.engine.fast_engine.machine.compiling import forced, intrinsic
-from opsim.engine.fast_engine.machine.stamp import stamp_of
 from opsim.engine.fast_engine.machine.structs import POINTER, at_byte, type_of
 
 F = TypeVar("F", bound=Callable)
-LINES = 1 << 16
+LINES = 1 << 20
 """Of the table. Two steps of one line are refused: one of them needs another name."""
 
 

@@ -1,13 +1,15 @@
 """Structs of raw memory as compiled code sees them: references with named fields, lists and arrays of them.
 
-``@struct`` turns a class of annotations into a layout; a function annotated with the class gets a reference to such a
-struct. References are plain pointers: nothing is counted, nothing is checked. ``if job.worker:`` asks whether there is
-one, ``job.worker = NOTHING`` takes it away, ``is`` compares.
+``@struct`` turns a class of annotations into a layout in words of 8 bytes; a function annotated with the class gets a
+reference to such a struct. References are plain pointers: nothing is counted, nothing is checked. ``if job.worker:``
+asks whether there is one, ``job.worker = NOTHING`` takes it away, ``is`` compares.
 """
 
 from __future__ import annotations
 
 import operator
+import re
+from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from llvmlite import ir
@@ -16,9 +18,73 @@ from numba.core.imputils import lower_cast, lower_getattr_generic, lower_setattr
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
 from numba.extending import lower_builtin, models, register_model
 
+from opsim.engine.fast_engine.machine.code_cache import STAMP
 from opsim.engine.fast_engine.machine.compiling import intrinsic
-from opsim.engine.fast_engine.machine.layouts import LAYOUTS, WORD, layout_of
-from opsim.engine.fast_engine.machine.stamp import STAMP
+
+WORD = 8
+LIST_WORDS = 4
+"""Of a list inside a struct: where its items are, the number of the first, how many, and for how many there is room."""
+_SCALARS = {"int": "int", "bool": "int", "float": "float", "Call": "int"}
+"""NOTE: a Call is the line of a step in the table."""
+_GENERIC = re.compile(r"(List|Array)\[(.+)\]$")
+_NAMED = re.compile(r"Annotated\[Any, ['\"](\w+)['\"]\]$")
+"""Of a struct that is defined elsewhere: ``Annotated[Any, "Name"]``."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """kind : ``int``, ``float``, ``ref``, ``list`` or ``array``; of : what a reference leads to, what items are
+
+    at : bytes from the beginning of the struct
+    """
+
+    kind: str
+    of: str
+    at: int
+
+    @property
+    def words(self) -> int:
+        return LIST_WORDS if self.kind == "list" else 1
+
+
+@dataclass(frozen=True)
+class Layout:
+    """name : of the struct; fields by name, in their order; size : bytes."""
+
+    name: str
+    fields: dict[str, Field]
+    size: int
+
+
+LAYOUTS: dict[str, Layout] = {}
+
+
+def layout_of(cls: Any) -> Layout:
+    """The layout of a class of annotations, known by its name from now on. Raises ValueError for a name taken."""
+    fields: dict[str, Field] = {}
+    at = 0
+    for name, said in cls.__annotations__.items():
+        field = _field(said if isinstance(said, str) else said.__name__, at)
+        fields[name] = field
+        at += field.words * WORD
+    made = Layout(cls.__name__, fields, at)
+    if LAYOUTS.get(made.name, made) != made:
+        raise ValueError(f"two structs are called {made.name}")
+    LAYOUTS[made.name] = made
+    return made
+
+
+def _field(said: str, at: int) -> Field:
+    named = _NAMED.match(said)
+    if named is not None:
+        return Field("ref", named[1], at)
+    generic = _GENERIC.match(said)
+    if generic is not None:
+        return Field(generic[1].lower(), _SCALARS.get(generic[2], generic[2]), at)
+    if said in _SCALARS:
+        return Field(_SCALARS[said], "", at)
+    return Field("ref", said, at)
+
 
 T = TypeVar("T")
 NOTHING: Any = None
@@ -300,3 +366,20 @@ def array_at(of: str) -> Any:
         return array(types.int64), lambda _c, builder, _s, args: builder.inttoptr(args[0], POINTER)
 
     return taken_for
+
+
+def _set(bits: int) -> Any:
+    @intrinsic
+    def set_number(_typingctx: Any, address: Any, item: Any, value: Any) -> Any:
+        def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+            narrow = ir.IntType(bits)
+            items = builder.inttoptr(args[0], narrow.as_pointer())
+            builder.store(builder.trunc(args[2], narrow), builder.gep(items, [args[1]], inbounds=True))
+
+        return types.void(types.int64, types.int64, types.int64), codegen
+
+    return set_number
+
+
+set_byte, set_half = _set(8), _set(32)
+"""``set_half(address, item, value)``: item of an array of int32 at an address; of int8."""

@@ -13,11 +13,9 @@ from threading import RLock
 
 import numpy as np
 
-from opsim.engine.fast_engine.machine.compiling import by_numba, compiled
-from opsim.engine.fast_engine.machine.linking import can_link, link
-from opsim.engine.fast_engine.machine.sharing_out import WORTH_HELP, Job, Told, Work, helped
+from opsim.engine.fast_engine.machine.code_cache import can_link, folder, is_kept, keep, link, path_of, read, used
+from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Job, Told, Work, by_numba, compiled, helped
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
-from opsim.engine.fast_engine.machine.store import folder, is_kept, keep, path_of, read, used
 
 TABLE = np.zeros(LINES, dtype=np.int64)
 FIRST = ("opsim.engine.fast_engine.settle",)
@@ -143,6 +141,4 @@ def do_elsewhere(name: str) -> None:
 
 
 if __name__ == "__main__":
-    pass
-
     help_out(sys.stdin)

@@ -6,10 +6,8 @@ from hypothesis import strategies as st
 from made_machine import as_floor, empty_floor, entered
 from twins import twins
 
-from opsim.engine.fast_engine.columns import AT_ONCE, MOST_SORTED, flush_all, flush_rows
+from opsim.engine.fast_engine.log_rows import AT_ONCE, MOST_SORTED, Columns, flush_all, flush_rows, new_row
 from opsim.engine.fast_engine.machine import complete, line_of, needed, step_of
-from opsim.engine.fast_engine.parts.rows import new_row
-from opsim.engine.fast_engine.room import Columns
 from opsim.log import COLUMNS, OFF, ORDER
 
 CLOSED = """

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_machine import as_floor, empty_floor, entered
 
-from opsim.engine.fast_engine.parts.heap import forget_event, new_event, pop_event, push_event
+from opsim.engine.fast_engine.event_list import forget_event, new_event, pop_event, push_event
 
 
 @entered

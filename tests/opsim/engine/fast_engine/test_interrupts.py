@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from opsim.engine.fast_engine.interrupts import handled, signals_wait
+from opsim.engine.fast_engine.machine.calling import handled, signals_wait
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGUSR1"), reason="there are no such signals")
 

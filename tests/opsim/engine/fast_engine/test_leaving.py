@@ -3,7 +3,7 @@
 import pytest
 from twins import twins
 
-from opsim.engine.rules.duty import INTERRUPTION_RULES
+from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.log import BREAK, FINISH
 
 CELL = """

@@ -8,9 +8,9 @@ from plans import CELL, plan, queue
 from stand_in_engine import install_rule
 
 from opsim.engine.choice import NotFast, able_to
-from opsim.engine.fast_engine import limits, run_plan, unsupported
-from opsim.engine.fast_engine.limits import refuse_too_many
-from opsim.engine.fast_engine.parts.luck import MOST_RANKS, stream_id, stream_of
+from opsim.engine.fast_engine import run, run_plan, unsupported
+from opsim.engine.fast_engine.random_numbers import MOST_RANKS, stream_id, stream_of
+from opsim.engine.fast_engine.run import refuse_too_many
 
 
 def of(**more):
@@ -27,7 +27,7 @@ def test_more_than_there_are_numbers_for_is_refused(what):
 
 def test_the_fast_engine_says_so_and_auto_takes_the_other(monkeypatch):
     made = plan(CELL)
-    monkeypatch.setattr(limits, "MOST_RANKS", 2)
+    monkeypatch.setattr(run, "MOST_RANKS", 2)
     assert unsupported(made) == ["3 workers, where it tells 2 apart"]
     assert able_to("auto", made).engine == "simpy"
     with pytest.raises(NotFast, match="3 workers"):

@@ -34,4 +34,4 @@ def test_a_planted_fault_is_caught_on_its_floors(fault):
 
 def test_a_fault_whose_words_the_engine_has_no_more_is_told_of():
     with pytest.raises(ValueError, match="has to be written anew"):
-        plant("parts.events.cancel", "event.alive = 2", "event.alive = 1")
+        plant("routing.cancel", "event.alive = 2", "event.alive = 1")

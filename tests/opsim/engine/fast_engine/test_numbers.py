@@ -7,7 +7,7 @@ import pytest
 from engine_evidence.rows import first_difference
 from plans import plan
 
-from opsim.engine.fast_engine import numbers as fast_numbers
+from opsim.engine.fast_engine import numbers
 from opsim.engine.fast_engine.run import Machine
 from opsim.engine.floor import run_plan as run_simpy
 from opsim.log import COLUMNS
@@ -66,7 +66,7 @@ def test_a_replication_that_is_run_again_calls_for_nothing(shop, wanted):
 
 @pytest.mark.parametrize("n_blocks", [0, 1, 2])
 def test_what_was_drawn_ahead_and_is_not_enough_is_called_for(shop, wanted, monkeypatch, n_blocks):
-    monkeypatch.setattr(fast_numbers, "_with_spare", lambda _: n_blocks)
+    monkeypatch.setattr(numbers, "_with_spare", lambda _: n_blocks)
     machine = Machine(shop)
     for replication in (0, 1, 2, 3):
         assert all_equal(machine, wanted, (replication,)) and machine.numbers._asked
@@ -87,7 +87,7 @@ def test_people_who_are_redrawn_are_called_for_and_all_else_is_drawn_ahead(shop)
     for replication in (0, 1, 2, 0):
         assert first_difference(run_simpy(redrawn, replication), machine.run(replication)) == ""
     purposes = {stream >> 48 for stream in machine.numbers._asked}
-    assert purposes == {fast_numbers.luck.DURATION, fast_numbers.luck.HOLD}
+    assert purposes == {numbers.luck.DURATION, numbers.luck.HOLD}
 
 
 def test_a_log_keeps_its_numbers_while_others_are_drawn(shop):

@@ -5,9 +5,7 @@ from types import SimpleNamespace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_machine import as_floor, empty_floor, entered
-from opsim.engine.fast_engine.parts.rotating import Posts
-from opsim.engine.fast_engine.posts import one_each
-from opsim.engine.fast_engine.rotations import WIDTH, posts_of
+from opsim.engine.fast_engine.rotations import WIDTH, Posts, one_each, posts_of
 
 from opsim.engine.fast_engine.machine import cast, complete, needed, step_of
 from opsim.posts import _one_each

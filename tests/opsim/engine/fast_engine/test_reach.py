@@ -1,7 +1,7 @@
 """Where jobs come to in time, on both engines, with more questions than answers are kept."""
 
 from engine_evidence.rows import first_difference
-from opsim.engine.fast_engine.reach import MOST_KNOWN
+from opsim.engine.fast_engine.overtime import MOST_KNOWN
 from plans import plan
 
 from opsim.engine.fast_engine.run import Machine

@@ -6,11 +6,18 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine import recipe as made
-from opsim.engine.fast_engine.luck.blocks import HeldStream, Stream, drawn_ranks, exponentials, uniforms
-from opsim.engine.fast_engine.luck.sampled import durations, held
-from opsim.engine.fast_engine.parts.luck import DATA, DATA_2, END, ID, USED, place_of
-from opsim.engine.fast_engine.recipe import Recipe, wanted
+from opsim.engine.fast_engine import numbers as made
+from opsim.engine.fast_engine.numbers import Recipe, wanted
+from opsim.engine.fast_engine.random_numbers import DATA, DATA_2, END, ID, USED, place_of
+from opsim.engine.fast_engine.streams.blocks import (
+    HeldStream,
+    Stream,
+    drawn_ranks,
+    durations,
+    exponentials,
+    held,
+    uniforms,
+)
 from opsim.plan.tools import HoldPlan, Moment
 from opsim.streams import BLOCK, _hashed, _key
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, TimePerformances

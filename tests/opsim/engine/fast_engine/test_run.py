@@ -10,9 +10,9 @@ import pytest
 from engine_evidence.rows import first_difference
 from plans import plan, queue
 
-from opsim.engine.fast_engine import room, run
-from opsim.engine.fast_engine.leases import lent
-from opsim.engine.fast_engine.luck.blocks import Stream
+from opsim.engine.fast_engine import log_rows, run
+from opsim.engine.fast_engine.log_rows import lent
+from opsim.engine.fast_engine.streams.blocks import Stream
 from opsim.engine.floor import run_plan as simpy_run
 
 TESTS = Path(__file__).parents[3]
@@ -94,7 +94,7 @@ def test_memory_that_is_not_there_is_an_error_and_the_next_run_is_right(monkeypa
         if of == "jobs":
             full.setattr(machine.build.arena, "_open_chunk", none)
         else:
-            full.setattr(room, "lent", lambda n_bytes: lent(n_bytes) if n_bytes < 3_000_000 else none())
+            full.setattr(log_rows, "lent", lambda n_bytes: lent(n_bytes) if n_bytes < 3_000_000 else none())
         with pytest.raises(MemoryError):
             run.run_plan(made)
     assert first_difference(simpy_run(made), run.run_plan(made)) == ""

@@ -3,7 +3,7 @@
 import pytest
 from twins import twins
 
-from opsim.engine.fast_engine.sequence import ROUTING, SEQUENCING
+from opsim.engine.fast_engine.sequencing import ROUTING, SEQUENCING
 from opsim.log import SETUP, WORK
 
 SHOP = """

@@ -2,7 +2,7 @@
 
 import pytest
 
-from opsim.engine.rules.allocation import ALLOCATION_RULES, more_urgent, nearer_to_its_end, whose_it_is
+from opsim.engine.rules import ALLOCATION_RULES, more_urgent, nearer_to_its_end, whose_it_is
 
 A = {"n_waiting": 3, "oldest_since_s": 20.0, "walk_s": 8.0, "rating": 1.0, "station_rank": 0, "worker_rank": 0}
 B = {"n_waiting": 1, "oldest_since_s": 20.0, "walk_s": 8.0, "rating": 1.0, "station_rank": 1, "worker_rank": 1}

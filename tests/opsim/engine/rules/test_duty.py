@@ -1,6 +1,6 @@
 """The rules by which people leave: who works on, for whom the rest is kept, and what is lost."""
 
-from opsim.engine.rules.duty import (
+from opsim.engine.rules import (
     INTERRUPTION_RULES,
     first_relief,
     is_absent,

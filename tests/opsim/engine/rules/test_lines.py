@@ -2,7 +2,7 @@
 
 import pytest
 
-from opsim.engine.rules.lines import INFINITE_S, meeting_s, strolled_m, together_s
+from opsim.engine.rules import INFINITE_S, meeting_s, strolled_m, together_s
 
 
 def test_a_job_that_comes_towards_a_worker_is_met_at_the_sum_of_the_speeds():

@@ -4,8 +4,7 @@ import inspect
 
 import pytest
 
-from opsim.engine.rules.routing import ROUTING_RULES
-from opsim.engine.rules.sequencing import SEQUENCING_RULES, critical_ratio, may_preempt, queue_key, victim_key
+from opsim.engine.rules import ROUTING_RULES, SEQUENCING_RULES, critical_ratio, may_preempt, queue_key, victim_key
 
 
 @pytest.mark.parametrize("rules", [SEQUENCING_RULES, ROUTING_RULES], ids=["sequencing", "routing"])

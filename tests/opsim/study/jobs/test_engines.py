@@ -95,7 +95,7 @@ def test_everything_that_cannot_be_run_is_said_before_anything_is_run(tmp_path, 
 def test_auto_takes_simpy_where_it_must_point_by_point(tmp_path, monkeypatch):
     made, told = stand_in(monkeypatch), []
     install_rule(tmp_path, monkeypatch, "opsim.sequencing", "mine")
-    monkeypatch.setattr("opsim.engine.simpy_work.VISIT_S", 10.0)
+    monkeypatch.setattr("opsim.engine.choice.VISIT_S", 10.0)
     source = Source(str(line(tmp_path, LINE)), FIGURES)
     jobs = [Job(Point(rule, {"flow.dispatch": rule}, "base"), 0) for rule in ("fifo", "mine")]
     Answers(source, processes=1, engine="auto", chosen=told.append).ensure(jobs)
@@ -104,7 +104,7 @@ def test_auto_takes_simpy_where_it_must_point_by_point(tmp_path, monkeypatch):
 
 def test_a_point_that_looked_like_others_and_is_not_is_run_by_simpy_all_the_same(source, monkeypatch):
     made = stand_in(monkeypatch, refuses=everything_refused)
-    monkeypatch.setattr("opsim.engine.simpy_work.VISIT_S", 10.0)
+    monkeypatch.setattr("opsim.engine.choice.VISIT_S", 10.0)
     found = values(Answers(source, processes=1, engine="auto"))
     assert len(made.ran) == 4 and np.array_equal(found, values(Answers(source)))
 
@@ -119,7 +119,7 @@ def test_where_fast_is_asked_for_such_a_point_is_refused_when_it_is_come_to(sour
 
 def test_what_was_not_worth_it_may_be_so_with_more_replications(source, monkeypatch):
     made = stand_in(monkeypatch)
-    monkeypatch.setattr("opsim.engine.simpy_work.VISIT_S", 0.05)
+    monkeypatch.setattr("opsim.engine.choice.VISIT_S", 0.05)
     answers = Answers(source, processes=1, engine="auto")
     answers.ensure(JOBS[:1])
     assert made.ran == []

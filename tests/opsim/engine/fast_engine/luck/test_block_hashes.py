@@ -3,7 +3,7 @@ from threading import Thread
 import numpy as np
 import pytest
 
-from opsim.engine.fast_engine.luck.block_hashes import MOST_KEPT, BlockHashes
+from opsim.engine.fast_engine.streams.seeds import MOST_KEPT, BlockHashes
 from opsim.streams import _hashed
 
 

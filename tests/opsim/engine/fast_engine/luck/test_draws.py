@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from opsim.engine.draws import Draws
-from opsim.engine.fast_engine.luck import of_plan
-from opsim.engine.fast_engine.luck.draws import BlockDraws
+from opsim.engine.fast_engine.streams import of_plan
+from opsim.engine.fast_engine.streams.of_plan import BlockDraws
 from opsim.plan import compile_plan
 from opsim.plan.failures import BreakdownPlan
 from opsim.plan.orders import ANY, OrderPlan

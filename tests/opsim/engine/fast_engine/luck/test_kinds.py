@@ -5,11 +5,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine.luck.blocks import drawn_ranks, exponentials, uniforms
-from opsim.engine.fast_engine.luck.kinds import NoLuck, OfAKind, of_model
-from opsim.engine.fast_engine.luck.many_blocks import ManyBlocks
-from opsim.engine.fast_engine.luck.sampled import durations
-from opsim.engine.fast_engine.luck.trust import numpys_generators
+from opsim.engine.fast_engine.streams.blocks import (
+    NoLuck,
+    OfAKind,
+    drawn_ranks,
+    durations,
+    exponentials,
+    numpys_generators,
+    of_model,
+    uniforms,
+)
+from opsim.engine.fast_engine.streams.generators import ManyBlocks
 from opsim.streams import BLOCK, _key
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, Recorded, Uniform
 from opsim.tasks.switched import switched

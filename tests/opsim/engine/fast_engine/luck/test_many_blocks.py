@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.engine.fast_engine.luck.many_blocks import ManyBlocks
-from opsim.engine.fast_engine.luck.trust import numpys_generators
+from opsim.engine.fast_engine.streams.blocks import numpys_generators
+from opsim.engine.fast_engine.streams.generators import ManyBlocks
 from opsim.streams import BLOCK, _key
 
 WORDS = np.frombuffer(_key(9, 4, ("duration", "lift", "ana")), np.uint32)

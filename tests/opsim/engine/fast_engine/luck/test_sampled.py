@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from opsim.engine.draws import _held, _performed
-from opsim.engine.fast_engine.luck.sampled import durations, held, in_one_call
+from opsim.engine.fast_engine.streams.blocks import durations, held, in_one_call
 from opsim.plan.tools import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, _key
 from opsim.tasks import Fixed, Gamma, Lognormal, Recorded, TimePerformances

@@ -3,8 +3,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine.luck.block_hashes import BLOCK_HASHES
-from opsim.engine.fast_engine.luck.seeds import first_states, states_of, stepped, word_of
+from opsim.engine.fast_engine.streams.seeds import BLOCK_HASHES, first_states, states_of, stepped, word_of
 from opsim.streams import _generator, _hashed, _key
 
 NAME = st.lists(st.text(max_size=5) | st.integers(0, 99), max_size=5)

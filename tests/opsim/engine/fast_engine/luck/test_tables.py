@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from opsim.engine.fast_engine.luck import tables
+from opsim.engine.fast_engine.streams import generators
 
 
 @pytest.mark.parametrize(
     ("table", "density", "bits"),
     [
-        (tables.exponential(), lambda x: np.exp(-x), 53),
-        (tables.normal(), lambda x: np.exp(-(x**2) / 2), 52),
+        (generators.exponential(), lambda x: np.exp(-x), 53),
+        (generators.normal(), lambda x: np.exp(-(x**2) / 2), 52),
     ],
     ids=["exponential", "normal"],
 )

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from opsim.engine.fast_engine.luck import many_blocks, trust
-from opsim.engine.fast_engine.luck.block_hashes import BLOCK_HASHES
-from opsim.engine.fast_engine.luck.many_blocks import ManyBlocks
-from opsim.engine.fast_engine.luck.sampled import durations
+from opsim.engine.fast_engine.streams import blocks, generators
+from opsim.engine.fast_engine.streams.blocks import durations
+from opsim.engine.fast_engine.streams.generators import ManyBlocks
+from opsim.engine.fast_engine.streams.seeds import BLOCK_HASHES
 from opsim.streams import BLOCK, _key
 from opsim.tasks import Exponential, Lognormal, Recorded, Weibull
 
@@ -12,12 +12,12 @@ WORDS = np.frombuffer(_key(1, 2, ("duration", "a", "b")), np.uint32)
 
 
 def looked_again():
-    return trust.is_trusted.__wrapped__()
+    return blocks.is_trusted.__wrapped__()
 
 
 @pytest.fixture
 def _untrusted(monkeypatch):
-    for module in (trust, __import__("opsim.engine.fast_engine.luck.sampled", fromlist=["sampled"])):
+    for module in (blocks, __import__("opsim.engine.fast_engine.streams.blocks", fromlist=["sampled"])):
         monkeypatch.setattr(module, "is_trusted", lambda: False)
 
 
@@ -28,21 +28,21 @@ def test_what_is_compiled_here_is_numpys():
 @pytest.mark.parametrize("which", ["exponential_table", "normal_table"])
 @pytest.mark.parametrize(("part", "layers"), [("k", slice(100, 101)), ("w", slice(100, 101)), ("f", slice(None))])
 def test_a_fault_in_a_table_is_found_out(monkeypatch, which, part, layers):
-    table = getattr(many_blocks, which)()
+    table = getattr(generators, which)()
     wrong = getattr(table, part).copy()
     wrong[layers] = wrong[layers] // 2 if part == "k" else wrong[layers] * 0.98
-    monkeypatch.setattr(many_blocks, which, lambda: table._replace(**{part: wrong}))
+    monkeypatch.setattr(generators, which, lambda: table._replace(**{part: wrong}))
     assert not looked_again()
 
 
 def test_wrong_seeds_are_found_out(monkeypatch):
-    monkeypatch.setattr(many_blocks, "first_states", lambda words, hashes: np.ones((len(hashes), 4), np.uint64))
+    monkeypatch.setattr(generators, "first_states", lambda words, hashes: np.ones((len(hashes), 4), np.uint64))
     assert not looked_again()
 
 
 def test_without_a_compiler_nothing_is_tried(monkeypatch):
     monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
-    monkeypatch.setattr(trust, "_seeds_agree", lambda: pytest.fail("tried"))
+    monkeypatch.setattr(blocks, "_seeds_agree", lambda: pytest.fail("tried"))
     assert not looked_again()
 
 
@@ -50,7 +50,7 @@ def test_no_tables_are_no_trust(monkeypatch):
     def none():
         raise AttributeError("ke_double")
 
-    monkeypatch.setattr(many_blocks, "exponential_table", none)
+    monkeypatch.setattr(generators, "exponential_table", none)
     assert not looked_again()
 
 
@@ -65,13 +65,13 @@ def test_without_trust_numpy_draws_the_same(model, request):
 
 @pytest.mark.usefixtures("_untrusted")
 def test_without_trust_nothing_compiled_is_asked(monkeypatch):
-    monkeypatch.setattr(many_blocks, "first_states", None)
-    plain = trust.blocks_of(WORDS, 0, 2)
+    monkeypatch.setattr(generators, "first_states", None)
+    plain = blocks.blocks_of(WORDS, 0, 2)
     assert plain.random(2 * BLOCK).size == 2 * BLOCK and durations(Exponential(3.0), None)(WORDS, 0, 2).size == 128
 
 
 def test_numpys_generators_are_those_of_the_states():
     states = ManyBlocks(WORDS, 0, 2).states.tolist()
-    found = [rng.bit_generator.state["state"] for rng in trust.numpys_generators(WORDS, 0, 2)]
+    found = [rng.bit_generator.state["state"] for rng in blocks.numpys_generators(WORDS, 0, 2)]
     assert [one["state"] for one in found] == [high << 64 | low for high, low, *_ in states]
     assert len(BLOCK_HASHES.of(0, 2)) == 2

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine.luck import tables, variates
-from opsim.engine.fast_engine.luck.seeds import STATE_WORDS
+from opsim.engine.fast_engine.streams import generators as tables
+from opsim.engine.fast_engine.streams import generators as variates
+from opsim.engine.fast_engine.streams.seeds import STATE_WORDS
 from opsim.streams import BLOCK
 
 EXPONENTIAL, NORMAL = tables.exponential(), tables.normal()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from opsim.engine.fast_engine.luck.whole import Whole
+from opsim.engine.fast_engine.streams.of_plan import Whole
 
 GROWTHS, AT_ONCE = 300, 64
 

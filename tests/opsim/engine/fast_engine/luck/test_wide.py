@@ -3,7 +3,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine.luck.wide import product_high
+from opsim.engine.fast_engine.streams.seeds import product_high
 
 WORD = st.integers(0, 2**64 - 1)
 

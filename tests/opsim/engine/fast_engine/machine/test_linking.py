@@ -4,12 +4,12 @@ import subprocess
 import sys
 
 KEPT = """
-from opsim.engine.fast_engine import sources
-from opsim.engine.fast_engine.machine.linking import can_link
+from opsim.engine.fast_engine import lowering
+from opsim.engine.fast_engine.machine.code_cache import can_link
 from opsim.engine.fast_engine.machine.steps import STEPS
-from opsim.engine.fast_engine.machine.store import path_of, read
+from opsim.engine.fast_engine.machine.code_cache import path_of, read
 
-sources.know_all()
+lowering.know_all()
 kept = {one.name: read(path_of(one.function, one.line)) for one in STEPS.values()}
 print([name for name, code in kept.items() if code is not None and not can_link(code)])
 """

@@ -11,7 +11,7 @@ from made_machine import as_floor, empty_floor, entered
 from twins import twins
 
 from opsim.engine.fast_engine.machine.arena import MORE
-from opsim.engine.fast_engine.machine.memory import CLASSES, class_of, give_bytes_back, room_of, take_bytes
+from opsim.engine.fast_engine.machine.lists import CLASSES, class_of, give_bytes_back, room_of, take_bytes
 from opsim.log import FINISH, QUEUE
 
 N_STEPS = 260

@@ -2,8 +2,8 @@
 
 import sys
 
-from opsim.engine.fast_engine.machine import sharing_out
-from opsim.engine.fast_engine.machine.sharing_out import Job, Work, helped
+from opsim.engine.fast_engine.machine import compiling
+from opsim.engine.fast_engine.machine.compiling import Job, Work, helped
 
 ANSWERS = "import sys; print(flush=True); [print(flush=True) for _ in sys.stdin]"
 ENDS = "import sys; print(flush=True); sys.stdin.readline()"
@@ -38,14 +38,14 @@ def test_what_went_wrong_elsewhere_is_done_here():
 
 
 def test_what_another_process_never_finishes_is_not_waited_for_for_ever(monkeypatch):
-    monkeypatch.setattr(sharing_out, "PATIENCE_S", 0.01)
+    monkeypatch.setattr(compiling, "PATIENCE_S", 0.01)
     work = Work(jobs(1, []))
     work.last()
     assert work.first() is None
 
 
 def test_a_process_that_answers_does_the_rest(monkeypatch):
-    monkeypatch.setattr(sharing_out, "n_helpers", lambda: 1)
+    monkeypatch.setattr(compiling, "n_helpers", lambda: 1)
     work = Work(jobs(5, []))
     with helped(work, ["-c", ANSWERS]):
         with work._changed:
@@ -54,7 +54,7 @@ def test_a_process_that_answers_does_the_rest(monkeypatch):
 
 
 def test_of_a_process_that_ends_nothing_is_lost(monkeypatch):
-    monkeypatch.setattr(sharing_out, "n_helpers", lambda: 1)
+    monkeypatch.setattr(compiling, "n_helpers", lambda: 1)
     done = []
     work = Work(jobs(5, done))
     with helped(work, ["-c", ENDS]):
@@ -63,9 +63,9 @@ def test_of_a_process_that_ends_nothing_is_lost(monkeypatch):
 
 
 def test_no_process_is_left(monkeypatch):
-    begun, really = [], sharing_out._begun
-    monkeypatch.setattr(sharing_out, "n_helpers", lambda: 2)
-    monkeypatch.setattr(sharing_out, "_begun", lambda command: begun.append(really(command)) or begun[-1])
+    begun, really = [], compiling._begun
+    monkeypatch.setattr(compiling, "n_helpers", lambda: 2)
+    monkeypatch.setattr(compiling, "_begun", lambda command: begun.append(really(command)) or begun[-1])
     try:
         with helped(Work([]), ["-c", "input()"]):
             raise KeyboardInterrupt
@@ -76,7 +76,7 @@ def test_no_process_is_left(monkeypatch):
 
 
 def test_where_no_process_can_be_begun_all_is_done_here(monkeypatch):
-    monkeypatch.setattr(sharing_out, "n_helpers", lambda: 1)
+    monkeypatch.setattr(compiling, "n_helpers", lambda: 1)
     for executable in ("", "/no/such/python"):
         monkeypatch.setattr(sys, "executable", executable)
         done = []

@@ -4,14 +4,14 @@ import os
 
 import pytest
 
-from opsim.engine.fast_engine.machine import stamp
+from opsim.engine.fast_engine.machine import code_cache
 from opsim.engine.fast_engine.machine.structs import Ref
 
 
 def stamp_now():
     """As a process finds it that begins now."""
-    stamp.stamp_of.cache_clear()
-    return stamp._stamp()
+    code_cache.stamp_of.cache_clear()
+    return code_cache._stamp()
 
 
 @pytest.fixture
@@ -26,11 +26,10 @@ def engine(tmp_path, monkeypatch):
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("one = 1\n")
-    monkeypatch.setattr(stamp, "ENGINE", tmp_path / "engine" / "fast")
-    monkeypatch.setattr(stamp, "OPSIM", tmp_path)
-    monkeypatch.setattr(stamp, "COMPILED_TOO", (tmp_path / "engine",))
-    monkeypatch.setattr(stamp, "SINGLE", ())
-    monkeypatch.delenv("OPSIM_STAMP", raising=False)
+    monkeypatch.setattr(code_cache, "ENGINE", tmp_path / "engine" / "fast")
+    monkeypatch.setattr(code_cache, "OPSIM", tmp_path)
+    monkeypatch.setattr(code_cache, "COMPILED_TOO", (tmp_path / "engine",))
+    monkeypatch.setattr(code_cache, "SINGLE", ())
     return tmp_path / "engine"
 
 
@@ -47,11 +46,11 @@ def test_a_source_of_another_content_has_another_stamp_and_one_of_another_time_h
 def test_a_file_counts_as_it_was_when_it_was_first_looked_at(engine):
     """What is compiled is what was imported, also where the file is another one by then."""
     path = str(engine / "fast" / "a.py")
-    before = stamp.stamp_of(path)
+    before = code_cache.stamp_of(path)
     (engine / "fast" / "a.py").write_text("two = 2\n")
-    assert stamp.stamp_of(path) == before
-    stamp.stamp_of.cache_clear()
-    assert stamp.stamp_of(path) != before and stamp.stamp_of(path + "x") == ""
+    assert code_cache.stamp_of(path) == before
+    code_cache.stamp_of.cache_clear()
+    assert code_cache.stamp_of(path) != before and code_cache.stamp_of(path + "x") == ""
 
 
 def test_a_new_source_and_one_that_is_gone_have_another_stamp(engine):
@@ -69,4 +68,4 @@ def test_what_is_not_compiled_does_not_count(engine):
 
 
 def test_the_stamp_stands_in_every_type():
-    assert stamp.STAMP in Ref("Floor").name
+    assert code_cache.STAMP in Ref("Floor").name

@@ -5,7 +5,7 @@ from types import FunctionType
 import numpy as np
 import pytest
 from made_machine import as_floor, empty_floor, entered, is_even, is_odd
-from opsim.engine.fast_engine.parts.state import Floor
+from opsim.engine.fast_engine.floor_state import Floor
 
 from opsim.engine.fast_engine.machine import TABLE, complete, line_of, needed, step_of, steps
 from opsim.engine.fast_engine.machine import step as as_step
@@ -73,9 +73,9 @@ def test_a_step_is_of_its_file_as_that_was_when_it_was_made(tmp_path, monkeypatc
 
 
 def test_every_step_of_the_engine_has_a_line_of_its_own():
-    from opsim.engine.fast_engine import sources
+    from opsim.engine.fast_engine import lowering
 
-    sources.know_all()
+    lowering.know_all()
     assert len(STEPS) > 100
     assert all(0 <= line < TABLE.size and STEPS[line].line == line for line in STEPS)
     assert TABLE.dtype == np.int64

@@ -8,7 +8,8 @@ from contextlib import contextmanager
 import pytest
 from made_machine import empty_floor, is_even, is_odd
 
-from opsim.engine.fast_engine.machine import TABLE, compiling, complete, needed, slow, step_of, store, table
+from opsim.engine.fast_engine.machine import TABLE, code_cache, compiling, complete, needed, step_of, table
+from opsim.engine.fast_engine.machine import code_cache as store
 from opsim.engine.fast_engine.machine.calling import caller
 
 STEPS = list(needed([step_of(is_even)]))
@@ -113,10 +114,10 @@ def test_nobody_helps_where_nothing_can_be_written(place, monkeypatch):
 
 def test_a_process_that_helps_finds_every_step():
     """By its module, which a process that has read no plan may not have imported yet."""
-    from opsim.engine.fast_engine import sources
+    from opsim.engine.fast_engine import lowering
     from opsim.engine.fast_engine.machine import steps
 
-    sources.know_all()
+    lowering.know_all()
     engine = [one for one in steps.STEPS.values() if one.function.__module__.startswith("opsim.")]
     names = "".join(f"{table._name(one)}\n" for one in engine)
     program = "from opsim.engine.fast_engine.machine import table; table.is_on_disk = lambda one: True"
@@ -174,7 +175,7 @@ class Fails:
         raise AttributeError("numba has no such thing any more")
 
 
-@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.slow.SlowCompiling")
+@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.code_cache.SlowCompiling")
 @pytest.mark.parametrize("less", [None, Fails()])
 def test_without_numbas_inner_parts_it_compiles_as_everybody_does(place, monkeypatch, less):
     monkeypatch.setattr(compiling, "LESS", less)
@@ -185,12 +186,12 @@ def test_without_numbas_inner_parts_it_compiles_as_everybody_does(place, monkeyp
 
 
 def test_of_a_slower_way_it_is_said_once_why(place, monkeypatch):
-    monkeypatch.setattr(slow, "_SAID", set())
+    monkeypatch.setattr(code_cache, "_SAID", set())
     monkeypatch.setattr(compiling, "LESS", Fails())
     monkeypatch.setattr(compiling, "kept", lambda signature, function: compiling.numba.njit(signature)(function))
-    with pytest.warns(slow.SlowCompiling, match="numba has no such thing any more") as said:
+    with pytest.warns(code_cache.SlowCompiling, match="numba has no such thing any more") as said:
         complete(STEPS)
-    assert [one.category for one in said].count(slow.SlowCompiling) == 1
+    assert [one.category for one in said].count(code_cache.SlowCompiling) == 1
 
 
 class IsFull:
@@ -204,7 +205,7 @@ def test_a_full_memory_is_no_reason_to_compile_again(place, monkeypatch):
         complete(STEPS)
 
 
-@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.slow.SlowCompiling")
+@pytest.mark.filterwarnings("ignore::opsim.engine.fast_engine.machine.code_cache.SlowCompiling")
 def test_a_helper_that_needs_more_passes_gets_all_of_them():
     @compiling.inlined
     def largest(n):

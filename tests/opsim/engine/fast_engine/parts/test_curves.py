@@ -5,11 +5,11 @@ from types import SimpleNamespace
 
 import numba
 import pytest
-from opsim.engine.fast_engine.humans import model_of
-from opsim.engine.fast_engine.parts.humans import Model
+from opsim.engine.fast_engine.human_effects import model_of
+from opsim.engine.fast_engine.human_state import Model
 
+from opsim.engine.fast_engine.human_models import CURVES, multiplier_of, work_of
 from opsim.engine.fast_engine.machine import Arena, cast
-from opsim.engine.fast_engine.parts.curves import CURVES, multiplier_of, work_of
 from opsim.human.catalogue import entry, models_of
 
 _as_model = cast(Model)

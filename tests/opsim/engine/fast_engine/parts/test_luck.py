@@ -4,7 +4,7 @@ import numba
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.engine.fast_engine.parts.luck import place_of
+from opsim.engine.fast_engine.random_numbers import place_of
 
 compiled = numba.njit("int64(int64, int64)")(place_of)
 

@@ -1,1 +1,0 @@
-"""Parts of the floor that several rules share."""

@@ -1,1 +1,0 @@
-"""A floor as a part of somebody's own SimPy model."""
