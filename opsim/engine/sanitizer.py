@@ -236,7 +236,10 @@ def give_ints_back(_floor: Any, items: Any, n: int) -> None:
     items.given_back = _place()
 
 
-class _Arena:
+_Plain: Any = object
+
+
+class _Arena(_Plain):
     """As the plain one; what was given back in a run is there again in the next."""
 
     def array(self, of: str, values: Any) -> Any:

@@ -20,6 +20,7 @@ import resource
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +78,8 @@ def _looked(name: str, floors: tuple[int, ...], sanitize: str) -> Iterator[tuple
     except subprocess.TimeoutExpired as error:
         lines, code = (error.stdout or b"").decode().splitlines(), "no end"
     yield from (tuple(json.loads(line)) for line in lines)
+    if code == 1:
+        raise RuntimeError(f"{name}: what plants and looks has failed itself, see above")
     if code:
         yield "drivers", f"the process ended with {code}"
 
@@ -94,7 +97,7 @@ def _look(name: str, floors: list[int]) -> None:
 
 
 def _tell_all(floors: list[int], faulty: Any) -> None:
-    for judge, words in (*_of_twins(), *(said for number in floors for said in _of_floor(number, faulty))):
+    for judge, words in chain(_of_twins(), *(_of_floor(number, faulty) for number in floors)):
         print(json.dumps([judge, words]), flush=True)
 
 
