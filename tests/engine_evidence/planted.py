@@ -1,36 +1,77 @@
-"""Faults planted into the compiled engine of a process of its own: the source of one function, some words replaced.
+"""Faults planted into the engines of a process of its own: the source of one function, some words replaced.
 
+A rule of the floor has one source, which two drivers read: SimPy's (``SIMPY``) and the compiled one (``FAST``).
 Steps into whose machine code the function goes are compiled anew, in memory alone; all others are the sound ones from
 disk. So no machine code of a sound engine stands in for a faulty one, nor the other way round.
 """
 
 from __future__ import annotations
 
+import ast
 import inspect
+import os
 import textwrap
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
 from opsim.plan import Plan
 
-FAST = "opsim.engine.fast_engine"
+FAST, SIMPY = "opsim.engine.fast_engine", "opsim.engine.floor"
 _KEPT: list[Any] = []
 
 
 def plant(place: str, old: str, new: str) -> Callable:
     """The function of a ``file.name``, with other words from now on, for whoever compiles it. Raises ValueError."""
+    module, function, text = _with_words(FAST, place, old, new)
+    known: dict[str, Any] = {}
+    exec(_code(text, place), vars(module), known)
+    function.__code__ = known[function.__name__].__code__
+    return function
+
+
+@contextmanager
+def planted_in_simpy(place: str, old: str, new: str) -> Iterator[None]:
+    """The same for SimPy's driver, for a while; looked at where ``OPSIM_SANITIZE`` says so."""
+    module, function, text = _with_words(SIMPY, place, old, new)
+    before, known = function.__code__, {}
+    tree = ast.parse(f"from __future__ import annotations\n{text}")
+    ast.increment_lineno(tree.body[1], _line_of(function) - 2)
+    try:
+        if is_sanitized():
+            from opsim.engine.sanitizer import watch
+
+            watch(function, tree.body[1])
+        else:
+            exec(compile(tree, before.co_filename, "exec"), vars(module), known)
+            function.__code__ = known[function.__name__].__code__
+        yield
+    finally:
+        function.__code__ = before
+
+
+def is_sanitized() -> bool:
+    """Whether SimPy's driver refuses here what compiled code does not see."""
+    return os.environ.get("OPSIM_SANITIZE", "0") not in ("", "0")
+
+
+def _with_words(package: str, place: str, old: str, new: str) -> tuple[Any, Any, str]:
+    """The module of a ``file.name`` in a package, its function, and the text of it with other words."""
     module_name, _, name = place.rpartition(".")
-    module = import_module(f"{FAST}.{module_name}")
-    function = _written(getattr(module, name))
+    module = import_module(f"{package}.{module_name}")
+    function = _written(getattr(module, name)) if package == FAST else getattr(module, name)
     lines = textwrap.dedent(inspect.getsource(function)).splitlines(keepends=True)
-    text = "".join(lines[next(i for i, line in enumerate(lines) if line.startswith("def ")) :])
+    text = "".join(lines[_line_of(function) - function.__code__.co_firstlineno :])
     if text.count(old) != 1:
         raise ValueError(f"{place} has {text.count(old)} times {old!r}: the fault has to be written anew")
-    known: dict[str, Any] = {}
-    exec(_code(text.replace(old, new), place), vars(module), known)
-    function.__code__ = known[name].__code__
-    return function
+    return module, function, text.replace(old, new)
+
+
+def _line_of(function: Any) -> int:
+    """The line in which a function begins, below its decorators."""
+    lines, first = inspect.getsourcelines(function)
+    return first + next(i for i, line in enumerate(lines) if line.lstrip().startswith("def "))
 
 
 def _code(text: str, place: str) -> Any:

@@ -8,12 +8,13 @@ from typing import Any
 
 from opsim.clock import on_grid as on_grid
 from opsim.engine.floor.floor_state import Floor
-from opsim.engine.floor.machine import more_of
+from opsim.engine.floor.machine import give_back, more_of
 from opsim.engine.floor.state import Event, Worker
 from opsim.engine.rules import COMPLETION
 
 TICKS, STEP = 2.0**20, 2.0**-20
 INF, NAN = inf, nan
+forget_event = give_back(Event)
 
 
 def rounded(number: float) -> float:
@@ -45,10 +46,6 @@ class Coming(Event):
 def new_event(_floor: Any) -> Coming:
     """An event that nobody waits for yet."""
     return Coming()
-
-
-def forget_event(_floor: Any, _event: Any) -> None:
-    """Nobody refers to it any more: Python finds that out by itself."""
 
 
 def is_last_of_instant(floor: Any) -> bool:

@@ -24,6 +24,7 @@ class Floor:
     n_down : reasons for which stations stand, all together
     alone : whether what happens now is the only thing in its instant; at_once : whether nothing follows of it but that
     the job which is done goes on, which may be let in then without a claim
+    done : the job whose operation a worker has ended just now, unless it has left the floor
     none_fits : whether it is known that nobody who is free can serve where somebody calls
     """
 
@@ -42,6 +43,7 @@ class Floor:
     settle_pending: int
     alone: int
     at_once: int
+    done: Job
     active: Worker
     has_orders: int
     reports: List[Event]

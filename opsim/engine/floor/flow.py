@@ -150,6 +150,8 @@ def _join_floor(floor: Floor, job: Job) -> None:
 @inlined
 def _part_with_floor(floor: Floor, job: Job) -> None:
     job.on_floor = 0
+    if floor.done is job:
+        floor.done = NOTHING
     before, after = job.before_on_floor, job.next_on_floor
     if before:
         before.next_on_floor = after

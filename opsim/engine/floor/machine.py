@@ -1,7 +1,8 @@
 """What the rules of the floor are written in, where CPython runs them: structs are objects with slots, lists are lists,
 and the line of a step is the function itself.
 
-The compiled engine has the same names over raw memory, see ``fast_engine.machine``.
+The compiled engine has the same names over raw memory, see ``fast_engine.machine``. With ``OPSIM_SANITIZE=1`` some of
+them look at what they are given, see ``opsim.engine.sanitizer``.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from operator import attrgetter
+from os import environ
 from typing import Any, TypeVar
 
 NOTHING: Any = None
@@ -256,3 +258,9 @@ def _keeper(cls: type) -> Any:
         reads: Any = attrgetter(*names) if not one else (lambda struct, of=attrgetter(names[0]): (of(struct),))
         _KEEPERS[cls] = reads, written("writes", "one, values", [f"{''.join(f'one.{n}, ' for n in names)}= values"])
     return _KEEPERS[cls]
+
+
+if environ.get("OPSIM_SANITIZE", "0") not in ("", "0"):
+    from opsim.engine import sanitizer
+
+    globals().update(sanitizer.names(globals()))

@@ -60,9 +60,10 @@ def operation_over(floor: Floor, job: Job, worker: Worker) -> None:
     """The operation is done, by a worker who stays with the job where it is carried, or held, and has to wait."""
     may_stay = job.plan.carried or floor.held_when_blocked
     floor.at_once = floor.alone and not may_stay
+    floor.done = job
     _operation_done(floor, job)
     floor.at_once = 0
-    if may_stay and job.on_floor and _stays(floor, job):
+    if may_stay and floor.done is job and _stays(floor, job):
         hold(floor, worker, job)
     else:
         set_free(floor, worker)
