@@ -21,8 +21,8 @@ from twins import twins
 
 from opsim.engine.fast_engine import run
 from opsim.engine.fast_engine.event_list import forget_event, new_event, pop_event, push_event
+from opsim.engine.fast_engine.keys import ROUTING, SEQUENCING
 from opsim.engine.fast_engine.run import EMULATED, LUCK_S, STEP_S, compiling_s, ready
-from opsim.engine.fast_engine.sequencing import ROUTING, SEQUENCING
 from opsim.log import AWAY, BAD, BREAK, CREATE, FINISH, HELD, SETUP, SPLIT, TRANSPORT, WORK
 
 SHOP = """
