@@ -65,7 +65,8 @@ def parts_of(made: Registered, settings: FitSettings) -> Parts:
     flatten, n_times = FLATTENINGS[representation].fit(made.directions), made.warps.shape[1]
     flat = flatten.forward(made.directions).reshape(len(made.directions), -1)
     smooth = SMOOTH_SHARE * n_times if density == "Smoothed" else 0.0
-    posture = stored(_posture_components(with_smooth(flat, n_times, smooth), flatten, settings.n_components), n_times)
+    rows = flat if settings.n_components else with_smooth(flat, n_times, smooth)
+    posture = stored(_posture_components(rows, flatten, settings.n_components), n_times)
     log_bones = _log_bones(made.moving)
     bones = JointPCA.fit(log_bones, BONE_SHARE)
     channel = made.channels()

@@ -208,7 +208,7 @@ def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], whole:
             there = variance[here]
         drawn_in[here] = room(left, there, most)
     factor = sharp.factor * wanted / np.maximum(noise, 1e-12)
-    return _beside_curves(replace(sharp, factor=factor, drawn_in=drawn_in))
+    return _beside_curves(replace(sharp, factor=factor, drawn_in=drawn_in), curves)
 
 
 def _at_most(noise: np.ndarray, spread: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -220,15 +220,20 @@ def _at_most(noise: np.ndarray, spread: np.ndarray, weight: np.ndarray) -> np.nd
     return noise * np.sqrt(min(1.0, most / max(total, 1e-300)))
 
 
-def _beside_curves(blurred: SmoothedScores) -> SmoothedScores:
+def _beside_curves(blurred: SmoothedScores, curves: tuple[Curves, ...]) -> SmoothedScores:
     """With the noise that all but curves takes: what these tell of it, and of the rest a share by the rule.
+
+    Each row of noise is the smooth part of a recording's deviation, and tells of all else what that recording does, as
+    far as it goes: by itself it would tell less, being hardly in the span of the recordings.
 
     Where curves are drawn larger than recorded they tell less; the rest is drawn in, or out, until the variance is
     whole.
     """
     own, n = within_worker(blurred.scores, blurred.owner), len(blurred.tells)
     n_free, square = _n_free(blurred.owner), np.mean(blurred.reach**2)
-    told, noise = blurred.deviations[:, :n] @ blurred.tells, blurred.factor[:, :n] @ blurred.tells
+    size = np.concatenate([curve.size for curve in curves])
+    far = np.sqrt(np.sum((blurred.factor[:, :n] * size) ** 2) / max(np.sum((own[:, :n] * size) ** 2), 1e-300))
+    told, noise = blurred.deviations[:, :n] @ blurred.tells, far * own[:, :n] @ blurred.tells
     recorded = np.sum((own[:, :n] @ blurred.tells) ** 2, axis=0) / n_free
     less = room(recorded, np.mean(told**2, axis=0) + square * np.sum(noise**2, axis=0))
     blurred = replace(blurred, tells=blurred.tells * less, factor=blurred.factor.copy())

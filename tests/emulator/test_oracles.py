@@ -20,7 +20,7 @@ ELSEWHERE = {
     "sphere_transport_geomstats": "test_sphere.py: test_transport_agrees_with_geomstats",
     "karcher_mean_S2": "test_sphere.py: test_mean_is_the_frozen_karcher_mean",
     "elastic_dp_fdasrsf_DP2_T101_D6_slope7": "test_elastic.py: test_the_optimum_is_that_of_fdasrsf",
-    "energy_dcor": "judge/test_energy.py: test_energy_is_dcors",
+    "energy_dcor": "judge/test_posture_tests.py: test_energy_is_dcors",
     "var2_statsmodels": "schemes/test_models.py: test_a_var_is_that_of_statsmodels",
     "ltsa_sklearn_helix": "segmenting/test_stltsa.py: test_a_helix_is_as_near_its_length_as_the_frozen_embedding",
     "mpca_tensorly_partial_tucker": "schemes/test_reductions.py: test_mpca_captures_as_much_as_tensorly",

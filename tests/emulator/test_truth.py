@@ -117,7 +117,7 @@ class TestOfNineCrews:
             learned = anova(np.log(motions.duration_s)[:, None], motions.worker_index)
             many, worker = truths.people(emulator)
             drawn = anova(np.log(many.duration_s)[:, None], worker)
-            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.08), (
+            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.1), (
                 crew
             )  # 4 % of error: of 20 kinds
             of_new = learned.between[0] * of_twenty(emulator)

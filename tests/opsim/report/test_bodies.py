@@ -28,7 +28,7 @@ def test_a_strip_is_filled_by_the_share_of_each_minute_at_a_high_score(cell):
     section = day_of(day, plan, "Mon 06:30")
     assert section["minutes"] == 1 and b"ana" in section["picture"] and b"06:40" in section["picture"]
     share = day.from_5_s[0].sum() / (60 * day.from_5_s.shape[1])
-    assert f"{100 * share:.1f}"[:2] in section["alt"] and "RULA 5 or more" in section["alt"]
+    assert f"{100 * share:.2f}"[:4] in section["alt"] and "RULA 5 or more" in section["alt"]
     words = [words for _, words in section["legend"]]
     assert "RULA 5 or more" in words and "at work, posture not known" in words
 
