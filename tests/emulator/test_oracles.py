@@ -22,8 +22,8 @@ ELSEWHERE = {
     "elastic_dp_fdasrsf_DP2_T101_D6_slope7": "test_elastic.py: test_the_optimum_is_that_of_fdasrsf",
     "energy_dcor": "judge/test_posture_tests.py: test_energy_is_dcors",
     "var2_statsmodels": "schemes/test_models.py: test_a_var_is_that_of_statsmodels",
-    "ltsa_sklearn_helix": "segmenting/test_stltsa.py: test_a_helix_is_as_near_its_length_as_the_frozen_embedding",
-    "mpca_tensorly_partial_tucker": "schemes/test_reductions.py: test_mpca_captures_as_much_as_tensorly",
+    "ltsa_sklearn_helix": "segmenting/test_ltsa.py: test_a_helix_is_as_near_its_length_as_the_frozen_embedding",
+    "mpca_tensorly_partial_tucker": "schemes/test_schemes.py: test_mpca_captures_as_much_as_tensorly",
 }
 """Of the last two the data were not kept: the peers were asked anew, on formulas."""
 HERE = {
