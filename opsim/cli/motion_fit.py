@@ -27,7 +27,7 @@ from opsim.cli.verbs import Mistake, mistakes
 @click.option(
     "--scheme",
     metavar="NAME",
-    help="Representation/reduction/density, or auto: chosen by cross-validation.  [default: SIEM/JointPCA/Smoothed]",
+    help="Representation/reduction/density, or auto: by cross-validation.  [default: Extrinsic/JointPCA/Smoothed]",
 )
 @click.option(
     "--n-times", type=click.IntRange(10, 2001), default=101, help="Points of the common clock.  [default: 101]"

@@ -24,7 +24,7 @@ USUAL_SPLITS = 5
     "schemes",
     multiple=True,
     metavar="NAME",
-    help="Which to judge; may be given several times.  [default: SIEM/JointPCA/Smoothed and SIEM/SequentialPCA/MVG]",
+    help="Which to judge; several may be given.  [default: Extrinsic/JointPCA/Smoothed and SIEM/SequentialPCA/MVG]",
 )
 @click.option("--paper", is_flag=True, help="Instead the paper's tables and figures, our scheme beside theirs.")
 @click.option(
