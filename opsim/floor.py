@@ -26,7 +26,7 @@ from opsim.engine.floor.run import FloorOfPlan
 from opsim.engine.in_model import Inside, ask_for, log_so_far, source_for, watch
 from opsim.log import BAD, FINISH, JOIN, LOST, SCRAP, SPLIT, EventLog, names_of
 from opsim.plan import Plan
-from opsim.plan.until import until
+from opsim.plan.plan import until
 from opsim.problems import did_you_mean, shown
 
 WHAT = {FINISH: "finished", SCRAP: "scrapped", JOIN: "joined", SPLIT: "split", LOST: "lost"}

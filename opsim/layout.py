@@ -1,13 +1,21 @@
-"""Where things are, how far it is from one to the other, and which places one passes on the way."""
+"""Where things are, how far it is from one to the other, and which places one passes on the way.
+
+Small questions about directed graphs of names: what is reached from where, and what goes round in a circle.
+
+A graph maps each name to the names one step on; names without an entry lead nowhere.
+
+Who is at which post: each post one person who can, then each a second one, until everybody has a post.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
-from opsim.names import natural_key
+from opsim.problems import natural_key
 
 if TYPE_CHECKING:
     import numpy as np
@@ -100,3 +108,118 @@ def _lengths(places: dict[str, Point], steps: list[Path], names: tuple[str, ...]
 
 def _euclidean_m(a: Point, b: Point) -> float:
     return hypot(a[0] - b[0], a[1] - b[1])
+
+
+Graph = Mapping[str, Collection[str]]
+
+
+def reached(graph: Graph, starts: Iterable[str], *, without: Collection[str] = ()) -> set[str]:
+    """The starts, and everything they lead to on ways that do not touch ``without``."""
+    found = set(starts)
+    todo = list(found)
+    while todo:
+        for other in graph.get(todo.pop(), ()):
+            if other not in found and other not in without:
+                found.add(other)
+                todo.append(other)
+    return found
+
+
+def reverse(graph: Graph) -> dict[str, set[str]]:
+    """The same graph with every step taken backwards."""
+    back: dict[str, set[str]] = {}
+    for name, onward in graph.items():
+        for other in onward:
+            back.setdefault(other, set()).add(name)
+    return back
+
+
+def rings(graph: Graph) -> Iterator[set[str]]:
+    """Sets of names that all lead to each other; a name alone only where it leads to itself. Kosaraju's algorithm."""
+    back = reverse(graph)
+    seen: set[str] = set()
+    for name in reversed(_last_first_left(graph)):
+        if name not in seen:
+            ring = reached(back, [name], without=seen)
+            seen |= ring
+            if len(ring) > 1 or name in graph.get(name, ()):
+                yield ring
+
+
+def _last_first_left(graph: Graph) -> list[str]:
+    """The names in the order in which a walk through everything leaves them for the last time."""
+    left: list[str] = []
+    seen: set[str] = set()
+    for start in graph:
+        if start in seen:
+            continue
+        seen.add(start)
+        trail = [(start, iter(graph[start]))]
+        while trail:
+            name, onward = trail[-1]
+            other = next((other for other in onward if other not in seen), None)
+            if other is None:
+                left.append(name)
+                trail.pop()
+            else:
+                seen.add(other)
+                trail.append((other, iter(graph.get(other, ()))))
+    return left
+
+
+Key = Callable[[int, int], tuple[float, ...]]
+
+
+def given_out(n_posts: int, people: Sequence[int], can: Callable[[int, int], bool], key: Key) -> dict[int, int]:
+    """{person: post}. Everybody who can be at one of the posts has one.
+
+    people : numbers, in the order of their list; can(person, post) : whether he can be there
+    key(person, slot) : the smallest goes first; slot n_posts + j is post j for the second time, and so on. Where there
+    are more posts than people, those with the smallest keys are manned.
+    No post is empty while another one is double, unless nobody who is left can be there: where only somebody who has a
+    post already can, he moves, and another one takes his (augmenting ways, Kuhn 1955).
+    """
+    at: dict[int, int] = {}
+    left, first = [person for person in people if any(can(person, post) for post in range(n_posts))], 0
+    while left:
+        at.update(_one_each(n_posts, left, can, key, first))
+        left, first = [person for person in left if person not in at], first + n_posts
+    return at
+
+
+def turns_away(member: int, turn: int, slot: int, n_slots: int) -> int:
+    """How many changes from now a slot is that of the n-th of those who are there, by turns; 0: it is now.
+
+    n_slots : people who are there, or posts, whichever are more: all of them are gone through.
+    """
+    return (slot - member - turn) % n_slots
+
+
+def _one_each(n_posts: int, left: Sequence[int], can, key: Key, first: int) -> dict[int, int]:
+    """{person: post} with one person at each post, the first posts first."""
+    holder: dict[int, int] = {}
+    keys = [{person: key(person, first + post) for person in left if can(person, post)} for post in range(n_posts)]
+    wanted = [sorted(mine, key=mine.__getitem__) for mine in keys]
+    posts = [post for post in range(n_posts) if wanted[post]]
+    if len(left) < n_posts:
+        posts.sort(key=lambda post: keys[post][wanted[post][0]])
+    for post in posts:
+        _fill(post, wanted, holder, set())
+    return {person: post for post, person in holder.items()}
+
+
+def _fill(post: int, wanted: list[list[int]], holder: dict[int, int], asked: set[int]) -> bool:
+    """Somebody is found for a post: one without a post, or one whose post somebody else takes."""
+    taken = {person: other for other, person in holder.items()}
+    for person in wanted[post]:
+        if person not in taken:
+            holder[post] = person
+            return True
+    for person in wanted[post]:
+        other = taken[person]
+        if other not in asked:
+            asked.add(other)
+            if _fill(other, wanted, holder, asked):
+                holder[post] = person
+                return True
+    return False

@@ -101,12 +101,12 @@ class EventLog:
 
     def to_frame(self) -> Any:
         """A pandas DataFrame, a row each, names as text. Raises ImportError where pandas is absent."""
-        from opsim.frames import log_frame
+        from opsim.results import log_frame
 
         return log_frame(self)
 
     def _repr_html_(self) -> str:
-        from opsim.shown.log import log_html
+        from opsim.notebook import log_html
 
         return log_html(self)
 

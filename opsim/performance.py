@@ -11,7 +11,7 @@ from opsim.clock import TICKS_PER_S
 
 
 class OfBlock:
-    """Row ``row`` of a block of performances (``opsim.task.Performances``), at skill rating 1."""
+    """Row ``row`` of a block of performances (``opsim.task_model.Performances``), at skill rating 1."""
 
     __slots__ = ()
     block: Any
@@ -116,7 +116,7 @@ class Performance:
         return replace(self, start_s=now_s, end_s=now_s, progress_from=self.progress_to)
 
     def _repr_html_(self) -> str:
-        from opsim.shown.performance import performance_html
+        from opsim.notebook import performance_html
 
         return performance_html(self)
 

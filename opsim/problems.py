@@ -1,11 +1,40 @@
-"""A user's mistakes: each with its place, what was found, what was expected and the nearest right word."""
+"""Natural order of names: w2 before w10, so that the order of declaration decides nothing; and names in a sentence.
+
+A user's mistakes: each with its place, what was found, what was expected and the nearest right word.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import lru_cache
 from itertools import islice
+
+_DIGITS = re.compile(r"(\d+)")
+
+
+@lru_cache(maxsize=8192)
+def natural_key(name: str) -> tuple:
+    """Sort key of a name with its numbers read as numbers; the name itself breaks ties such as ``w1`` and ``w01``."""
+    parts = _DIGITS.split(name)
+    return (*((int(part), "") if part.isdecimal() else (-1, part) for part in parts), (-2, name))
+
+
+def listed(words: Iterable[str]) -> str:
+    """Words with commas between them, the first seven of many."""
+    words = list(words)
+    return ", ".join(words) if len(words) <= 8 else ", ".join(words[:7]) + f" and {len(words) - 7} more"
+
+
+def enumerated(names: Sequence[str]) -> str:
+    """``a``, ``a and b``, ``a, b and c``; of more than six the first five."""
+    if len(names) == 1:
+        return names[0]
+    shown = list(names) if len(names) <= 6 else [*names[:5], f"{len(names) - 5} more"]
+    return f"{', '.join(shown[:-1])} and {shown[-1]}"
+
 
 MOST_SHOWN = 50
 WIDEST_LINE = 160

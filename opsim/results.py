@@ -1,10 +1,19 @@
-"""A results folder as one frozen thing."""
+"""A results folder as one frozen thing.
+
+Tables as data frames of pandas, which is needed for nothing else and imported when it is asked for.
+"""
+
+from __future__ import annotations
 
 import json
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+
+from opsim.log import COLUMNS, NAMED, NO_CAUSE, EventLog
 
 Key = tuple[str, str, str, str]
 """(kpi, subject, part, unit)"""
@@ -24,7 +33,7 @@ class Result:
     summary: dict
 
     @classmethod
-    def load(cls, folder: Path) -> "Result":
+    def load(cls, folder: Path) -> Result:
         """Read a results folder. Raises OSError or ValueError where it is none."""
         summary = read_object(folder / "summary.json", "the summary of a run")
         if "study" in summary:
@@ -40,19 +49,18 @@ class Result:
 
     def kpis(self) -> Table:
         """Every figure by replication; nan where nothing was observed. Raises OSError where it cannot be read."""
-        from opsim.log_store import connect, plain_errors
+        from opsim.log_parquet import connect, plain_errors
 
         with plain_errors(self.kpis_file), connect() as connection:
             return _tables(connection, [self.kpis_file])[0]
 
     def to_frame(self) -> Any:
         """``kpis`` as a pandas DataFrame, a row for each figure of each replication. Raises ImportError, OSError."""
-        from opsim.frames import kpi_frame
 
         return kpi_frame(self.kpis())
 
     def _repr_html_(self) -> str:
-        from opsim.shown.result import result_html
+        from opsim.notebook import result_html
 
         return result_html(self)
 
@@ -69,7 +77,7 @@ def figures_of(results: Sequence[Result], names: Collection[str]) -> list[Table]
     """
     import duckdb
 
-    from opsim.log_store import connect
+    from opsim.log_parquet import connect
 
     found: list[Table] = []
     with connect() as connection:
@@ -84,7 +92,7 @@ def figures_of(results: Sequence[Result], names: Collection[str]) -> list[Table]
 
 def _tables(connection: Any, files: Sequence[Path], names: Collection[str] | None = None) -> list[Table]:
     """The figures in each file, in the order of the replications; names : those alone."""
-    from opsim.log_store import quoted
+    from opsim.log_parquet import quoted
 
     listed = ", ".join(quoted(str(path)) for path in files)
     only = "" if names is None else f"WHERE kpi IN ({', '.join(quoted(name) for name in names)})"
@@ -154,3 +162,48 @@ def _not_a_run(folder: Path, kind: object) -> str:
     page = folder / f"{kind}.html"
     see = f": its answer is in {page}" if page.is_file() else ""
     return f"{folder}: a folder {said}, which keeps figures and no runs{see}; 'opsim run FILE.yaml' keeps runs"
+
+
+HOW = "to_frame() needs pandas, which is not installed; 'pip install opsim[frames]' gets it"
+_NUMBERED = ("job", "performance_id", "k")
+
+
+def frame(columns: Mapping[str, Any]) -> Any:
+    """A pandas DataFrame of columns by name. Raises ImportError that says what to install, where pandas is absent."""
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        raise ImportError(HOW) from None
+    return DataFrame(dict(columns))
+
+
+def frame_of_rows(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Any:
+    """A DataFrame of rows whose columns have these names; of no rows too."""
+    listed = list(rows)
+    return frame({name: [row[at] for row in listed] for at, name in enumerate(names)})
+
+
+def log_frame(log: EventLog) -> Any:
+    """A row each, names as categories; what a row does not have is missing, also a job's number (Int64)."""
+    made = frame({"replication": np.full(len(log), log.replication, np.int32)})
+    for name in COLUMNS:
+        made[name] = _column(log, name)
+    return made
+
+
+def kpi_frame(table: Mapping[tuple[str, str, str, str], Mapping[int, float]]) -> Any:
+    """Figures of a ``Result``: a row for each of each replication, as the file has them."""
+    names = ("replication", "kpi", "subject", "part", "unit", "value")
+    rows = [(replication, *key, value) for key, values in table.items() for replication, value in values.items()]
+    return frame_of_rows(names, sorted(rows, key=lambda row: row[0]))
+
+
+def _column(log: EventLog, name: str) -> Any:
+    from pandas import Categorical, arrays
+
+    if name in NAMED:
+        none = (log[name] < 0) | ((name == "cause") & (log[name] == NO_CAUSE))
+        return Categorical.from_codes(np.where(none, -1, log[name]), log.names[name])
+    if name in _NUMBERED:
+        return arrays.IntegerArray(log[name], log[name] < 0)
+    return log[name]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from opsim.names import natural_key
-from opsim.problems import Problem, ScenarioError, nearest, shown
+from opsim.problems import Problem, ScenarioError, natural_key, nearest, shown
 
 FEW = 5
 

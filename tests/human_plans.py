@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from opsim.plan import Plan, compile_plan
-from opsim.plan.human import NO_EFFECTS
+from opsim.plan.workers import NO_EFFECTS
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from opsim.report.staged import RATE_HZ, Card
-from opsim.report.video import Video
+from opsim.report.plot.animation import Video
+from opsim.report.sections.motions import CARD_RATE_HZ as RATE_HZ
+from opsim.report.sections.motions import Card
 from tests.opsim.report.test_strips import NAMES, STANDING, Skeleton
 
 SKELETON = Skeleton()

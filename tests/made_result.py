@@ -123,7 +123,7 @@ class MadeRun:
 def material(content, folder=Path("nowhere"), manifest=None, strip=b"<svg/>", siblings=()):
     """A Material of a made summary: its movements are drawn already."""
     from opsim.report.material import Material
-    from opsim.report.movements import groups_of
+    from opsim.report.sections.motions import groups_of
 
     result = MadeResult(content, folder)
     pictures = dict.fromkeys(groups_of(content["tasks"]), strip)
@@ -133,6 +133,6 @@ def material(content, folder=Path("nowhere"), manifest=None, strip=b"<svg/>", si
 
 def page(content, **other):
     """The report of a made summary, as text."""
-    from opsim.report.write import report_html
+    from opsim.report.render import report_html
 
     return report_html(material(content, **other))

@@ -10,8 +10,8 @@ from opsim.engine.floor import run_plan
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.shipped import find_scenario
-from opsim.viewer.packed import packed
-from opsim.viewer.stage import scene_of
+from opsim.viewer.build import scene_of
+from opsim.viewer.write import packed
 from tests.bench.full_shift import full_shift
 
 SECONDS = {

@@ -2,9 +2,9 @@
 
 import click
 
-from opsim.cli.study_kind import Kind, Told
-from opsim.cli.study_options import study_options
-from opsim.report.study_page import Section, StudyPage, Table
+from opsim.cli.study_options import Kind, Told, study_options
+from opsim.report.page import StudyPage, Table
+from opsim.report.page import StudySection as Section
 from opsim.study.jobs import Job, Point
 
 BUFFERS = (1, 2, 4)
@@ -35,6 +35,6 @@ KIND = Kind("sweep", study, kept)
 @click.argument("file")
 @study_options()
 def command(file, common):
-    from opsim.cli.study_verb import run_study
+    from opsim.cli.study import run_study
 
     run_study(KIND, file, common, {})

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from opsim.viewer.columns import unpacked_columns
+from opsim.viewer.skeletons import unpacked_columns
 
 TURN_S, CORNER_M = 0.4, 0.35
 

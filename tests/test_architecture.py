@@ -116,7 +116,10 @@ def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[st
         ("import opsim", {"numpy", "simpy", "pydantic"}),
         ("import emulator", {"numpy", "numba"}),
         ("import opsim.scenario.read", {"numpy", "numba", "matplotlib", "emulator"}),
-        ("import opsim.plan, opsim.tasks, opsim.scenario.risks", {"numpy", "simpy", "scipy", "matplotlib", "emulator"}),
+        (
+            "import opsim.plan, opsim.tasks, opsim.scenario.warnings",
+            {"numpy", "simpy", "scipy", "matplotlib", "emulator"},
+        ),
         ("import opsim.engine.floor", {"numba", "matplotlib", "scipy", "emulator"}),
     ],
 )

@@ -36,7 +36,7 @@ def test_commands_are_understood(name, words):
     verb = main.get_command(context, words[0])
     parsed = verb.make_context(words[0], list(words[1:]))
     if shard := parsed.params.get("shard"):
-        from opsim.study.jobs.shard import Shard
+        from opsim.study.jobs.job import Shard
 
         assert Shard.read(shard).number <= Shard.read(shard).of
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from opsim.engine.floor import run_plan
+from opsim.history import practice
 from opsim.log import FINISH
 from opsim.plan import compile_plan
-from opsim.practice import practice
 from opsim.scenario import read_scenarios
 
 DAY_S = 86_400.0

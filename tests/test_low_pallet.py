@@ -9,7 +9,7 @@ from opsim.engine.floor import run_plan
 from opsim.kpi import figures
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 BENT = "trunk_beyond_60_min_per_h"
 N = 6

@@ -10,7 +10,7 @@ import pytest
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
 from opsim.study.compare import compare
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 
 @pytest.fixture(scope="module")

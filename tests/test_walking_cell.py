@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from opsim.engine.floor import run_plan
-from opsim.ergonomics.walks import walk_again
+from opsim.ergonomics.walking import walk_again
+from opsim.history import walks_of
 from opsim.kpi import figures
-from opsim.kpi.names import WALKING
+from opsim.kpi.catalogue import WALKING
 from opsim.log import WALK
 from opsim.plan import compile_plan
-from opsim.report.walk_picture import Walk
+from opsim.report.sections.walking import FootWalk as Walk
 from opsim.results import Result
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
-from opsim.walks import walks_of
 
 N = 2
 

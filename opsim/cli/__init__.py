@@ -3,7 +3,7 @@
 import click
 
 from opsim import __version__
-from opsim.cli.verbs import Verbs
+from opsim.cli.app import Verbs
 
 
 @click.group(

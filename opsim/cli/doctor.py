@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import Verbs
+from opsim.cli.app import Verbs
 
 NOT_WELL = 2
 
@@ -30,7 +30,7 @@ def command(context: click.Context, as_json: bool) -> Any:
     from dataclasses import asdict
 
     from opsim.checkup import WRONG, findings
-    from opsim.cli.console import print_json, print_table
+    from opsim.cli.app import print_json, print_table
 
     found = findings()
     wrong = [one.what for one in found if one.state == WRONG]

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 DIFFERENT = 1
 ROW_COLUMNS = ("kind", "start_s", "end_s", "worker", "station", "source", "job", "operation", "task", "k", "cause")
@@ -28,12 +28,11 @@ def command(
 
     Nothing is written. What the fast engine does not run at all is said, with exit code 2.
     """
-    from opsim.cli.console import print_json
-    from opsim.cli.engine_option import telling
-    from opsim.cli.progress import progress
-    from opsim.cli.running import failures
-    from opsim.one_thread import lean
-    from opsim.study.both_engines import both_engines, planned
+    from opsim.cli.app import print_json
+    from opsim.cli.progress import progress, telling
+    from opsim.cli.run import failures
+    from opsim.study.engine_choice import both_engines, planned
+    from opsim.threads import lean
 
     lean()
     with mistakes():
@@ -48,7 +47,7 @@ def command(
 
 
 def _print(found: Sequence[Any]) -> None:
-    from opsim.cli.console import print_table
+    from opsim.cli.app import print_table
 
     rows = [(one.variant, one.words, f"{one.simpy_s:.3g} s", f"{one.fast_s:.3g} s", one.times) for one in found]
     print_table("opsim doctor engines", ("variant", "found", "simpy", "fast", "times as fast"), rows, words=2)
@@ -59,7 +58,7 @@ def _print(found: Sequence[Any]) -> None:
 
 def _print_difference(one: Any) -> None:
     """The row column by column, then the rows around it."""
-    from opsim.cli.console import print_table, say
+    from opsim.cli.app import print_table, say
 
     differ = one.difference
     say(f"{one.variant}, replication {one.replication}: {differ.said}")

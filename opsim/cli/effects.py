@@ -22,7 +22,7 @@ def command(effect: str | None, as_json: bool) -> None:
 
     human: {learning: {model: wright, rate: 0.85}, forgetting: {model: lfcm}}
     """
-    from opsim.cli.console import print_json
+    from opsim.cli.app import print_json
     from opsim.human.catalogue import EFFECTS, catalogue
 
     if effect is not None and effect not in EFFECTS:
@@ -37,15 +37,15 @@ def command(effect: str | None, as_json: bool) -> None:
 
 
 def _unknown(effect: str, known: tuple[str, ...]) -> Exception:
-    from opsim.cli.verbs import Mistake
+    from opsim.cli.app import Mistake
     from opsim.problems import did_you_mean
 
     return Mistake(f"no effect {effect!r}; {did_you_mean(effect, known, otherwise='effects')}")
 
 
 def _print_all(found: list[Any]) -> None:
-    from opsim.cli.console import print_table
-    from opsim.human.listing import parameters_written
+    from opsim.cli.app import print_table
+    from opsim.human.catalogue import parameters_written
 
     rows = [(one.effect, one.model, one.does, parameters_written(one)) for one in found]
     print_table("human effects", ("effect", "model", "what it does", "parameters with defaults"), rows, words=4)
@@ -56,8 +56,8 @@ def _print_all(found: list[Any]) -> None:
 
 
 def _print_one(found: list[Any]) -> None:
-    from opsim.cli.console import print_table
-    from opsim.human.listing import as_written, name_written
+    from opsim.cli.app import print_table
+    from opsim.human.catalogue import as_written, name_written
 
     columns = ("parameter", "what it is", "unit", "default", "no effect at")
     for one in found:

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 POOR = 0.05
 ALIKE = 0.3
@@ -20,7 +20,7 @@ ALIKE = 0.3
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(file: Path, column: str | None, worker: str | None, as_json: bool) -> None:
     """Fit distributions to the times in a CSV FILE: the best first, with its goodness of fit and its line of YAML."""
-    from opsim.cli.console import print_json, print_table
+    from opsim.cli.app import print_json, print_table
 
     if worker is not None and worker == column:
         raise click.UsageError(
@@ -42,8 +42,8 @@ def command(file: Path, column: str | None, worker: str | None, as_json: bool) -
 def _found(file: Path, column: str | None, worker: str | None) -> dict[str, Any]:
     import numpy as np
 
+    from opsim.csv_input import read_labels, read_times
     from opsim.fitting import between_share, fitted
-    from opsim.recorded import read_labels, read_times
 
     column = column or _other_column(file, worker)
     times_s = np.array(read_times(file, column))
@@ -68,7 +68,7 @@ def _found(file: Path, column: str | None, worker: str | None) -> dict[str, Any]
 
 def _other_column(file: Path, worker: str | None) -> str | None:
     """The only column beside that of the workers; None where there is no such."""
-    from opsim.recorded import column_names
+    from opsim.csv_input import column_names
 
     others = [] if worker is None else [name for name in column_names(file) if name != worker]
     return others[0] if len(others) == 1 else None

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from opsim.cli.verbs import Mistake, mistakes
+from opsim.cli.app import Mistake, mistakes
 
 DEFAULT = "starter"
 
@@ -21,7 +21,7 @@ def command(template: str | None, out: Path | None, only_list: bool, as_json: bo
 
     TEMPLATE: instead one of the shipped scenarios, such as repack_cell; --list shows them.
     """
-    from opsim.cli.console import print_json, print_table
+    from opsim.cli.app import print_json, print_table
 
     templates = _templates()
     if only_list:
@@ -59,8 +59,8 @@ def _known(name: str, templates: dict[str, str]) -> str:
 
 def _write(out: Path, text: str) -> Path:
     """The scenario with its schema beside it; a file that is there is never written over."""
+    from opsim.files import write_text
     from opsim.scenario.json_schema import FILE_NAME, schema_text
-    from opsim.whole import write_text
 
     if out.exists():
         raise Mistake(f"{out} is there already; name another file with -o, or remove it")

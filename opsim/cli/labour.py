@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from opsim.cli.study_kind import Asked, Kind, Told
-from opsim.cli.study_options import Common, study_options
+from opsim.cli.study_options import Asked, Common, Kind, Told, study_options
 
 if TYPE_CHECKING:
     from opsim.study.jobs import Answers
@@ -20,8 +19,7 @@ def kept(asked: Asked) -> Sequence[str]:
     Raises ValueError where there is nothing to split: before a folder is made.
     """
     from opsim.plan import compile_plan
-    from opsim.study.labour.refused import refuse_nothing
-    from opsim.study.labour.tables import kept_figures
+    from opsim.study.labour.study import kept_figures, refuse_nothing
 
     refuse_nothing(asked.loaded, compile_plan(asked.loaded, seed=asked.source.seed))
     return kept_figures(asked.block, asked.loaded)
@@ -30,9 +28,8 @@ def kept(asked: Asked) -> Sequence[str]:
 def study(asked: Asked, answers: Answers) -> Told:
     """Split, budget, buy back, tell. Raises ScenarioError, ValueError."""
     from opsim.plan import compile_plan
-    from opsim.report.labour_page import labour_page
-    from opsim.study.labour.study import labour
-    from opsim.study.labour.summary import labour_summary
+    from opsim.report.studies.labour import labour_page
+    from opsim.study.labour.study import labour, labour_summary
 
     plan = compile_plan(asked.loaded, seed=asked.source.seed)
     found = labour(asked.block, asked.loaded, plan, asked.variant, answers)
@@ -66,7 +63,7 @@ def command(file: str, common: Common, **options: Any) -> None:
 
     Other people are hired again and again (workforces), and each works several days (replications).
     """
-    from opsim.cli.study_verb import run_study
+    from opsim.cli.study import run_study
 
     run_study(KIND, file, common, _block(options))
 

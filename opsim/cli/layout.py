@@ -6,8 +6,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.study_kind import Asked, Kind, Told
-from opsim.cli.study_options import Common, study_options
+from opsim.cli.study_options import Asked, Common, Kind, Told, study_options
 
 NO_SHARDS = (
     "the proposals come out of the replications of the present layout, so what is to be simulated is not known "
@@ -32,8 +31,8 @@ def command(file: str, common: Common, **options: Any) -> None:
 
     Changes that you ask for are simulated beside the proposals: each by itself, and all of them together.
     """
-    from opsim.cli.study_verb import run_study
-    from opsim.scenario.layout_moves import split_names
+    from opsim.cli.study import run_study
+    from opsim.scenario.fields import split_names
 
     for key in ("fixed", "places"):
         options[key] = tuple(name for text in options[key] for name in split_names(text))
@@ -49,9 +48,8 @@ def kept(asked: Asked) -> tuple[str, ...]:
 
 def study(asked: Asked, answers: Any) -> Told:
     """A pure function of what is asked and of the answers to its jobs."""
-    from opsim.report.layout_json import summary
-    from opsim.report.layout_page import layout_page
-    from opsim.study.layout.study import study_layout
+    from opsim.report.studies.layout import layout_page
+    from opsim.study.layout.study import study_layout, summary
 
     found = study_layout(_asked(asked), answers)
     return Told(summary(found), layout_page(found))

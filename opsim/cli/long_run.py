@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from opsim.cli.engine_option import engine_option
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
+from opsim.cli.progress import engine_option
 
 
 @click.command("long-run")
@@ -27,15 +27,15 @@ def command(of: str, out: Path | None, name: str | None, warm_up: str | None, as
 
     A scenario FILE is run first, one long replication by default; RESULTS is the folder of a run, or of one variant.
     """
-    from opsim.cli.console import print_json
+    from opsim.cli.app import print_json
     from opsim.cli.progress import progress
-    from opsim.cli.running import Failed
-    from opsim.cli.study_told import print_study
-    from opsim.report.long_run_page import long_run_page
-    from opsim.report.study_page import write_study_page
-    from opsim.study.long_run.looked import look
-    from opsim.study.long_run.told import as_json as told
-    from opsim.whole import write_json
+    from opsim.cli.run import Failed
+    from opsim.cli.study import print_study
+    from opsim.files import write_json
+    from opsim.report.page import write_study_page
+    from opsim.report.studies.steady_state import long_run_page
+    from opsim.study.long_run.steady_state import as_json as told
+    from opsim.study.long_run.steady_state import look
 
     with mistakes():
         warm_up_s = _seconds(warm_up)
@@ -79,7 +79,7 @@ def _result(of: str, out: Path | None, name: str | None, how: dict[str, Any]) ->
         if given:
             raise ValueError(f"{', '.join(given)}: only where a scenario FILE is run; {of} is a folder of results")
         return _of_folder(folder, name)
-    from opsim.cli.running import run_variants
+    from opsim.cli.run import run_variants
     from opsim.scenario import read_scenarios
 
     known = read_scenarios(of)

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 
 @click.command("merge")
@@ -22,8 +22,8 @@ def command(folders: tuple[Path, ...], out: Path | None, file: str | None, overw
 
     What comes out is what one command without shards would have written, byte for byte.
     """
-    from opsim.cli.stopping import stopped, stops_once
-    from opsim.cli.study_verb import show
+    from opsim.cli.app import stopped, stops_once
+    from opsim.cli.study import show
 
     try:
         with stops_once(), mistakes():
@@ -45,15 +45,13 @@ def _out(folders: tuple[Path, ...], out: Path | None, overwrite: bool) -> Path:
 
 def _merged(folders: tuple[Path, ...], out: Path, file: str | None, overwrite: bool) -> tuple[Any, Any]:
     """(kind, told); nothing is written before everything is there."""
-    from opsim.cli.study_asked import asked_again, header_for
-    from opsim.cli.study_kind import kind_of
-    from opsim.cli.study_verb import said_damaged, write_study
+    from opsim.cli.study import said_damaged, write_study
+    from opsim.cli.study_options import asked_again, header_for, kind_of
     from opsim.study.jobs import Answers
-    from opsim.study.jobs.engines_file import write_together
     from opsim.study.jobs.folder import OtherStudy, open_study
-    from opsim.study.jobs.header import made_differ
-    from opsim.study.jobs.joined import copy_answers, journals_of, missing_words, one_header, one_journal
-    from opsim.study.jobs.shard import Missing
+    from opsim.study.jobs.header import made_differ, write_together
+    from opsim.study.jobs.job import Missing
+    from opsim.study.jobs.merge import copy_answers, journals_of, missing_words, one_header, one_journal
 
     held = one_header(folders)
     kind = kind_of(held.kind)

@@ -1,13 +1,17 @@
-"""``opsim report``: the report of a run once more, from what lies in its folder."""
+"""``opsim report``: the report of a run once more, from what lies in its folder.
+
+What ``report``, ``view``, ``export`` and ``sql`` may not write over: the files that results are.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 
 @click.command("report")
@@ -20,9 +24,9 @@ from opsim.cli.verbs import mistakes
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(folder: Path, names: tuple[str, ...], out: Path | None, svg: Path | None, as_json: bool) -> None:
     """Write the report of each variant in the RESULTS of a run (or of one of its variants) again; nothing is run."""
-    from opsim.cli.console import print_json
-    from opsim.cli.reporting import write_reports
-    from opsim.study.reopened import reopened
+    from opsim.cli.app import print_json
+    from opsim.cli.run import write_reports
+    from opsim.study.run import reopened
 
     with mistakes():
         beside, chosen = _variants(folder, names)
@@ -30,7 +34,7 @@ def command(folder: Path, names: tuple[str, ...], out: Path | None, svg: Path | 
         folders = None if svg is None else {name: svg / name if len(chosen) > 1 else svg for name in chosen}
         _check(beside, chosen, paths, folders or {})
         if svg is not None:
-            from opsim.report.extras import need_matplotlib
+            from opsim.report.page import need_matplotlib
 
             need_matplotlib("figures as SVG files")
         runs = {name: reopened(result.folder) for name, result in chosen.items()}
@@ -80,8 +84,7 @@ def _paths(chosen: dict[str, Any], out: Path | None) -> dict[str, Path]:
 
 def _check(beside: dict[str, Any], chosen: dict[str, Any], paths: dict[str, Path], folders: dict[str, Path]) -> None:
     """Raises ValueError with all that is wrong with files to write and rows to read. Where no rows are, none are."""
-    from opsim.cli.motion_files import wrong_folder
-    from opsim.cli.results_files import wrong_page
+    from opsim.cli.motion.files import wrong_folder
     from opsim.results import lacking_rows
 
     wrong = [words for path in paths.values() for words in wrong_page(path, beside)]
@@ -94,3 +97,30 @@ def _check(beside: dict[str, Any], chosen: dict[str, Any], paths: dict[str, Path
 def _as_json(name: str, path: Path, drawn: list[Path] | None) -> dict[str, Any]:
     figures = {} if drawn is None else {"figures": [str(one) for one in drawn]}
     return {"variant": name, "report": str(path), **figures}
+
+
+def wrong_page(out: Path, held: Mapping[str, Any]) -> list[str]:
+    """What keeps a page from being written; held : the Results that lie around. Its folder is made."""
+    from opsim.cli.motion.files import ready
+
+    try:
+        ready(out, ".html")
+    except ValueError as error:
+        return [str(error)]
+    return over_results(out, held)
+
+
+def over_results(out: Path, held: Mapping[str, Any]) -> list[str]:
+    """That ``out`` is a file of the results, by whatever path, in words."""
+    from opsim.cli.motion.files import overwritten
+
+    return overwritten(out, result=[file for result in held.values() for file in files_of(result)])
+
+
+def files_of(result: Any) -> list[Path]:
+    """The files that a variant's results are."""
+    from opsim.results import events_in
+    from opsim.study.results_folder import FINISHED, MANIFEST, RESOLVED
+
+    named = (result.folder / name for name in (MANIFEST, RESOLVED, "summary.json", FINISHED))
+    return [result.kpis_file, *named, *events_in(result.folder)]

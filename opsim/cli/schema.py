@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 
 @click.command("schema")
@@ -17,9 +17,9 @@ def command(out: Path | None, as_json: bool) -> None:
 
     # yaml-language-server: $schema=./opsim.schema.json
     """
-    from opsim.cli.console import print_json
+    from opsim.cli.app import print_json
+    from opsim.files import write_text
     from opsim.scenario.json_schema import json_schema, schema_text
-    from opsim.whole import write_text
 
     if out is None:
         print_json(json_schema())

@@ -7,9 +7,8 @@ from typing import Any
 
 import click
 
-from opsim.cli.study_kind import Asked, Kind, Told
-from opsim.cli.study_options import Common, study_options
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
+from opsim.cli.study_options import Asked, Common, Kind, Told, study_options
 
 NO_SHARDS = (
     "which replications are needed next depends on the answers so far, so they cannot be shared out beforehand; "
@@ -28,17 +27,16 @@ def kept(asked: Asked) -> tuple[str, ...]:
 
 
 def _candidates(asked: Asked) -> Any:
-    from opsim.study.select.candidates import candidates_of
+    from opsim.study.select.search import candidates_of
 
     return candidates_of(asked.block, list(asked.varied.siblings), asked.variant)
 
 
 def study(asked: Asked, answers: Any) -> Told:
     """A pure function of what is asked and its answers."""
-    from opsim.report.select_page import select_page
-    from opsim.study.select.optuna_search import OptunaSearch
-    from opsim.study.select.study import choose
-    from opsim.study.select.summary import summary_of
+    from opsim.report.studies.selection import select_page
+    from opsim.study.select.search import OptunaSearch
+    from opsim.study.select.study import choose, summary_of
 
     run = asked.loaded.scenario.run
     candidates = _candidates(asked)
@@ -81,8 +79,8 @@ def command(file: str, common: Common, vary: Sequence[str], variants: str | None
     Whoever is clearly beaten is run no further. The chosen one is looked at again on fresh replications (--replications
     says how many), beside the base. What is asked may stand in the file too, under 'studies: select:'.
     """
-    from opsim.cli.study_verb import run_study
-    from opsim.cli.sweep_vary import vary_of
+    from opsim.cli.study import run_study
+    from opsim.cli.study_options import vary_of
 
     with mistakes():
         factors = vary_of(vary)

@@ -7,9 +7,8 @@ from typing import Any
 
 import click
 
-from opsim.cli.study_kind import Asked, Kind, Told
-from opsim.cli.study_options import Common, study_options
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
+from opsim.cli.study_options import Asked, Common, Kind, Told, study_options
 
 _DESIGNS = ("grid", "one_at_a_time", "latin_hypercube", "sobol", "sobol_indices", "morris")
 
@@ -50,8 +49,8 @@ def command(file: str, common: Common, vary: Sequence[str], **options: Any) -> N
     What is asked may stand in the file too, under 'studies: sweep:'. A range goes from one value to another of the same
     unit; between whole numbers only whole numbers are taken. Paths are those of 'overrides', such as run.variability.
     """
-    from opsim.cli.study_verb import run_study
-    from opsim.cli.sweep_vary import vary_of
+    from opsim.cli.study import run_study
+    from opsim.cli.study_options import vary_of
 
     with mistakes():
         factors = vary_of(vary)

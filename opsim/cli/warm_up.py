@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from opsim.cli.verbs import mistakes
+from opsim.cli.app import mistakes
 
 
 @click.command("warm-up")
@@ -16,9 +16,9 @@ from opsim.cli.verbs import mistakes
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(folder: Path, picture: Path | None, as_json: bool) -> None:
     """Suggest a warm-up from the RESULTS of a run or of one of its variants, by MSER-5 on the average replication."""
-    from opsim.cli.console import print_json
+    from opsim.cli.app import print_json
     from opsim.results import variants_in
-    from opsim.study.warm_up import suggested_warm_up
+    from opsim.study.long_run.warm_up import suggested_warm_up
 
     with mistakes():
         if picture is not None and picture.suffix.lower() not in (".png", ".svg"):
@@ -35,7 +35,7 @@ def command(folder: Path, picture: Path | None, as_json: bool) -> None:
 
 
 def _draw(found: dict[str, Any], results: dict[str, Any], picture: Path) -> dict[str, Path]:
-    from opsim.report.warm_up_picture import draw_warm_up
+    from opsim.report.studies.steady_state import draw_warm_up
 
     named = {name: picture.with_stem(f"{picture.stem}_{name}") if len(found) > 1 else picture for name in found}
     return {
@@ -52,9 +52,9 @@ def _replications(result: Any) -> str:
 
 
 def _print(found: dict[str, Any], results: dict[str, Any]) -> None:
-    from opsim.cli.console import print_table
-    from opsim.cli.run_table import without_repeats
-    from opsim.report.words import kpi_name, quantity
+    from opsim.cli.app import print_table
+    from opsim.cli.run import without_repeats
+    from opsim.report.numbers import kpi_name, quantity
 
     rows: list[tuple[str, ...]] = []
     for name, series in found.items():
@@ -68,7 +68,7 @@ def _print(found: dict[str, Any], results: dict[str, Any]) -> None:
 
 
 def _until(of: Any) -> str:
-    from opsim.report.words import quantity
+    from opsim.report.numbers import quantity
 
     return "not found" if of.until_s is None else quantity(of.until_s, "s", 5 * of.slice_s)
 

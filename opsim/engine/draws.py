@@ -6,13 +6,13 @@ from itertools import accumulate
 
 import numpy as np
 
-from opsim.effects import worker_effect
-from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
-from opsim.plan.orders import ANY, order_of
-from opsim.plan.tools import HoldPlan, Moment
+from opsim.plan.sources import ANY, order_of
+from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, Scattered
-from opsim.task import TaskModel
+from opsim.task_model import TaskModel
+from opsim.threads import one_blas_thread
+from opsim.worker_effects import worker_effect
 
 Held = tuple[float, float, float]
 """Seconds of a performance, and the shares of it from which to which a tool is held."""

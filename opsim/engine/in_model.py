@@ -28,7 +28,7 @@ from opsim.engine.floor.worker import human_drawn, stops, works
 from opsim.engine.rules import ARRIVAL
 from opsim.log import ORDER, EventLog, LogWriter, pack_row, row
 from opsim.plan import Plan
-from opsim.plan.release import INSIDE, SCHEDULE
+from opsim.plan.sources import INSIDE, SCHEDULE
 
 FIRST, APART = 2**40, 2**32
 """Jobs that are asked for have numbers of their own in their source: the draws of all other jobs stay as they are."""

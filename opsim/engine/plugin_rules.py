@@ -28,7 +28,7 @@ class PluginRule:
 
 def plugin_rules(plan: Plan) -> list[PluginRule]:
     """Every rule that is not one of ours, each place once; sequencing also where the floor's rule is meant."""
-    from opsim.plugins.door import RULES
+    from opsim.plugins.registry import RULES
 
     return [rule for rule in dict.fromkeys(_rules(plan)) if rule.name not in RULES[rule.group]]
 

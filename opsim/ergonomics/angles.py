@@ -1,19 +1,102 @@
-"""Angles of a body, in radians, from positions (..., J, 3) whose joints have canonical names (J,).
+"""Joints by their canonical names.
+
+The body's own axes, and the trunk's. z is up; what has no direction is nan, never a direction of its own.
+
+Angles of a body, in radians, from positions (..., J, 3) whose joints have canonical names (J,).
 
 z is up. Every angle is the same wherever the body stands and whichever way it faces; in a mirrored body left and right
 change places. An angle that a posture does not have (no length, no heading, no plane to lie in) is nan.
 Not knowable from joints: twist of the forearm, grip, load, force, support.
 Every function raises ValueError where a joint it needs is missing, with the nearest that is there.
+
+A skeleton as kernels read it: whole numbers only.
+
+The measures of a posture, a column each: the one order in which arrays (..., COLUMNS) hold them.
 """
+
+from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.ergonomics.frames import SHORTEST_M, body_frame, in_frame, trunk_frame, unit
-from opsim.ergonomics.joints import both_sides_m, joints_m
 from opsim.problems import did_you_mean, shown
+
+_TRUNK = ("pelvis", "spine", "chest", "neck", "head")
+_ARM = ("shoulder", "elbow", "wrist", "hand")
+_LEG = ("hip", "knee", "ankle", "toe")
+CANONICAL = (
+    *_TRUNK,
+    *(f"{side}_{joint}" for limb in (_ARM, _LEG) for side in ("left", "right") for joint in limb),
+)
+"""The joints that angles are made of: trunk, left arm, right arm, left leg, right leg."""
+
+SIDES = ("left", "right")
+"""Their order along an axis of length 2."""
+
+
+def joints_m(positions_m: np.ndarray, names: Sequence[str], *wanted: str) -> tuple[np.ndarray, ...]:
+    """The positions (..., 3) of some joints out of (..., J, 3), which are named by ``names`` (J,).
+
+    Raises ValueError that names every joint that is missing, with the nearest that is there.
+    """
+    positions_m, known = np.asarray(positions_m, dtype=float), list(names)
+    if positions_m.shape[-2:] != (len(known), 3):
+        raise ValueError(f"positions of {len(known)} joints must be (..., {len(known)}, 3), found {positions_m.shape}")
+    missing = [f"no joint {shown(name)}; {did_you_mean(name, known)}" for name in wanted if name not in known]
+    if missing:
+        raise ValueError("\n".join(missing))
+    return tuple(positions_m[..., known.index(name), :] for name in wanted)
+
+
+def both_sides_m(positions_m: np.ndarray, names: Sequence[str], joint: str) -> np.ndarray:
+    """The positions (..., 2, 3) of a joint of the limbs, left and right. Raises ValueError as ``joints_m``."""
+    return np.stack(joints_m(positions_m, names, *(f"{side}_{joint}" for side in SIDES)), axis=-2)
+
+
+SHORTEST_M = 1e-6
+"""What is shorter has no direction."""
+
+
+def body_frame(positions_m: np.ndarray, names: Sequence[str]) -> np.ndarray:
+    """Axes of the body, (..., J, 3) -> (..., 3, 3): rows x forward, y left along the levelled hip line, z up.
+
+    x = y cross up. nan where the hip line is vertical: nobody can say then what is forward.
+    """
+    left_hip, right_hip = joints_m(positions_m, names, "left_hip", "right_hip")
+    across = left_hip - right_hip
+    left = unit(across * np.array([1.0, 1.0, 0.0]))
+    up = np.broadcast_to([0.0, 0.0, 1.0], left.shape)
+    return np.stack([np.cross(left, up), left, up + 0.0 * left], axis=-2)
+
+
+def trunk_frame(positions_m: np.ndarray, names: Sequence[str]) -> np.ndarray:
+    """Axes of the trunk, (..., J, 3) -> (..., 3, 3): rows x forward, y left along the shoulders, z from pelvis to neck.
+
+    The shoulder line is made square to the trunk. nan where the trunk has no length or the shoulders lie along it.
+    """
+    pelvis, neck = joints_m(positions_m, names, "pelvis", "neck")
+    left, right = joints_m(positions_m, names, "left_shoulder", "right_shoulder")
+    along, across = unit(neck - pelvis), left - right
+    side = unit(across - _dot(across, along)[..., None] * along)
+    return np.stack([np.cross(side, along), side, along], axis=-2)
+
+
+def in_frame(frame: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) in the axes that are the rows of ``frame`` (..., 3, 3)."""
+    return np.einsum("...ij,...j->...i", frame, vectors)
+
+
+def unit(vectors: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) at length 1; nan where shorter than ``SHORTEST_M``."""
+    lengths = np.sqrt(_dot(vectors, vectors))[..., None]
+    return vectors / np.where(lengths >= SHORTEST_M, lengths, np.nan)
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.einsum("...i,...i->...", a, b)
+
 
 NO_PLANE = 1e-6
 """A direction with less than this of its length in a plane has no angle there."""
@@ -172,3 +255,53 @@ def _bend(positions_m: np.ndarray, names: Sequence[str], *chain: str) -> np.ndar
     top, middle, end = (both_sides_m(positions_m, names, joint) for joint in chain)
     a, b = unit(middle - top), unit(end - middle)
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.einsum("...i,...i->...", a, b))
+
+
+def bone_chain(parents: Sequence[int]) -> np.ndarray:
+    """(B, 3) bone, parent and child joint of each bone, from the root outwards: a parent comes before its children.
+
+    Each joint but the root (parent -1) ends one bone; bones are numbered in the order of their joints.
+    """
+    joints = [joint for joint, parent in enumerate(parents) if parent >= 0]
+    links = [(bone, parents[joint], joint) for bone, joint in enumerate(joints)]
+    return np.array(sorted(links, key=lambda link: _depth(parents, link[2])), dtype=np.int64).reshape(-1, 3)
+
+
+def joint_places(names: Sequence[str]) -> np.ndarray:
+    """(21,) the number of each joint of ``CANONICAL`` among ``names`` (J,); J where it is missing."""
+    number = {name: joint for joint, name in enumerate(names)}
+    return np.array([number.get(name, len(names)) for name in CANONICAL], dtype=np.int64)
+
+
+def _depth(parents: Sequence[int], joint: int) -> int:
+    depth = 0
+    while parents[joint] >= 0 and depth < len(parents):
+        joint, depth = parents[joint], depth + 1
+    return depth
+
+
+ANGLES = (
+    *("trunk_flexion", "trunk_side", "trunk_twist", "neck_flexion", "neck_side"),
+    *(f"{side}_{angle}" for angle in ("arm_flexion", "arm_abduction", "arm_elevation") for side in ("left", "right")),
+    *(f"{side}_{angle}" for angle in ("elbow", "wrist", "knee") for side in ("left", "right")),
+)
+"""Degrees; nan where a posture does not have one. Arm flexion and abduction are against ``Options.arm_reference``,
+arm elevation is always against gravity; the rest as ``angles.py``. Neck flexion is less the neutral of the body."""
+LENGTHS = (
+    *("left_elbow_above_m", "right_elbow_above_m"),
+    *("left_across_m", "right_across_m", "left_outside_m", "right_outside_m"),
+    *(
+        "left_hand_up_m",
+        "right_hand_up_m",
+        "hands_forward_m",
+        "hands_left_m",
+        "left_ankle_up_m",
+        "right_ankle_up_m",
+        "pelvis_up_m",
+    ),
+)
+"""Metres: elbow above its shoulder; hand beyond the midline, and outside its own shoulder, both in the trunk's frame;
+hands above the floor (the lowest foot), the middle of the hands forward and to the left of the middle of the ankles, in
+the body's frame (level); ankles and pelvis above the floor. The wrist stands for a hand that is missing."""
+COLUMNS = (*ANGLES, *LENGTHS)
+AT = {name: place for place, name in enumerate(COLUMNS)}

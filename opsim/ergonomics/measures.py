@@ -1,19 +1,112 @@
-"""The measures of drawn performances: each cut into even parts, the posture in the middle of each part measured."""
+"""The measures of postures from the positions of joints, by ``angles.py``: the definition, written to be read.
+
+The measures of drawn performances: each cut into even parts, the posture in the middle of each part measured.
+
+What a skeleton does not tell, as sentences: which scores remain, and which become wider.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from opsim.ergonomics.angles import check_reference
-from opsim.ergonomics.chains import bone_chain, joint_places
-from opsim.ergonomics.columns import COLUMNS
+from opsim.ergonomics import angles
+from opsim.ergonomics.angles import (
+    AT,
+    CANONICAL,
+    COLUMNS,
+    SIDES,
+    body_frame,
+    bone_chain,
+    both_sides_m,
+    check_reference,
+    in_frame,
+    joint_places,
+    joints_m,
+    trunk_frame,
+    unit,
+)
 from opsim.ergonomics.options import USUAL, Options
-from opsim.ergonomics.posture_measures import measures_of_positions
 
 __all__ = ["first_measures", "has_body", "measures_of", "measures_of_joints", "measures_of_positions", "n_cells"]
+
+
+OWN_SIDE = np.array([1.0, -1.0])
+"""Which way along y the own side lies, of left and right."""
+FEET = ("left_ankle", "right_ankle", "left_toe", "right_toe")
+
+
+def measures_of_positions(
+    positions_m: np.ndarray, names: Sequence[str], options: Options = USUAL, neck_neutral_rad: float = 0.0
+) -> np.ndarray:
+    """Joints (..., J, 3) in metres, z up, named by ``names`` (J,) -> measures (..., COLUMNS) as ``columns.py`` says.
+
+    A measure is nan where the skeleton lacks a joint it needs, or a posture does not have it. In lengths the wrist
+    stands for a hand that is missing; the floor is the lowest of the ankles and toes that there are: without toes it
+    is as high as an ankle (``missing_scores`` says so).
+    Raises ValueError where positions are not (..., J, 3), or for an unknown reference of arms.
+    """
+    body = _canonical(np.asarray(positions_m, dtype=float), names)
+    out = np.empty((*body.shape[:-2], len(COLUMNS)))
+    for name, values in {**_angles_deg(body, options, neck_neutral_rad), **_lengths_m(body)}.items():
+        out[..., AT[name]] = values
+    return out
+
+
+def _canonical(positions_m: np.ndarray, names: Sequence[str]) -> np.ndarray:
+    """(..., 21, 3) the joints that measures are made of; nan where a joint is missing."""
+    here = [name for name in CANONICAL if name in names]
+    found = np.full((*positions_m.shape[:-2], len(CANONICAL), 3), np.nan)
+    for name, joint_m in zip(here, joints_m(positions_m, names, *here)):
+        found[..., CANONICAL.index(name), :] = joint_m
+    return found
+
+
+def _angles_deg(body: np.ndarray, options: Options, neck_neutral_rad: float) -> dict[str, np.ndarray]:
+    trunk = angles.trunk_angles(body, CANONICAL)
+    neck = angles.neck_angles(body, CANONICAL, neck_neutral_rad)
+    arms = angles.upper_arm_angles(body, CANONICAL, options.arm_reference)
+    found = {"trunk_flexion": trunk.flexion_rad, "trunk_side": trunk.side_bend_rad, "trunk_twist": trunk.twist_rad}
+    found |= {"neck_flexion": neck.flexion_rad, "neck_side": neck.side_bend_rad}
+    found |= _sided("arm_flexion", arms.flexion_rad) | _sided("arm_abduction", arms.abduction_rad)
+    found |= _sided("arm_elevation", _elevation_rad(body))
+    found |= _sided("elbow", angles.elbow_bend_rad(body, CANONICAL))
+    found |= _sided("wrist", angles.wrist_bend_rad(body, CANONICAL))
+    found |= _sided("knee", angles.knee_bend_rad(body, CANONICAL))
+    return {name: np.rad2deg(angle) for name, angle in found.items()}
+
+
+def _lengths_m(body: np.ndarray) -> dict[str, np.ndarray]:
+    shoulder, elbow, wrist, hand, ankle = (
+        both_sides_m(body, CANONICAL, joint) for joint in ("shoulder", "elbow", "wrist", "hand", "ankle")
+    )
+    hand = np.where(np.isnan(hand).any(axis=-1, keepdims=True), wrist, hand)
+    pelvis, neck, *feet = joints_m(body, CANONICAL, "pelvis", "neck", *FEET)
+    floor_m = np.fmin.reduce([foot[..., 2] for foot in feet])
+    trunk = trunk_frame(body, CANONICAL)[..., None, :, :]
+    outside = in_frame(trunk, hand - shoulder)[..., 1] * OWN_SIDE
+    across = -in_frame(trunk, hand - neck[..., None, :])[..., 1] * OWN_SIDE
+    reach = in_frame(body_frame(body, CANONICAL), (hand.mean(axis=-2) - ankle.mean(axis=-2)))
+    found = _sided("elbow_above_m", elbow[..., 2] - shoulder[..., 2])
+    found |= _sided("across_m", across) | _sided("outside_m", outside)
+    found |= _sided("hand_up_m", hand[..., 2] - floor_m[..., None])
+    found |= {"hands_forward_m": reach[..., 0], "hands_left_m": reach[..., 1]}
+    return found | _sided("ankle_up_m", ankle[..., 2] - floor_m[..., None]) | {"pelvis_up_m": pelvis[..., 2] - floor_m}
+
+
+def _elevation_rad(body: np.ndarray) -> np.ndarray:
+    """(..., 2) of the upper arms against gravity; no heading is asked for, so hips do not matter."""
+    shoulder, elbow = (both_sides_m(body, CANONICAL, joint) for joint in ("shoulder", "elbow"))
+    u = unit(elbow - shoulder)
+    return np.arctan2(np.hypot(u[..., 0], u[..., 1]), -u[..., 2])
+
+
+def _sided(name: str, both: np.ndarray) -> dict[str, np.ndarray]:
+    """Of (..., 2), by the names of both sides."""
+    return {f"{side}_{name}": both[..., place] for place, side in enumerate(SIDES)}
+
 
 MOST_CELLS = 2**16
 """Of one performance: at 12 a second those longer than 91 minutes are looked at less often."""
@@ -71,7 +164,7 @@ def measures_of_joints(
 
     Raises ValueError as that does.
     """
-    from opsim.ergonomics.kernels.measuring import measure_joints
+    from opsim.ergonomics.kernels.postures import measure_joints
 
     positions_m, said = np.asarray(positions_m, dtype=float), (len(names), 3)
     if positions_m.shape[-2:] != said:
@@ -95,7 +188,7 @@ def _in_the_middles(block: Any, options: Options, neck_neutral_rad: float, out: 
 
 def _by_directions(block: Any, shares: np.ndarray, options: Options, neck_neutral_rad: float, out: np.ndarray) -> None:
     """Measures of all of a block into out (n, C, COLUMNS) at shares (C,) of its times, from bones alone."""
-    from opsim.ergonomics.kernels.measuring import measure_hung
+    from opsim.ergonomics.kernels.postures import measure_hung
 
     check_reference(options.arm_reference)
     directions = np.asarray(block.directions(times_s=np.asarray(block.duration_s)[:, None] * shares))
@@ -134,3 +227,81 @@ def _check(block: Any, what: str, found: np.ndarray, expected: tuple[int, ...]) 
 
 def _gravity(options: Options) -> bool:
     return options.arm_reference == "gravity"
+
+
+TRUNK = ("pelvis", "neck", "left_hip", "right_hip")
+SHOULDERS = ("left_shoulder", "right_shoulder")
+
+
+def missing_scores(names: Sequence[str]) -> list[str]:
+    """Sentences, none where a skeleton of joints ``names`` has all that RULA, REBA and OWAS look at.
+
+    A sub-score that cannot be seen counts as anything from its lowest to its highest; what none can be made of is said.
+    """
+    gone = [joint for joint in CANONICAL if joint not in names]
+    return list(_sentences(set(gone)))
+
+
+def _sentences(gone: set[str]) -> Iterator[str]:
+    all_scores = "RULA, REBA and OWAS"
+    trunk = _listed(gone, TRUNK)
+    if trunk:
+        bent = "trunk and knees are" if gone & {"left_hip", "right_hip"} else "the trunk is"
+        yield f"no {trunk}: how far {bent} bent is not known, and {all_scores} are wider by all that it may be"
+    shoulders = _listed(gone, SHOULDERS)
+    if shoulders:
+        yield f"no {shoulders}: twist of the trunk, neck and upper arms are not known: {all_scores} are wider by all"
+    if "head" in gone:
+        yield "no head: the neck is not known, so RULA and REBA are wider by all that it may be; OWAS does not ask"
+    yield from _arm(gone)
+    legs = _listed(gone, tuple(f"{side}_{joint}" for joint in ("knee", "ankle") for side in SIDES))
+    if legs:
+        yield f"no {legs}: how far knees are bent is not known, so REBA and OWAS are wider; RULA does not ask"
+    yield from _feet(gone)
+
+
+def _feet(gone: set[str]) -> Iterator[str]:
+    """What heights and reaches of the hands are made of; no score asks for them, NIOSH and Garg do."""
+    ankles, toes = (_listed(gone, _both(joint)) for joint in ("ankle", "toe"))
+    if ankles:
+        yield (
+            f"no {ankles}: how far the hands are from them is not known, so no lift is seen: there is no lifting "
+            "index, and energy has none of it"
+        )
+    elif toes == "toes":
+        yield (
+            "no toes: the floor is taken where the lower ankle is, so in lifts and bends hands are lower than they "
+            "are, by the height of an ankle; RULA, REBA and OWAS do not ask"
+        )
+
+
+def _arm(gone: set[str]) -> Iterator[str]:
+    elbows, wrists, hands = (_listed(gone, _both(joint)) for joint in ("elbow", "wrist", "hand"))
+    if elbows:
+        yield f"no {elbows}: upper arm and elbow are not known, so RULA, REBA and OWAS are wider by both"
+    if wrists:
+        both = _listed(gone, (*_both("wrist"), *_both("hand")))
+        yield (
+            f"no {both}: how far elbow and wrist are bent is not known, so RULA and REBA are wider by both; OWAS "
+            "does not ask"
+        )
+    elif hands:
+        yield (
+            f"no {hands}: how far the wrist is bent is not known, so RULA and REBA are wider by it; OWAS does not ask. "
+            "Heights and reaches are those of the wrist"
+        )
+
+
+def _both(joint: str) -> tuple[str, ...]:
+    return tuple(f"{side}_{joint}" for side in SIDES)
+
+
+def _listed(gone: set[str], joints: Sequence[str]) -> str:
+    """Those that are gone, in words: "wrists" where both sides are, else by name."""
+    words: list[str] = []
+    for joint in joints:
+        other = joint.removeprefix("left_").removeprefix("right_")
+        both = other != joint and set(_both(other)) <= gone
+        word = f"{other}s" if both else joint.replace("_", " ")
+        words += [word] if joint in gone and word not in words else []
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}" if words else ""

@@ -4,8 +4,8 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "KPIS": "opsim.kpi.names",
-    "Figure": "opsim.kpi.figure",
+    "KPIS": "opsim.kpi.catalogue",
+    "Figure": "opsim.kpi.catalogue",
     "figures": "opsim.kpi.table",
     "samples": "opsim.kpi.table",
 }

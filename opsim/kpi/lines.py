@@ -1,14 +1,92 @@
-"""Paced lines: jobs that left them unfinished, and how long they stood, and why."""
+"""Crews: where on the line jobs pass from one member to the next, and how often.
+
+Paced lines: jobs that left them unfinished, and how long they stood, and why.
+
+What is scrapped, reworked, and leaves with a defect that nobody found.
+"""
+
+from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from opsim import log as kinds
-from opsim.kpi.figure import Figure
-from opsim.kpi.values import in_window, inside_s, window_length_s
-from opsim.log import JOB_KINDS, SENT_ON, STANDS, EventLog
+from opsim.kpi.catalogue import Figure
+from opsim.kpi.window import SECONDS_PER_HOUR, in_window, inside_s, mean, units_each, window_length_s
+from opsim.log import BAD, FALSE_ALARM, FINISH, JOB_KINDS, REWORK, SCRAP, SENT_ON, STANDS, WORK, EventLog
 from opsim.plan import LinePlan, Plan
+from opsim.plan.lines import BUCKET_BRIGADE, CrewPlan
+
+
+@dataclass(frozen=True, slots=True)
+class HandOvers:
+    """Those of one crew in the order of time, each array (n,).
+
+    at_s     : when who took the job on began; before, after : ranks of the workers, of whom who gave it and who took it
+    position : share of the job's work at the crew's stations that was done then, by mean times
+    """
+
+    at_s: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    position: np.ndarray
+
+
+def hand_overs(log: EventLog, plan: Plan, crew: CrewPlan) -> HandOvers:
+    """All hand-overs of a crew: a job is worked on by one member, then by another, at any of its stations.
+
+    Automatic work counts as done, and as nobody's. A job that is reworked may come to more than 1.
+    """
+    rows = np.flatnonzero((log["kind"] == WORK) & np.isin(log["station"], crew.stations))
+    rows = rows[np.lexsort([log["start_s"][rows], log["job"][rows]])]
+    task_s = np.array([task.model.mean_duration_s() for task in plan.tasks])
+    work_s = (log["progress_to"][rows] - log["progress_from"][rows]) * task_s[log["task"][rows]]
+    done_s, job = np.cumsum(work_s) - work_s, log["job"][rows]
+    first = np.flatnonzero(np.r_[True, job[1:] != job[:-1]]) if rows.size else np.array([], dtype=int)
+    done_s -= np.repeat(done_s[first], np.diff(np.r_[first, rows.size]))
+    share = done_s / _work_s(plan, crew)[log["product"][rows]]
+    manned = log["worker"][rows] >= 0
+    rows, share, job = rows[manned], share[manned], job[manned]
+    worker = log["worker"][rows]
+    changed = np.flatnonzero((job[1:] == job[:-1]) & (worker[1:] != worker[:-1])) + 1
+    changed = changed[np.argsort(log["start_s"][rows[changed]], kind="stable")]
+    return HandOvers(log["start_s"][rows[changed]], worker[changed - 1], worker[changed], share[changed])
+
+
+def _work_s(plan: Plan, crew: CrewPlan) -> np.ndarray:
+    """(products,) mean seconds of the work that a job of each product has at the stations of a crew."""
+    found = np.full(len(plan.products), np.nan)
+    for rank, product in enumerate(plan.products):
+        steps = [step.stations[0] for step in product.route if set(step.stations) <= set(crew.stations)]
+        tasks = [plan.tasks[task] for station in steps for task in plan.stations[station].tasks]
+        found[rank] = sum(task.mean_s() * (1 if task.per_lot else product.lot) for task in tasks) or np.nan
+    return found
+
+
+def crews(log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """Of each crew: hand-overs an hour, and for each pair of members where on the line they are on average.
+
+    A pair that hands nothing over in the window has no position. Source: Bartholdi & Eisenstein 1996, A production line
+    that balances itself, Operations Research 44(1).
+    """
+    for crew in plan.crews:
+        found = hand_overs(log, plan, crew)
+        here = in_window(found.at_s, plan)
+        rate = np.count_nonzero(here) / window_length_s(plan) * SECONDS_PER_HOUR
+        yield Figure("hand_overs_per_h", crew.name, "", "1/h", rate)
+        for first, second in _pairs(crew):
+            theirs = here & (found.before == first) & (found.after == second)
+            names = f"{plan.workers[first].name} to {plan.workers[second].name}"
+            yield Figure("handoff_position", crew.name, names, "share", mean(found.position[theirs]))
+
+
+def _pairs(crew: CrewPlan) -> Iterator[tuple[int, int]]:
+    """Neighbours of a bucket brigade, from the start of its line."""
+    if crew.kind == BUCKET_BRIGADE:
+        yield from zip(crew.workers, crew.workers[1:])
+
 
 WHY = {"unfinished": kinds.UNFINISHED, "full": kinds.FULL, "down": kinds.IS_DOWN, "closed": kinds.CLOSED}
 WHY |= {"away": kinds.AWAY}
@@ -81,3 +159,57 @@ def _steps_after(product, line: LinePlan) -> set[int]:
     """Steps of a product's route that follow the last station of a line."""
     lasts = [step for step, operation in enumerate(product.route) if line.stations[-1] in operation.stations]
     return {onward for step in lasts for _, onward in product.onward[step] if onward >= 0}
+
+
+def quality(log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """Where something can go wrong, in units (a lot is good or bad as a whole), of the window:
+
+    scrap_per_h  : in all, and by the station where it was found
+    scrap_share  : of what left the floor, as finished or as scrap
+    first_pass_yield : share of what left that was good at the first go: not scrapped, never reworked, without a defect
+    defects_out_share : share of what was finished that has a defect
+    rework_per_h : in all, and by the station that found it; a job that is reworked twice counts twice
+    false_alarm_share : of what was reworked or scrapped after an inspection, the share that was good
+    """
+    leaves_defects = bool(plan.quality) or any(line.sends_on for line in plan.lines)
+    if not leaves_defects and not any(stop.job == "scrap" for stop in plan.breakdowns):
+        return
+    hours, units = window_length_s(plan) / SECONDS_PER_HOUR, units_each(plan)
+    scrapped, finished, reworked = (_rows(log, plan, kind) for kind in (SCRAP, FINISH, REWORK))
+    yield from _by_station("scrap_per_h", log, plan, scrapped, hours)
+    n_scrapped, n_finished = (units[log["product"][rows]].sum() for rows in (scrapped, finished))
+    yield Figure("scrap_share", "", "", "share", _ratio(n_scrapped, n_scrapped + n_finished))
+    if not leaves_defects:
+        return
+    good = finished[log["cause"][finished] != BAD]
+    at_once = good[~np.isin(log["job"][good], log["job"][log["kind"] == REWORK])]
+    n_good, n_at_once = (units[log["product"][rows]].sum() for rows in (good, at_once))
+    yield Figure("first_pass_yield", "", "", "share", _ratio(n_at_once, n_scrapped + n_finished))
+    yield Figure("defects_out_share", "", "", "share", _ratio(n_finished - n_good, n_finished))
+    if any(plan_of_station.back for plan_of_station in plan.quality):
+        yield from _by_station("rework_per_h", log, plan, reworked, hours)
+    turned_down = np.r_[scrapped, reworked]
+    cause = log["cause"][turned_down]
+    n_false, n_bad = (units[log["product"][turned_down[cause == kind]]].sum() for kind in (FALSE_ALARM, BAD))
+    if any(plan_of_station.false_alarms for plan_of_station in plan.quality):
+        yield Figure("false_alarm_share", "", "", "share", _ratio(n_false, n_false + n_bad))
+
+
+def _rows(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
+    """Numbers of the rows of a kind in the window."""
+    rows = np.flatnonzero(log["kind"] == kind)
+    return rows[in_window(log["end_s"][rows], plan)]
+
+
+def _by_station(kpi: str, log: EventLog, plan: Plan, rows: np.ndarray, hours: float) -> Iterator[Figure]:
+    """Units an hour of some rows, in all and of each station that has some or could."""
+    units = units_each(plan)[log["product"][rows]]
+    yield Figure(kpi, "", "", "1/h", units.sum() / hours)
+    stations = {one.station for one in plan.quality if one.inspects and (one.back or kpi == "scrap_per_h")}
+    here = log["station"][rows]
+    for rank in sorted(stations | set(here[here >= 0].tolist())):
+        yield Figure(kpi, plan.stations[rank].name, "", "1/h", units[here == rank].sum() / hours)
+
+
+def _ratio(part: float, whole: float) -> float:
+    return float(part / whole) if whole else float("nan")

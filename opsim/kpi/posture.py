@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.ergonomics.exposure import DEGREES, Exposure, trunk_exposure
+from opsim.ergonomics.trunk import DEGREES, Exposure, trunk_exposure
 from opsim.ergonomics.walking import Walked, walking_exposure
-from opsim.kpi.duty import present_s
-from opsim.kpi.figure import Figure
-from opsim.kpi.values import SECONDS_PER_HOUR
+from opsim.kpi.catalogue import Figure
+from opsim.kpi.window import SECONDS_PER_HOUR
+from opsim.kpi.workers import present_s
 from opsim.log import EventLog
 from opsim.plan import Plan
 

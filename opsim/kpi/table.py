@@ -4,34 +4,24 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from opsim.kpi.active import active_time
-from opsim.kpi.balance import line_balance
-from opsim.kpi.bottleneck import bottleneck
-from opsim.kpi.crews import crews
-from opsim.kpi.cycle import cycle_times, durations, task_durations, work_by_visit
-from opsim.kpi.due import due_dates
-from opsim.kpi.duty import duty
+from opsim.kpi.catalogue import POSTURE, TRIPS, Figure
+from opsim.kpi.cycle_times import cycle_times, durations, oee, task_durations, work_by_visit
 from opsim.kpi.exposure import exposure
-from opsim.kpi.fatigue import fatigue
-from opsim.kpi.figure import Figure
-from opsim.kpi.flow import lost, throughput, time_in_system, times_in_system, work_in_progress
-from opsim.kpi.human import learned
-from opsim.kpi.interruptions import interruptions
-from opsim.kpi.lines import lines
-from opsim.kpi.names import POSTURE, TRIPS
-from opsim.kpi.oee import oee
-from opsim.kpi.outages import outages
+from opsim.kpi.lines import crews, lines, quality
 from opsim.kpi.posture import trunk_flexion
-from opsim.kpi.quality import quality
-from opsim.kpi.states import worker_states
-from opsim.kpi.station_states import station_states
-from opsim.kpi.stops import stops
-from opsim.kpi.stores import conveyors, stores
-from opsim.kpi.takt import takt
-from opsim.kpi.tools import tools
-from opsim.kpi.trips import trips
-from opsim.kpi.vehicles import transporters
-from opsim.kpi.walking import walked
+from opsim.kpi.resources import conveyors, outages, stops, stores, tools, transporters
+from opsim.kpi.states import active_time, bottleneck, station_states, worker_states
+from opsim.kpi.throughput import (
+    due_dates,
+    line_balance,
+    lost,
+    takt,
+    throughput,
+    time_in_system,
+    times_in_system,
+    work_in_progress,
+)
+from opsim.kpi.workers import duty, fatigue, interruptions, learned, trips, walked
 from opsim.log import EventLog
 from opsim.plan import Plan
 

@@ -2,19 +2,10 @@
 
 from collections.abc import Callable, Iterator
 
-from opsim.laws.away import away
-from opsim.laws.closed import closed
-from opsim.laws.duty import duty
-from opsim.laws.fatigue import rests, shifts
-from opsim.laws.jobs import conserved, integral, tiled
-from opsim.laws.outages import outages
-from opsim.laws.pace import pace
-from opsim.laws.places import places
-from opsim.laws.progress import progress
-from opsim.laws.rooms import rooms
-from opsim.laws.shared import shared
-from opsim.laws.stays import Stays
-from opsim.laws.workers import one_state
+from opsim.laws.capacity import away, outages, rooms, shared
+from opsim.laws.effects import pace, rests, shifts
+from opsim.laws.hours import closed, duty
+from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
 from opsim.log import EventLog
 from opsim.plan import Plan
 

@@ -1,11 +1,18 @@
-"""Paced lines: stations whose jobs move together."""
+"""Paced lines: stations whose jobs move together.
+
+Crews: people who share a line by a rule of their own.
+
+Work sharing: the last tasks of a station, which the next one may do instead.
+"""
+
+from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
 
 from opsim.clock import TICKS_PER_S, on_grid
-from opsim.names import natural_key
-from opsim.plan.ranks import Ranks, ranked
+from opsim.plan.tasks import Ranks, ranked
+from opsim.problems import natural_key
 
 INDEXED, MOVING = "indexed", "moving"
 STOP, SEND_ON = "stop", "send_on"
@@ -100,3 +107,71 @@ def _moving(plan: LinePlan, line) -> LinePlan:
 def _line_s(seconds: float) -> float:
     """A time on the line's clock, on the grid; it may be 0, where a delay may not."""
     return round(seconds * TICKS_PER_S) / TICKS_PER_S
+
+
+BUCKET_BRIGADE, RABBIT_CHASE = "bucket_brigade", "rabbit_chase"
+
+
+@dataclass(frozen=True, slots=True)
+class CrewPlan:
+    """stations, workers : ranks, in the order of the line; of a brigade, from who begins jobs to who ends them."""
+
+    name: str
+    kind: str
+    stations: tuple[int, ...]
+    workers: tuple[int, ...]
+
+
+def kept_from(worker: str, scenario) -> set[str]:
+    """Stations where somebody does not work, skill or not: those of crews he is not in, and of a member all others."""
+    theirs = {station for crew in scenario.crews.values() for station in crew.stations}
+    own = {station for crew in scenario.crews.values() if worker in crew.workers for station in crew.stations}
+    return set(scenario.stations) - own if own else theirs
+
+
+def plan_crews(scenario, ranks: Ranks) -> tuple[CrewPlan, ...]:
+    """All crews in natural order of names."""
+    people = ranked(scenario.workers)
+    return tuple(
+        CrewPlan(
+            name,
+            crew.kind,
+            tuple(ranks.stations[station] for station in crew.stations),
+            tuple(people[worker] for worker in crew.workers),
+        )
+        for name, crew in sorted(scenario.crews.items(), key=lambda item: natural_key(item[0]))
+    )
+
+
+FILLED = {"half_full": 0.5, "full": 1.0}
+"""By word: the share of the next station's buffer from which on a station does the shared work itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class SharePlan:
+    """station, partner : ranks of the two; tasks : the last of the first, which may be done first at the other
+
+    In the Plan they are tasks of ``station``, so that loads count them there.
+
+    filled : the share of the partner's buffer from which on the station does them itself
+    """
+
+    station: int
+    partner: int
+    tasks: tuple[int, ...]
+    filled: float
+
+
+def plan_shares(scenario, ranks: Ranks) -> tuple[SharePlan, ...]:
+    """All of them in natural order of stations."""
+    shares = (
+        SharePlan(
+            ranks.stations[name],
+            ranks.stations[station.share.partner],
+            tuple(ranks.tasks[task] for task in station.share.tasks),
+            FILLED[station.share.when],
+        )
+        for name, station in scenario.stations.items()
+        if station.share is not None
+    )
+    return tuple(sorted(shares, key=lambda share: share.station))

@@ -1,32 +1,24 @@
-"""The Plan: one frozen thing that says everything an engine has to know."""
+"""The Plan: one frozen thing that says everything an engine has to know.
 
-from dataclasses import dataclass
+A Plan as far as its run has come.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 from opsim.ergonomics.options import USUAL, Options
-from opsim.names import natural_key
-from opsim.plan.assembly import BatchPlan, KitPlan
-from opsim.plan.calendar import ShiftPlan
-from opsim.plan.cards import CardPlan
-from opsim.plan.conveyors import ConveyorPlan
-from opsim.plan.crews import CrewPlan
-from opsim.plan.failures import BreakdownPlan, MaintenancePlan, RepairTeamPlan
-from opsim.plan.human import NO_EFFECTS, HumanPlan
-from opsim.plan.lines import LinePlan
-from opsim.plan.material import ProductPlan
-from opsim.plan.quality import QualityPlan
-from opsim.plan.release import SourcePlan
-from opsim.plan.rotations import RotationPlan
+from opsim.plan.calendar import OPEN, Duty, ShiftPlan
+from opsim.plan.lines import CrewPlan, LinePlan, SharePlan
+from opsim.plan.products import ProductPlan, QualityPlan
+from opsim.plan.resources import BreakdownPlan, MaintenancePlan, RepairTeamPlan, TransporterPlan
 from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
-from opsim.plan.setup import SetupPlan
-from opsim.plan.splits import SplitPlan
-from opsim.plan.station import StationPlan
-from opsim.plan.stores import StorePlan
-from opsim.plan.tasks import TaskPlan
-from opsim.plan.tools import ToolPlan
-from opsim.plan.transporters import TransporterPlan
-from opsim.plan.walking import WalkingPlan
-from opsim.plan.work_sharing import SharePlan
-from opsim.plan.worker import WorkerPlan
+from opsim.plan.sources import SourcePlan
+from opsim.plan.stations import ConveyorPlan, StationPlan
+from opsim.plan.stores import BatchPlan, CardPlan, KitPlan, SplitPlan, StorePlan
+from opsim.plan.tasks import SetupPlan, TaskPlan, ToolPlan
+from opsim.plan.workers import NO_EFFECTS, HumanPlan, RotationPlan, WalkingPlan, WorkerPlan
+from opsim.problems import natural_key
 
 FIXED_WORKFORCE = 0
 """The number of the people who work in every replication, where staffing is fixed."""
@@ -39,7 +31,7 @@ class Plan:
     distance_m : (P, P) metres between places
     rule, when_blocked, idle : named rules of allocation
     staffing : ``fixed`` (the same people in every replication) or ``redrawn``
-    across_tasks : how a worker's effects in different tasks go together, one of ``opsim.effects.ACROSS_TASKS``
+    across_tasks : how a worker's effects in different tasks go together, one of ``opsim.worker_effects.ACROSS_TASKS``
     walking : whose postures walks have; None where walking is time alone
     quality : of the stations where something goes wrong, or is looked at; tools : what stations and tasks share
     queues : those that are not simply first come, first served; routing : the rule by which one of several stations is
@@ -120,7 +112,7 @@ class Plan:
         return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
 
     def _repr_html_(self) -> str:
-        from opsim.shown.scenario import plan_html
+        from opsim.notebook import plan_html
 
         return plan_html(self)
 
@@ -129,3 +121,40 @@ class Plan:
         """Names of all operations, in natural order."""
         names = {operation.name for product in self.products for operation in product.route}
         return tuple(sorted(names, key=natural_key))
+
+
+def until(plan: Plan, end_s: float) -> Plan:
+    """The Plan with its horizon at an earlier time, in seconds from its start; no warm-up where that is not over."""
+    if end_s >= plan.horizon_s:
+        return plan
+    return replace(
+        plan,
+        horizon_s=end_s,
+        warm_up_s=plan.warm_up_s if plan.warm_up_s < end_s else 0.0,
+        stations=tuple(replace(one, open_s=_open_until(one.open_s, end_s)) for one in plan.stations),
+        sources=tuple(
+            replace(
+                one,
+                open_s=_open_until(one.open_s, end_s),
+                orders=tuple(order for order in one.orders if order.time_s <= end_s),
+            )
+            for one in plan.sources
+        ),
+        workers=tuple(replace(one, duties=_duties_until(one.duties, end_s)) for one in plan.workers),
+    )
+
+
+def _open_until(open_s: OPEN | None, end_s: float) -> OPEN | None:
+    if open_s is None:
+        return None
+    return tuple((from_s, min(to_s, end_s)) for from_s, to_s in open_s if from_s < end_s)
+
+
+def _duties_until(duties: tuple[Duty, ...] | None, end_s: float) -> tuple[Duty, ...] | None:
+    return None if duties is None else tuple(_cut(one, end_s) for one in duties if one.start_s < end_s)
+
+
+def _cut(duty: Duty, end_s: float) -> Duty:
+    pauses = tuple(replace(one, end_s=min(one.end_s, end_s)) for one in duty.pauses if one.start_s < end_s)
+    cut = duty.cut or duty.end_s > end_s
+    return replace(duty, end_s=min(duty.end_s, end_s), pauses=pauses, cut=cut)

@@ -3,11 +3,10 @@
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from opsim.plan.material import ProductPlan, onward_probabilities
-from opsim.plan.ranks import Ranks
-from opsim.plan.release import SourcePlan
-from opsim.plan.station import StationPlan
-from opsim.plan.tasks import TaskPlan
+from opsim.plan.products import ProductPlan, onward_probabilities
+from opsim.plan.sources import SourcePlan
+from opsim.plan.stations import StationPlan
+from opsim.plan.tasks import Ranks, TaskPlan
 
 FIFO = "fifo"
 SHORTEST_QUEUE = "shortest_queue"

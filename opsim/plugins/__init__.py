@@ -2,7 +2,7 @@
 
 | group | an entry point names |
 |---|---|
-| ``opsim.emulators`` | a callable that takes parameters by name and gives a TaskModel (``opsim/task.py``) |
+| ``opsim.emulators`` | a callable that takes parameters by name and gives a TaskModel (``opsim/task_model.py``) |
 | ``opsim.dispatch`` | a rule: a callable with the arguments of those in ``engine/rules/allocation.py``, giving a key |
 | ``opsim.sequencing`` | which waiting job is next, by ``flow.dispatch``: as those in ``engine/rules/sequencing.py`` |
 | ``opsim.routing`` | which of several stations it goes to, by ``flow.routing``: those in ``engine/rules/routing.py`` |
@@ -19,13 +19,13 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "NoSuchPlugin": "opsim.plugins.blame",
-    "PluginError": "opsim.plugins.blame",
-    "dispatch_rule": "opsim.plugins.door",
-    "plugin_model": "opsim.plugins.parameters",
-    "plugin_problems": "opsim.plugins.parameters",
-    "plugins": "opsim.plugins.door",
-    "rule_of": "opsim.plugins.door",
+    "NoSuchPlugin": "opsim.plugins.guard",
+    "PluginError": "opsim.plugins.guard",
+    "dispatch_rule": "opsim.plugins.registry",
+    "plugin_model": "opsim.plugins.registry",
+    "plugin_problems": "opsim.plugins.registry",
+    "plugins": "opsim.plugins.registry",
+    "rule_of": "opsim.plugins.registry",
 }
 __all__ = ["NoSuchPlugin", "PluginError", "dispatch_rule", "plugin_model", "plugin_problems", "plugins", "rule_of"]
 

@@ -7,10 +7,10 @@ from typing import Any
 
 _HOMES = {
     "Material": "opsim.report.material",
-    "draw_strips": "opsim.report.strips",
+    "draw_strips": "opsim.report.sections.motions",
     "materials": "opsim.report.material",
-    "report_html": "opsim.report.write",
-    "write_report": "opsim.report.write",
+    "report_html": "opsim.report.render",
+    "write_report": "opsim.report.render",
 }
 __all__ = ["Material", "draw_strips", "materials", "report_html", "write_report"]
 

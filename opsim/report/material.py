@@ -1,4 +1,7 @@
-"""What a report is made from: the figures of a run, and the rows of one replication with the plan they came from."""
+"""What a report is made from: the figures of a run, and the rows of one replication with the plan they came from.
+
+The very same thing as a key of what is worked out once, though it could not be one by its value.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from opsim.names import natural_key
-from opsim.study.reopened import Reopened
+from opsim.problems import natural_key
+from opsim.study.run import Reopened
 
 
 @dataclass(frozen=True)
@@ -67,3 +70,16 @@ def materials(runs: Mapping[str, Reopened], results: Mapping[str, Any]) -> Itera
 def in_order(names: Iterable[str]) -> list[str]:
     """What is called base first, then in natural order: one order, whoever writes the report."""
     return sorted(names, key=lambda name: (name != "base", natural_key(name)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Same:
+    """Equal where it holds the very same: reports of all variants of a run share their siblings, tasks their models."""
+
+    of: Any
+
+    def __hash__(self) -> int:
+        return id(self.of)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Same) and other.of is self.of

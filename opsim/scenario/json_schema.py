@@ -12,10 +12,10 @@ from typing import Any
 import yaml
 
 from opsim import units
-from opsim.kpi.names import KPIS
+from opsim.kpi.catalogue import KPIS
 from opsim.scenario.fields import NAME_PATTERN
-from opsim.scenario.like import SECTIONS
 from opsim.scenario.schema import KIND_KEYS, Scenario
+from opsim.scenario.templates import SECTIONS
 
 Schema = dict[str, Any]
 FILE_NAME = "opsim.schema.json"

@@ -11,22 +11,17 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from opsim.collecting import without_collecting
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
-from opsim.scenario.changes import changes_node
 from opsim.scenario.checks import check_problems
-from opsim.scenario.include import with_includes
-from opsim.scenario.like import without_likes
-from opsim.scenario.overrides import applied
-from opsim.scenario.plain_words import schema_problems
-from opsim.scenario.positions import Node, problem, written_paths
+from opsim.scenario.messages import schema_problems
 from opsim.scenario.schema import Scenario
-from opsim.scenario.skill_levels import with_ratings
-from opsim.scenario.variants import variants
-from opsim.scenario.workforce import with_workforce, without_workforce
-from opsim.scenario.yaml_nodes import Budget, read_tree
-from opsim.scenario.yaml_text import read_bytes
+from opsim.scenario.templates import with_includes, without_likes
+from opsim.scenario.tree import Node, problem, written_paths
+from opsim.scenario.variants import applied, changes_node, variants
+from opsim.scenario.workforce import with_ratings, with_workforce, without_workforce
+from opsim.scenario.yaml import Budget, read_bytes, read_tree
 from opsim.shipped import find_scenario
+from opsim.threads import without_collecting
 
 T = TypeVar("T")
 
@@ -47,7 +42,7 @@ class Loaded:
     resolved: dict[str, Any]
 
     def _repr_html_(self) -> str:
-        from opsim.shown.scenario import scenario_html
+        from opsim.notebook import scenario_html
 
         return scenario_html(self.scenario, self.variant)
 

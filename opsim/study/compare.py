@@ -1,18 +1,49 @@
-"""Variants against a base, replication by replication: common random numbers make the pairs alike."""
+"""Why results have nothing of a figure, and what to do about it.
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+Variants against a base, replication by replication: common random numbers make the pairs alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
+from opsim.kpi.catalogue import KPIS, needs_postures
 from opsim.problems import did_you_mean
 from opsim.results import Key, Result, Table, figures_of
-from opsim.study.interval import CONFIDENCE, Interval, t_interval
-from opsim.study.no_figure import remedy
-from opsim.study.paired import FEW, ROUNDING, holm, paired
+from opsim.study.intervals import CONFIDENCE, FEW, ROUNDING, Interval, holm, paired, t_interval
 
 __all__ = ["ROUNDING", "Comparison", "Difference", "NotComparable", "compare", "holm", "paired", "scheduled_hours"]
+
+
+ONLY_WHERE = {
+    "rest_taken_min_per_h": "people rest by need ('human: rest')",
+    "fatigue_mean": "people tire ('human: fatigue')",
+    "fatigue_most": "people tire ('human: fatigue')",
+    "learned_share": "people learn ('human: learning')",
+    "experience": "people learn ('human: learning')",
+    **dict.fromkeys(("on_duty_h", "duty_use", "overtime_h", "absent_share"), "workers have shifts"),
+    **dict.fromkeys(("stops_per_h", "down_s", "wait_for_repair_s", "stop_share"), "stations fail ('stops')"),
+}
+"""Figures that there are only where the scenario says something; the others are not listed."""
+
+
+def remedy(kpi: str, names: Iterable[str]) -> str:
+    """What is to be said of a figure that is not there: some are made only where the scenario asks for them.
+
+    names : of the figures that there are
+    """
+    if needs_postures([kpi]):
+        return "it is made where the scenario's 'outputs' list it: add it there, and run again"
+    if kpi in KPIS:
+        why = f": there is one only where {ONLY_WHERE[kpi]}" if kpi in ONLY_WHERE else ""
+        return f"these results have none of it{why}"
+    return did_you_mean(kpi, names)
+
+
 NOT_PROVEN = "not proven"
 PER_SCHEDULED_HOUR, PER_CALENDAR_HOUR = ("throughput_per_h",), "throughput_per_calendar_h"
 _NOT_PROVEN_WORDS = (
@@ -87,13 +118,13 @@ class Comparison:
 
     def to_frame(self) -> Any:
         """A pandas DataFrame, a row for each figure of each variant. Raises ImportError where pandas is absent."""
-        from opsim.frames import frame_of_rows
-        from opsim.shown.comparison import COLUMNS, comparison_rows
+        from opsim.notebook import COLUMNS, comparison_rows
+        from opsim.results import frame_of_rows
 
         return frame_of_rows(COLUMNS, comparison_rows(self))
 
     def _repr_html_(self) -> str:
-        from opsim.shown.comparison import comparison_html
+        from opsim.notebook import comparison_html
 
         return comparison_html(self)
 

@@ -1,19 +1,125 @@
-"""One variant of a scenario, from what was read to a results folder."""
+"""A finished run opened again: its rows, and the plan they came from, so that bodies can be drawn again.
+
+The engine of one run: taken before its first replication, and looked at again where more of them come.
+
+One variant of a scenario, from what was read to a results folder.
+"""
+
+from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from dataclasses import dataclass
+from functools import cached_property, partial
 from pathlib import Path
+from typing import Any
 
 from opsim.engine.choice import SIMPY, Choice
-from opsim.kpi.better import read_asked
+from opsim.kpi.catalogue import read_asked
 from opsim.plan import Plan, compile_plan
-from opsim.results import Result
-from opsim.study.assumed.assumptions import Asked
-from opsim.study.engine_choice import Chosen, engine_of
-from opsim.study.engine_of_run import EngineOfRun
-from opsim.study.precision import FEWEST, MOST, Precision, replicate_until
-from opsim.study.replicate import Once, Progress, missing, replicate
-from opsim.study.replicated import Replicated, together
+from opsim.results import Result, lacking_rows, read_object
+from opsim.study.assumptions.sheet import Asked
+from opsim.study.engine_choice import Chosen, compiled_for, engine_of
+from opsim.study.intervals import FEWEST, MOST, Precision, replicate_until
+from opsim.study.replication import Once, Progress, Replicated, missing, replicate, together
+from opsim.study.results_folder import MANIFEST, RESOLVED, digest, manifest_of, say_engine
+
+NEEDED = {"libraries": "the library", "recorded": "the file"}
+"""What a manifest holds the hashes of, in words."""
+
+
+@dataclass(frozen=True)
+class Reopened:
+    """A variant's results folder with what it was run from.
+
+    loaded : the variant as its ``scenario.resolved.yaml`` reads, under its own name; manifest : as it was written
+    """
+
+    result: Result
+    loaded: Any
+    manifest: dict[str, Any]
+
+    @cached_property
+    def plan(self) -> Any:
+        """Compiled with the seed of the run."""
+
+        return compile_plan(self.loaded, seed=self.result.summary["seed"])
+
+    def log(self, replication: int = 0) -> Any:
+        """The rows of one replication. Raises ValueError where the run has none such, OSError where it is broken."""
+        from opsim.log_parquet import read_events
+
+        if gone := lacking_rows(self.result):
+            raise ValueError(gone)
+        files = self.result.events_files
+        if not 0 <= replication < len(files):
+            raise ValueError(f"replication {replication}: {self.result.folder} holds 0 to {len(files) - 1}")
+        return read_events(files[replication], digest(self.manifest))
+
+
+def opened(result: Result, loaded: Any) -> Reopened:
+    """A run that has just ended, as it was read. Raises OSError or ValueError where its manifest cannot be read."""
+    return Reopened(result, loaded, _manifest(result.folder))
+
+
+def reopened(folder: Path) -> Reopened:
+    """The results of one variant of a run.
+
+    Raises OSError where a file is missing, ValueError where the folder holds no run, or where a library or a file of
+    times is no longer the one it was run with: other bodies would be shown than those whose times were spent.
+    """
+    from dataclasses import replace
+
+    from opsim.scenario import read_scenarios
+
+    result = Result.load(folder)
+    manifest = _manifest(folder)
+    loaded = next(iter(read_scenarios(folder / RESOLVED).values()))
+    loaded = replace(loaded, variant=result.summary["variant"])
+    if changed := _changed(manifest, manifest_of(loaded, result.summary["seed"])):
+        raise ValueError(f"{folder}: {'; '.join(changed)} since it was run; run it again, or put back what there was")
+    return Reopened(result, loaded, manifest)
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    return read_object(folder / MANIFEST, "the manifest of a run")
+
+
+def _changed(held: dict[str, Any], now: dict[str, Any]) -> list[str]:
+    """Everything that is not as it was, in words."""
+    found = []
+    for kind, what in NEEDED.items():
+        old, new = held.get(kind) or {}, now[kind]
+        found += [f"{what} {name} has changed" for name in {**old, **new} if old.get(name) != new.get(name)]
+    return found
+
+
+class EngineOfRun:
+    """Ready for replications 0 .. n-1 of a folder: written down, told of and compiled, where any is to be made."""
+
+    def __init__(
+        self, choice: Choice, loaded: Any, plan: Plan, folder: Path, processes: int | None, chosen: Chosen | None
+    ):
+        """chosen : is told the engine before anything is run"""
+        self._choice, self._loaded, self._plan, self._folder = choice, loaded, plan, folder
+        self._processes, self._chosen = processes, chosen
+        self._is_ready, self._runs = False, 0
+
+    def upto(self, n: int) -> Choice:
+        """For the first n replications. Raises OSError where it cannot be written down."""
+        left = missing(self._folder, n)
+        self._runs += left
+        if left and not self._is_ready:
+            self._take(self._choice)
+        elif left and self._choice.may_pay:
+            again = engine_of(self._choice.asked, self._loaded, self._plan, self._runs, processes=self._processes)
+            if again.engine != self._choice.engine:
+                self._take(again)
+        return self._choice
+
+    def _take(self, choice: Choice) -> None:
+        self._choice, self._is_ready = choice, True
+        say_engine(self._folder, choice)
+        compiled_for(choice, self._plan, self._chosen)
 
 
 def run_scenario(
@@ -44,12 +150,18 @@ def run_scenario(
     another run, Busy where somebody writes there now, OSError where it cannot be written, BrokenLog where a run
     contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
     """
-    from opsim.study.finished import finished, say_finished
-    from opsim.study.folder import LOCK, clear_results, open_folder, say_replications
-    from opsim.study.lock import locked
-    from opsim.study.manifest import digest
+    from opsim.files import write_json
+    from opsim.study.results_folder import (
+        LOCK,
+        clear_results,
+        digest,
+        finished,
+        locked,
+        open_folder,
+        say_finished,
+        say_replications,
+    )
     from opsim.study.summary import summary_of, write_kpis
-    from opsim.whole import write_json
 
     make_plan = Once(partial(compile_plan, loaded, seed=seed))
     plan: Plan = make_plan()

@@ -7,21 +7,25 @@ from pathlib import Path
 import numpy as np
 
 from opsim import __version__
-from opsim.kpi.names import headline, needs_postures
-from opsim.kpi.open_hours import open_hours
+from opsim.kpi.catalogue import headline, needs_postures
+from opsim.kpi.window import open_hours
 from opsim.laws import CHECKS
-from opsim.log_store import name_list, parquet_file
+from opsim.log_parquet import name_list, parquet_file
 from opsim.plan import Plan
-from opsim.plan.hours.scheduled import floor_has_hours
+from opsim.plan.hours import floor_has_hours
 from opsim.results import Key
-from opsim.study.assumed.assumptions import NOTHING_ASKED, Asked, Assumption, assumptions_of
-from opsim.study.assumed.posture_words import posture_assumptions
-from opsim.study.assumed.sources import task_sources
-from opsim.study.assumed.walking import walking_source
-from opsim.study.assumed.warnings import warnings_of
-from opsim.study.interval import CONFIDENCE, t_interval
-from opsim.study.precision import Reached
-from opsim.study.replicated import Replicated
+from opsim.study.assumptions.human import walking_source
+from opsim.study.assumptions.sheet import (
+    NOTHING_ASKED,
+    Asked,
+    Assumption,
+    assumptions_of,
+    posture_assumptions,
+    task_sources,
+    warnings_of,
+)
+from opsim.study.intervals import CONFIDENCE, Reached, t_interval
+from opsim.study.replication import Replicated
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40

@@ -1,6 +1,8 @@
 """What all times without a body share: performances that are times only, and workers who may differ in pace.
 
 All draws of a call are made at once, in one fixed order. A worker's effect is a shift b of his log time.
+
+Whole numbers drawn by the same seam as times, such as cycles between two breakdowns: one second stands for one.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from opsim.variability import log_variance, within_cv
+from opsim.task_model import log_variance, within_cv
 
 if TYPE_CHECKING:
     import numpy as np
@@ -126,7 +128,7 @@ class SharedTime(TimeModel):
     """A family by mean and cv; a share of the log variance ln(1 + cv^2) lies between workers.
 
     A worker's effect is b ~ N(0, s2) with s2 = between_share ln(1 + cv^2); his times are exp(b - s2 / 2) times a draw
-    of the family with mean ``mean_s`` and the smaller cv of ``opsim.variability``; so mean and cv over the population
+    of the family with mean ``mean_s`` and the smaller cv of ``opsim.task_model``; so mean and cv over the population
     are exactly those given, whatever the share. Without a worker, every time is that of a worker of its own.
     A child gives ``_within_s``: n times with mean ``mean_s`` and cv ``self.within_cv``.
     """
@@ -174,3 +176,31 @@ class SharedTime(TimeModel):
 
     def _within_s(self, n: int, rng: np.random.Generator) -> np.ndarray:
         raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class UniformCount(TimeModel):
+    """A whole number from low to high, both included, equally likely."""
+
+    low: int
+    high: int
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.low <= self.high:
+            raise ValueError(f"UniformCount: must be 1 <= low <= high, found {self.low!r} and {self.high!r}")
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        return (self.low + self.high) / 2
+
+    def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
+        return rng.integers(self.low, self.high, n, endpoint=True).astype(float)
+
+
+def count_model(said: Any) -> TimeModel:
+    """The model of a number of cycles as a scenario says it: always so many, geometric, or uniform."""
+    from opsim.scenario.schema import GeometricCycles
+    from opsim.tasks.distributions import Fixed, Geometric
+
+    if isinstance(said, int):
+        return Fixed(float(said))
+    return Geometric(said.mean, 1.0) if isinstance(said, GeometricCycles) else UniformCount(said.low, said.high)

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from opsim.ergonomics.scores.scoring import Scores
-from opsim.ergonomics.shift.fold import fold
-from opsim.ergonomics.shift.stretch import Frames
+from opsim.ergonomics.shift.day import fold
+from opsim.ergonomics.shift.frames import Frames
 from opsim.log import EventLog
 from opsim.plan import Plan
 

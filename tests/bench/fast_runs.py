@@ -105,8 +105,8 @@ def _resident_mb() -> float:
 
 def replications(engine: str, n: str, first: str = "1") -> dict:
     """By an engine, in processes. Nothing is kept of a log but the number of jobs."""
-    from opsim.forking import can_fork
-    from opsim.study.pool import pooled
+    from opsim.pool import pooled
+    from opsim.threads import can_fork
 
     prepare = partial(_prepared, engine, line_text())
     prepare()(0)  # compiled, loaded, and its luck known, as a study's first replication does

@@ -11,10 +11,8 @@ import tracemalloc
 import pytest
 
 from opsim.engine.floor import run_plan
-from opsim.export.ocel import object_log
-from opsim.export.ocel_json import write_ocel_json
-from opsim.export.ocel_sqlite import write_ocel_sqlite
-from opsim.export.run_clock import RunClock
+from opsim.export.ocel import object_log, write_ocel_json, write_ocel_sqlite
+from opsim.export.tables import RunClock
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 

@@ -8,11 +8,10 @@ from bench.cpu import best_s
 from human_plans import LINE, planned, shipped
 
 from opsim.engine.floor import run_plan
-from opsim.human.burden import Burdens
-from opsim.human.lffrm import Lffrm
-from opsim.human.three_compartment import ThreeCompartment
+from opsim.human.fatigue import Lffrm
+from opsim.human.muscle_fatigue import Burdens, ThreeCompartment
 from opsim.log import COLUMNS
-from opsim.plan.human import NO_EFFECTS, HumanPlan
+from opsim.plan.workers import NO_EFFECTS, HumanPlan
 
 MOST_MORE = 0.30
 MOST_BURDEN_MS = 100.0

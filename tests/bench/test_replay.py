@@ -7,9 +7,9 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from opsim.study.reopened import reopened
-from opsim.viewer.posed import joints_m
-from opsim.viewer.stage import scene_of
+from opsim.study.run import reopened
+from opsim.viewer.build import scene_of
+from opsim.viewer.pose import joints_m
 from tests.bench.full_shift import N_WORKERS, write_full_shift
 from tests.bench.whole_command import opsim
 from tests.browser.chromium import browser

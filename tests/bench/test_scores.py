@@ -3,9 +3,8 @@
 import numpy as np
 from bench.cpu import best_s
 
-from opsim.ergonomics.columns import COLUMNS
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, bounds_of
-from opsim.ergonomics.scores.scoring import score
+from opsim.ergonomics.angles import COLUMNS
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, bounds_of, score
 
 N, MOST_US = 50_000, 1.5
 

@@ -13,9 +13,9 @@ from bench.cpu import best_s
 
 from opsim.engine.floor import run_plan
 from opsim.ergonomics.measures import measures_of, n_cells
-from opsim.ergonomics.shift.booking import Booking
-from opsim.ergonomics.shift.fold import fold
-from opsim.kpi.values import inside_s
+from opsim.ergonomics.shift.day import fold
+from opsim.ergonomics.shift.ledger import Booking
+from opsim.kpi.window import inside_s
 from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from opsim.report.animated import write_animated
+from opsim.report.plot.animation import write_animated
 from tests.browser.chromium import Watched, browser
 from tests.made_cards import SKELETON, cards
 

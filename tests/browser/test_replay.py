@@ -8,10 +8,9 @@ from made_scene import packed_scene, run_of, scene
 
 from opsim.ergonomics.angles import elbow_bend_rad, knee_bend_rad, trunk_angles, upper_arm_angles
 from opsim.log import WORKER_KINDS
-from opsim.viewer.packed import packed
-from opsim.viewer.posed import joints_m
-from opsim.viewer.stage import scene_of
-from opsim.viewer.write import write_replay
+from opsim.viewer.build import scene_of
+from opsim.viewer.pose import joints_m
+from opsim.viewer.write import packed, write_replay
 from tests.browser.chromium import Watched, browser
 
 pytestmark = pytest.mark.browser

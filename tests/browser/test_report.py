@@ -1,11 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.report import days
-from opsim.report.contents import Contents, Part
-from opsim.report.day_picture import Strip, draw_day, legend
-from opsim.report.figures import layout_of
-from opsim.report.section import (
+from opsim.report.page import (
     Bullets,
     Card,
     Caution,
@@ -22,7 +18,10 @@ from opsim.report.section import (
     Svg,
     Words,
 )
-from opsim.report.write import report_html, write_report
+from opsim.report.plot.plotly import layout_of
+from opsim.report.render import Contents, Part, report_html, write_report
+from opsim.report.sections import worker_timeline as days
+from opsim.report.sections.worker_timeline import Strip, draw_day, legend
 from tests.browser.axe import serious
 from tests.browser.chromium import Watched, browser
 from tests.made_result import NAMES, SCRIPT, hostile, material, summary
@@ -253,7 +252,7 @@ def test_people_through_the_day_are_a_picture_that_loads_and_is_found_from_the_t
     picture = draw_day(strips, "Mon 06:00", 0.0, 28800.0)
     day = {"picture": picture, "legend": legend(strips), "stretch": "2 h", "alt": SCRIPT}
     day |= {"cut": False, "shifts": False, "more": 0}
-    monkeypatch.setattr(days, "section", lambda material: days.section_of(day))
+    monkeypatch.setattr(days, "worker_timeline_section", lambda material: days.section_of(day))
     watched = report(summary())
     assert watched("document.querySelector('#days img').naturalWidth") == 1180
     assert watched("document.querySelector('nav a[href=\"#part-people\"]').textContent") == "People"

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from opsim.report.video_files import write_video
-from opsim.report.video_frames import Film, posture
+from opsim.report.plot.video import Film, posture, write_video
 from tests.browser.chromium import Watched, browser
 from tests.browser.test_animated import ink, seek
 from tests.made_cards import video

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from opsim import log as kinds
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plan.worker import WorkerPlan
+from opsim.plan.workers import WorkerPlan
 
 BY_DUE_DATE = {"edd", "critical_ratio"}
 BY_TIME = {"poisson", "renewal", "schedule"}

@@ -7,8 +7,8 @@ from itertools import pairwise
 from math import isfinite
 
 from opsim.plan import Plan
-from opsim.plan.orders import ANY
-from opsim.plan.station import STORE
+from opsim.plan.sources import ANY
+from opsim.plan.stations import STORE
 
 MATERIAL_WORDS = (
     *(f"source: {kind}" for kind in ("saturated", "poisson", "renewal", "schedule", "base_stock", "inside")),

@@ -14,7 +14,7 @@ from known_answers.case import HERE
 from recordings import reference
 
 from opsim.engine.choice import SIMPY, able_to, runner_of
-from opsim.kpi.crews import HandOvers, hand_overs
+from opsim.kpi.lines import HandOvers, hand_overs
 from opsim.laws import audit
 from opsim.log import FINISH
 from opsim.plan import compile_plan

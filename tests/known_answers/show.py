@@ -16,7 +16,7 @@ from known_answers.simulate import simulate
 from recordings import data_folder
 
 from opsim.engine.choice import ENGINES, SIMPY
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 MOST_OUTSIDE_95 = 4 / 46
 """Of the figures; one in twenty is expected."""

@@ -82,11 +82,9 @@ def _made(out: Path) -> Iterator[tuple[str, list[Path]]]:
 
 def _hostile(out: Path, folder: Path) -> list[Path]:
     """The files of a run whose workers, stations, tasks and products have names that would do harm."""
-    from opsim.export.ocel import object_log
-    from opsim.export.ocel_json import write_ocel_json
-    from opsim.export.ocel_sqlite import write_ocel_sqlite
-    from opsim.export.run_clock import RunClock
-    from opsim.study.reopened import reopened
+    from opsim.export.ocel import object_log, write_ocel_json, write_ocel_sqlite
+    from opsim.export.tables import RunClock
+    from opsim.study.run import reopened
     from tests.opsim.export.hostile import hostile
 
     run = reopened(folder)
@@ -110,7 +108,7 @@ def _expected(folder: Path) -> dict[str, Any]:
     import numpy as np
 
     from opsim.log import CREATE
-    from opsim.log_store import read_events
+    from opsim.log_parquet import read_events
 
     log = read_events(folder / "events/replication_00000.parquet")
     return {

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from emulator.skeleton import standard_skeleton
-from opsim.ergonomics.joints import CANONICAL
-from opsim.plan.walking import WalkingPlan
+from opsim.ergonomics.angles import CANONICAL
+from opsim.plan.workers import WalkingPlan
 from tests.opsim.ergonomics.made_work import leaning
 
 SKELETON = standard_skeleton()

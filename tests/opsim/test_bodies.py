@@ -2,9 +2,9 @@ from types import SimpleNamespace
 
 from emulator.covariates.body import RANGES
 from emulator.people.new_people import BODY_KEYS as EMULATOR_KEYS
-from opsim.bodies import BODY_KEYS, BODY_RANGES, keys_read
-from opsim.plan.worker import Body
-from opsim.task_models import library_model
+from opsim.external_worker import library_model
+from opsim.plan.workers import Body
+from opsim.task_model import BODY_KEYS, BODY_RANGES, keys_read
 from opsim.tasks import Fixed, Lognormal, switched
 
 

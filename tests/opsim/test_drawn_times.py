@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from human_plans import LINE, planned, shipped
 
-from opsim.drawn_times import drawn_s
 from opsim.engine.draws import Draws
+from opsim.history import drawn_s
 
 
 @pytest.mark.parametrize("k", [[0], [63, 64, 65], [200, 3, 3, 130], []])

@@ -4,12 +4,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from opsim.effects import worker_effect
+from opsim.external_worker import library_model
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 from opsim.streams import stream
-from opsim.task_models import library_model
 from opsim.tasks import Fixed, Lognormal
+from opsim.worker_effects import worker_effect
 
 PUBLIC = load_library(shipped_folder() / "libraries" / "public_movements.npz")
 TASKS = {"fold": Lognormal(20.0, 0.3, 0.5), "pack": Lognormal(9.0, 0.4, 0.25)}
@@ -83,7 +83,9 @@ def test_every_stream_of_a_worker_stands_in_the_design():
     """``effect``, ``leaning`` and ``slowness``, as they stand in the code."""
     root = Path(__file__).parents[2]
     (randomness,) = [part for part in (root / "DESIGN.md").read_text("utf-8").split("\n\n") if "Used now:" in part]
-    names = re.findall(r'stream\(seed, workforce, "(\w+)", (\w+)', (root / "opsim" / "effects.py").read_text("utf-8"))
+    names = re.findall(
+        r'stream\(seed, workforce, "(\w+)", (\w+)', (root / "opsim" / "worker_effects.py").read_text("utf-8")
+    )
     assert len(names) == 3
     assert not [name for name in names if ", ".join(name) not in randomness]
 

@@ -90,7 +90,7 @@ allocation: {rule: spare_the_best}
 """
 FROM_THE_COMMAND_LINE = """
 import sys, types, click, numpy
-from opsim.cli.verbs import Verbs, mistakes
+from opsim.cli.app import Verbs, mistakes
 from opsim.plugins import dispatch_rule, plugin_model
 @click.command()
 def use():

@@ -1,7 +1,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.graph import reached, reverse, rings
+from opsim.layout import reached, reverse, rings
 
 GRAPHS = st.dictionaries(st.sampled_from("abcdef"), st.sets(st.sampled_from("abcdef")))
 

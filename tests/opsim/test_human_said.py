@@ -1,9 +1,8 @@
 import pytest
 
-from opsim.human.lffrm import Lffrm
-from opsim.human.rest import RestByNeed
-from opsim.human_said import human_of
-from opsim.plan.human import NO_EFFECTS, HumanPlan
+from opsim.external_draws import human_of
+from opsim.human.fatigue import Lffrm, RestByNeed
+from opsim.plan.workers import NO_EFFECTS, HumanPlan
 
 MODELS = {"w10": None, "w2": None}
 

@@ -9,7 +9,7 @@ from known_answers.chains import line_rate
 from known_answers.simulate import simulate
 
 from opsim.engine.choice import FAST
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 HERE = [case for case in CASES if (case.file, case.variant) not in TAKE_LONG]
 """The others are simulated by ``make known-answers`` and, on the compiled floor, by its own ``test_known_answers``."""

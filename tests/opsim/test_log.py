@@ -6,9 +6,9 @@ import pytest
 from plans import CELL, plan
 
 from opsim.engine.floor import run_plan
+from opsim.files import write_text
 from opsim.log import COLUMNS, ORDER, EventLog, event_log, row
-from opsim.log_store import read_events, write_events
-from opsim.whole import write_text
+from opsim.log_parquet import read_events, write_events
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_a_foreign_parquet_file_is_refused(tmp_path):
 
 
 def test_a_failed_write_leaves_nothing(log, tmp_path, monkeypatch):
-    from opsim import log_store
+    from opsim import log_parquet as log_store
 
     monkeypatch.setattr(log_store, "ROW_GROUP", "many")
     with pytest.raises(Exception, match=r"(?i)row_group|many|parse|cast|convert"):

@@ -2,7 +2,7 @@ import numpy as np
 from plans import CELL, loaded
 
 from opsim.engine.floor import run_plan
-from opsim.log_store import connect, one_database, read_events, write_events
+from opsim.log_parquet import connect, one_database, read_events, write_events
 from opsim.plan import compile_plan
 
 

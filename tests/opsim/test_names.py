@@ -1,7 +1,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.names import natural_key
+from opsim.problems import natural_key
 
 
 def test_numbers_in_names_are_read_as_numbers():

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from opsim.one_thread import one_blas_thread
+from opsim.threads import one_blas_thread
 
 
 @pytest.fixture(autouse=True)

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from opsim.orders import MOST_OF_AN_ORDER, Mistake, Order, read_orders, read_sequence
-from opsim.recorded import RecordedError
+from opsim.csv_input import MOST_OF_AN_ORDER, Mistake, Order, RecordedError, read_orders, read_sequence
 
 PRODUCTS = ("a", "b", "board")
 

@@ -8,10 +8,10 @@ import pytest
 import simpy
 
 from opsim import Worker, exposure_of, run_plan
+from opsim.kpi.catalogue import SCORED
 from opsim.kpi.exposure import exposure
-from opsim.kpi.names import SCORED
 from opsim.log import WORK
-from opsim.plan.human import HumanPlan
+from opsim.plan.workers import HumanPlan
 from opsim.tasks import Fixed, Lognormal
 from tests.plans import plan
 

@@ -3,12 +3,12 @@ import pytest
 import simpy
 
 from opsim import Worker
-from opsim.effects import worker_effect
 from opsim.libraries import load_library
 from opsim.performance import Drawn
 from opsim.shipped import shipped_folder
 from opsim.streams import stream
 from opsim.tasks import Fixed
+from opsim.worker_effects import worker_effect
 
 LIBRARY = load_library(shipped_folder() / "libraries" / "public_movements.npz")
 

@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
+from opsim.history import FATES, job_pieces
 from opsim.log import SETUP
-from opsim.pieces import FATES, job_pieces
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.laws.test_progress import FLOOR, piece
 

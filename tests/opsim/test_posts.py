@@ -3,7 +3,7 @@
 import random
 from itertools import permutations
 
-from opsim.posts import given_out, turns_away
+from opsim.layout import given_out, turns_away
 
 
 def by_turns(n_posts, people, turn, can=lambda person, post: True):

@@ -6,7 +6,7 @@ import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
 from opsim.engine.floor import run_plan
-from opsim.practice import own_rows, practice
+from opsim.history import own_rows, practice
 
 FORGETFUL = """
 human:

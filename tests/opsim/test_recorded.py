@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.recorded import RecordedError, read_times, resolve_times
+from opsim.csv_input import RecordedError, read_times, resolve_times
 
 
 def times(tmp_path, text, column=None):
@@ -61,6 +61,6 @@ def test_any_bytes_are_times_or_a_recorded_error(tmp_path_factory, raw):
 
 
 def test_a_file_too_large_to_be_times_is_refused_unread(tmp_path, monkeypatch):
-    monkeypatch.setattr("opsim.recorded.MOST_BYTES", 10)
+    monkeypatch.setattr("opsim.csv_input.MOST_BYTES", 10)
     with pytest.raises(RecordedError, match=r"'times.csv' is larger than 0 MB"):
         times(tmp_path, "duration_s\n1\n2\n")

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.variability import log_variance, within_cv
+from opsim.task_model import log_variance, within_cv
 
 CVS, SHARES = st.floats(1e-3, 10), st.floats(0, 1)
 

@@ -3,8 +3,8 @@ import pytest
 from plans import plan
 
 from opsim.clock import on_grid
+from opsim.history import on_grid_each, walks_of
 from opsim.log import WAIT, WALK
-from opsim.walks import on_grid_each, walks_of
 from tests.opsim.kpi.made_logs import made, row
 
 FLOOR = """

@@ -2,8 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.clock import DAY_S, WEEK_S
-from opsim.week_clock import clock_words, moment_s
+from opsim.clock import DAY_S, WEEK_S, clock_words, moment_s
 
 MON_6, H = 6 * 3600.0, 3600.0
 

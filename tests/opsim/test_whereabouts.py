@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
+from opsim.history import NOWHERE, unaccounted, whereabouts
 from opsim.log import EventLog
-from opsim.whereabouts import NOWHERE, unaccounted, whereabouts
 
 TEXT = """
 opsim: 1

@@ -9,12 +9,11 @@ from simpy.rt import RealtimeEnvironment
 
 from opsim import Worker, WorkerLog, run_plan
 from opsim.clock import on_grid
-from opsim.effects import worker_effect
+from opsim.external_worker import WorkerBusy, library_model
 from opsim.log import WORK
 from opsim.streams import stream
-from opsim.task_models import library_model
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, Recorded
-from opsim.worker import WorkerBusy
+from opsim.worker_effects import worker_effect
 from tests.plans import plan
 
 SECOND = 2.0**-20

@@ -5,10 +5,10 @@ import pytest
 import simpy
 
 from opsim import Worker, WorkerLog, read_events, write_events
+from opsim.external_log import CHECKS, audit_work
 from opsim.laws import BrokenLog
 from opsim.log import COLUMNS, WAIT, WORK
 from opsim.tasks import Fixed
-from opsim.worker_log import CHECKS, audit_work
 
 
 def shift(until=None):

@@ -13,12 +13,11 @@ import sys
 
 import numpy as np
 
-from opsim.scenario.varied import Varied
-from opsim.study.interval import Interval
+from opsim.scenario.study_checks import Varied
+from opsim.study.intervals import Interval
 from opsim.study.jobs import Answers, Point, Source
-from opsim.study.labour.budget import difference_interval
-from opsim.study.labour.points import jobs_of
-from opsim.study.labour.sources import changes_off, sources_on
+from opsim.study.labour.budget import changes_off, difference_interval, sources_on
+from opsim.study.labour.interventions import jobs_of
 
 FILE, SEED, REPLICATIONS = "staffing_luck", 9000, 2
 RATE = ("throughput_per_h", "", "", "1/h")

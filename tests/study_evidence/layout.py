@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.names import natural_key
-from opsim.scenario.schema.studies.layout import LayoutStudy
-from opsim.scenario.varied import Varied
+from opsim.problems import natural_key
+from opsim.scenario.schema.studies import LayoutStudy
+from opsim.scenario.study_checks import Varied
 from opsim.streams import stream
 from opsim.study.jobs import Answers, Job, Point, Source
 from opsim.study.layout.study import LayoutAsked, LayoutFound, asked_of, study_layout

@@ -18,7 +18,7 @@ import numpy as np
 
 from opsim.study.jobs import Answers, Point, Source
 from opsim.study.labour import VarianceParts, variance_parts
-from opsim.study.labour.points import jobs_of
+from opsim.study.labour.interventions import jobs_of
 
 FILE = Path(__file__).parent.parent / "known_answers" / "staffing.yaml"
 EXPECTED = {"quarter": 0.082, "half": 0.112}

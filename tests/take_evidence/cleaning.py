@@ -10,9 +10,9 @@ import numpy as np
 
 from emulator.cleaning import Cleaned, cleaned
 from emulator.recordings.npz import read_recording
-from opsim.cli.motion_clean_told import change_mm, notes_of, verdicts_of
-from opsim.cli.motion_clean_view import view_of
-from opsim.report.cleaned_picture import write_cleaned
+from opsim.cli.motion.clean import change_mm, notes_of, verdicts_of
+from opsim.cli.motion.clean_page import view_of
+from opsim.report.motion.cleaning_charts import write_cleaned
 
 GLITCHED = {"dg/026", "dg/027", "dg/028", "dg/030"}
 MOST_OTHERS = 2

@@ -15,7 +15,7 @@ from emulator.composite.task import CompositeEmulator, Part
 from emulator.model.library import MotionLibrary
 from emulator.motion import Motion, motion_from_positions
 from emulator.recordings import read_motions
-from opsim.report.strips import draw_strips
+from opsim.report.sections.motions import draw_strips
 from opsim.shipped import shipped_folder
 from tests.take_evidence.composite_picture import draw_joins
 

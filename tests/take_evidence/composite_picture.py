@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from opsim.report.person import LEFT, RIGHT, TRUNK, draw_person
+from opsim.report.plot.body import LEFT, RIGHT, TRUNK, draw_person
 
 RATE_HZ = 100.0
 STEP_S, M_PER_S = 0.3, 2.2

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from emulator.skeleton import standard_skeleton
-from opsim.report.palette import ACCENT, GRID, INK, MUTED
+from opsim.report.plot.plotly import ACCENT, GRID, INK, MUTED
 
 COLOURS = {0: "#D55E00", 1: "#0072B2", 2: "#E69F00"}
 

@@ -28,7 +28,7 @@ def _imported(path: Path, out: Path, options: dict[str, Any]) -> tuple[str, str,
     """As ``opsim motion import`` does it, by its own functions."""
     from emulator.recordings.importing import imported, together
     from emulator.recordings.npz import read_recording
-    from opsim.cli.motion_import import _write
+    from opsim.cli.motion.import_files import _write
 
     found = list(imported(path, **options))
     file = out / f"{path.stem}.npz"

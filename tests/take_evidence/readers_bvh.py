@@ -124,7 +124,7 @@ def _draw(again: Again, path: Path) -> None:
     """Moments as read and as read again, one over the other; bones with their range; the error along time."""
     from matplotlib.figure import Figure
 
-    from opsim.report.palette import INK, MUTED
+    from opsim.report.plot.plotly import INK, MUTED
 
     n_bones = len(again.take.names) - 1
     figure = Figure(figsize=(12, 4.2 + 0.17 * n_bones), facecolor="white", layout="constrained")
@@ -148,7 +148,7 @@ def _draw(again: Again, path: Path) -> None:
 
 
 def _moments(axes: Any, again: Again) -> None:
-    from opsim.report.person import LEFT, RIGHT, TRUNK
+    from opsim.report.plot.body import LEFT, RIGHT, TRUNK
 
     take = again.take
     colour = {"left": LEFT, "right": RIGHT, "": TRUNK}
@@ -177,7 +177,7 @@ def _side(name: str) -> str:
 
 def _bones(axes: Any, again: Again) -> None:
     """A bar a bone, and how much it changes."""
-    from opsim.report.palette import INK, MUTED
+    from opsim.report.plot.plotly import INK, MUTED
 
     take = again.take
     length = bones_m(take.parents, again.positions_m)

@@ -65,9 +65,9 @@ def _minutes(plan: Any, logs: list[Any]) -> Iterator[Line]:
 
 def _drawn(plan: Any, log: Any) -> Iterator[tuple[int, np.ndarray, np.ndarray, Any]]:
     """(worker, metres, drawn seconds of his walks, the walks) block by block."""
-    from opsim.ergonomics.walks import drawn_walks
+    from opsim.ergonomics.walking import drawn_walks
+    from opsim.history import walks_of
     from opsim.streams import BLOCK
-    from opsim.walks import walks_of
 
     walks = walks_of(log, plan)
     for rows, block in drawn_walks(walks, plan, log.replication):
@@ -76,7 +76,7 @@ def _drawn(plan: Any, log: Any) -> Iterator[tuple[int, np.ndarray, np.ndarray, A
 
 
 def _times(plan: Any, logs: list[Any]) -> Iterator[Line]:
-    from opsim.walks import walks_of
+    from opsim.history import walks_of
 
     worst = 0.0
     for log in logs:
@@ -100,7 +100,7 @@ def _times(plan: Any, logs: list[Any]) -> Iterator[Line]:
 
 def _steps(plan: Any, logs: list[Any]) -> Iterator[Line]:
     from opsim.kpi import figures
-    from opsim.kpi.names import WALKING
+    from opsim.kpi.catalogue import WALKING
 
     found = [{f[:3]: f.value for f in figures(log, plan, WALKING)} for log in logs]
     length_m = {w.name: np.mean([one["step_length_m", w.name, ""] for one in found]) for w in plan.workers}
@@ -115,7 +115,8 @@ def _steps(plan: Any, logs: list[Any]) -> Iterator[Line]:
 
 
 def _feet(plan: Any, log: Any, out: Path) -> Iterator[Line]:
-    from opsim.report.walk_picture import Walk, draw_walk
+    from opsim.report.sections.walking import FootWalk as Walk
+    from opsim.report.sections.walking import draw_walk
 
     slid = []
     for rank, metres, _, walks in _drawn(plan, log):
@@ -137,7 +138,7 @@ def _feet(plan: Any, log: Any, out: Path) -> Iterator[Line]:
 def _cost(plan: Any) -> Iterator[Line]:
     from opsim.engine.floor import run_plan
     from opsim.kpi import figures
-    from opsim.kpi.names import POSTURE
+    from opsim.kpi.catalogue import POSTURE
 
     day = replace(plan, horizon_s=8 * 3600.0)
     log = run_plan(day)

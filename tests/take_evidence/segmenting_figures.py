@@ -12,10 +12,9 @@ from emulator.segmenting.cycles import denoised, fitted_curve
 from emulator.segmenting.ltsa import stltsa
 from emulator.segmenting.segment import Segments
 from emulator.skeleton import Skeleton
-from opsim.report.palette import ACCENT, GRID, INK, MUTED
-from opsim.report.person import draw_person
-from opsim.report.segment_picture import UNITS, spread
-from opsim.report.view import view_axes
+from opsim.report.motion.segmentation import UNITS, spread
+from opsim.report.plot.body import draw_person, view_axes
+from opsim.report.plot.plotly import ACCENT, GRID, INK, MUTED
 
 RED = "#D55E00"
 ROWS = {"height_ratios": [1.1, 1.2, 1.1], "hspace": 0.2, "left": 0.05, "right": 0.99, "bottom": 0.01, "top": 0.94}

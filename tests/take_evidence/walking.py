@@ -38,7 +38,7 @@ def _walks(model, distance_m=4.0):
 
 def _planted(model, out):
     from emulator.cyclic.contacts import foot_skate_m
-    from opsim.report.walks import draw_walks, walk_of
+    from opsim.report.sections.walking import draw_walks, walk_of
 
     slid, stretched, rows = [], [], []
     for speed, height, one in _walks(model):
@@ -133,7 +133,7 @@ def _steps(model, out):
     from matplotlib.figure import Figure
 
     from emulator.synthetic.gait import step_length_m
-    from opsim.report.person import LEFT, RIGHT
+    from opsim.report.plot.body import LEFT, RIGHT
 
     figure = Figure(figsize=(7.0, 4.2), facecolor="white")
     axes, off = figure.add_subplot(), []
@@ -188,7 +188,7 @@ def _recorded(motion, out):
     """Fitted to recordings, from which nothing is shipped."""
     from emulator.cyclic.model import CyclicEmulator
     from emulator.recordings.npz import read_recording
-    from opsim.report.walks import draw_walks, walk_of
+    from opsim.report.sections.walking import draw_walks, walk_of
 
     model = CyclicEmulator.fit(read_recording(motion / "bandai2_walk.npz"))
     report = model.report

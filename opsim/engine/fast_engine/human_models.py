@@ -24,17 +24,13 @@ from opsim.engine.fast_engine.machine.calling import handled
 from opsim.engine.fast_engine.machine.compiling import intrinsic
 from opsim.engine.fast_engine.machine.structs import LAYOUTS, Pointer
 from opsim.engine.fast_engine.state import Station, Worker
-from opsim.ergonomics.kernels.compartments import rest, rest_to_s, spend
+from opsim.ergonomics.kernels.muscles import rest, rest_to_s, spend
 from opsim.human import learning
-from opsim.human.burden import PARTS
 from opsim.human.catalogue import catalogue
-from opsim.human.learning import Curve
-from opsim.human.lffrm import Lffrm
-from opsim.human.other_curves import DualPhase, Hyperbolic
-from opsim.human.power_curves import DeJong, Plateau, StanfordB, Wright
-from opsim.human.three_compartment import JOINTS, ThreeCompartment
-from opsim.human.tired import piece
-from opsim.plan.human import EFFECTS
+from opsim.human.fatigue import Lffrm, piece
+from opsim.human.learning import Curve, DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
+from opsim.human.muscle_fatigue import JOINTS, PARTS, ThreeCompartment
+from opsim.plan.workers import EFFECTS
 
 CURVES: tuple[Any, ...] = (Wright, Plateau, DeJong, StanfordB, Hyperbolic, DualPhase)
 """By their numbers, ``model.kind``."""
@@ -142,7 +138,7 @@ class Bodies:
             self._forget()
 
     def _forget(self) -> None:
-        from opsim.human.burden import Burdens
+        from opsim.human.muscle_fatigue import Burdens
 
         self.heaviness[:] = self.rates[:] = np.nan
         self.courses[:] = UNKNOWN
@@ -208,7 +204,7 @@ class Bodies:
         return posts_by_strain(self.plan, self._rates(), plan.posts, plan.workers)
 
     def _rates(self) -> Any:
-        from opsim.ergonomics.shift.dose_rates import dose_rates_of
+        from opsim.ergonomics.shift.worst import dose_rates_of
 
         return dose_rates_of(self.plan, self._workforce or 0)
 

@@ -9,7 +9,7 @@ from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import ask_3, inlined, new_floats
 from opsim.engine.fast_engine.state import Job, Station, Worker
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
-from opsim.plan.evenness import LEAST_EXPOSED
+from opsim.plan.compile import LEAST_EXPOSED
 
 ALLOCATION = tuple(ALLOCATION_RULES)
 """Rules of allocation by their numbers."""

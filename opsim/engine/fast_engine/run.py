@@ -27,8 +27,8 @@ from opsim.engine.fast_engine.streams.blocks import is_trusted
 from opsim.engine.fast_engine.streams.of_plan import luck_of
 from opsim.engine.plugin_rules import plugin_rules
 from opsim.log import EventLog, names_of
-from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+from opsim.threads import one_blas_thread
 
 DONE, MORE, FAILED = range(3)
 

@@ -21,7 +21,7 @@ from opsim.engine.floor.routing import take_claim
 from opsim.engine.floor.state import Job, Station, Worker
 from opsim.engine.floor.station import call_off, perform
 from opsim.engine.floor.worker import be_busy, clear_bit, may_serve, on_round, walk
-from opsim.plan.evenness import LEAST_EXPOSED, evens_out
+from opsim.plan.compile import LEAST_EXPOSED, evens_out
 from opsim.plan.sequence import MOST_DOWNSTREAM
 
 ORDER = 1
@@ -48,8 +48,6 @@ def _parts(plan: Any) -> Any:
     if plan.rule == MOST_DOWNSTREAM:
         yield by_way_ahead
     if plan.rule == LEAST_EXPOSED:
-        pass
-
         yield by_dose
 
 

@@ -52,7 +52,7 @@ from opsim.log import (
     WALK,
     WORK,
 )
-from opsim.plan.crews import BUCKET_BRIGADE, CrewPlan
+from opsim.plan.lines import BUCKET_BRIGADE, CrewPlan
 
 
 @step

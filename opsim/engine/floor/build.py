@@ -39,7 +39,7 @@ from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.log import IDLE, IS_DOWN, WAIT
 from opsim.plan import Plan
 from opsim.plan.calendar import OPEN
-from opsim.plan.release import POISSON, RENEWAL, SATURATED, SCHEDULE
+from opsim.plan.sources import POISSON, RENEWAL, SATURATED, SCHEDULE
 
 BLOCKS: tuple[Callable[[Any], None], ...] = (
     *(allocation.install_preferences, stores.install, assembly.install_kits, assembly.install_splits, batches.install),

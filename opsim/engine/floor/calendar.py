@@ -33,7 +33,7 @@ from opsim.engine.floor.worker import leave_none, set_free, take_off
 from opsim.engine.rules import CALENDAR, is_absent
 from opsim.log import ABSENT, CLOSED, HELD, IS_DOWN, OFF, SETUP, WORK
 from opsim.plan.calendar import OPEN
-from opsim.plan.release import SATURATED
+from opsim.plan.sources import SATURATED
 
 _is_absent = inlined(is_absent)
 _as_presence, _as_duty = cast(Presence), cast(Duty)

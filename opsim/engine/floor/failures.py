@@ -35,7 +35,7 @@ from opsim.engine.floor.station import proceed, quiet
 from opsim.engine.rules import CALENDAR
 from opsim.log import BREAKDOWN, DOWN, HELD, IS_DOWN, MAINTENANCE, SCRAP, SETUP, WORK
 from opsim.plan import BreakdownPlan, MaintenancePlan
-from opsim.plan.failures import CLOCK, CYCLES, NO_TEAM
+from opsim.plan.resources import CLOCK, CYCLES, NO_TEAM
 
 RESUMES, RESTARTS, SCRAPPED = range(3)
 """What becomes of the jobs that were in work."""

@@ -32,13 +32,10 @@ from opsim.engine.floor.routing import alarm, cancel
 from opsim.engine.floor.state import Event, Job, Station, Worker
 from opsim.engine.floor.worker import set_free, take_off
 from opsim.engine.rules import CALENDAR
-from opsim.human.circadian import Circadian
-from opsim.human.errors import ErrorsByFatigue
-from opsim.human.forgetting import LearnForgetCurve
-from opsim.human.memory import experience_of, first_times
-from opsim.human.state_pace import NEUTRAL_SHARE, Schultz
+from opsim.human.fatigue import NEUTRAL_SHARE, Circadian, ErrorsByFatigue, Schultz
+from opsim.human.forgetting import LearnForgetCurve, experience_of, first_times
 from opsim.log import BREAK, REST
-from opsim.plan.human import EFFECTS
+from opsim.plan.workers import EFFECTS
 
 _shift: Any = inlined(Circadian.shift)
 

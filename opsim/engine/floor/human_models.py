@@ -11,7 +11,7 @@ from typing import Any
 
 from opsim.engine.floor.human_state import Human, pass_to_now, posts_by_strain
 from opsim.engine.floor.machine import more_of
-from opsim.human.tired import tired
+from opsim.human.fatigue import tired
 
 
 def multiplier_of(model: Any, n: float) -> Any:
@@ -35,7 +35,7 @@ def model_of(_build: Any, model: Any) -> Any:
 
 @more_of("Human")
 class HumanWithState(Human):
-    """state : see ``opsim.human.tired``."""
+    """state : see ``opsim.human.fatigue``."""
 
     __slots__ = ("state",)
 
@@ -51,7 +51,7 @@ class _Fresh:
         """A replication begins."""
         burdens = None
         if self.model.needs_burden:
-            from opsim.human.burden import Burdens
+            from opsim.human.muscle_fatigue import Burdens
 
             burdens = Burdens(self.plan, floor.draws.workforce)
         for rank, human in enumerate(self.humans):
@@ -133,7 +133,7 @@ class Bodies:
         into[:] = self._orders[rotation]
 
     def _rates(self) -> Any:
-        from opsim.ergonomics.shift.dose_rates import dose_rates_of
+        from opsim.ergonomics.shift.worst import dose_rates_of
 
         return dose_rates_of(self.plan, self._workforce or 0)
 

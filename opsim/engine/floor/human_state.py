@@ -83,11 +83,11 @@ class Effects:
 
 @struct
 class Human:
-    """Of a worker. tired .. done : see ``opsim.human.tired``; ``tired`` is his fatigue, or that of his worst joint
+    """Of a worker. tired .. done : see ``opsim.human.fatigue``; ``tired`` is his fatigue, or that of his worst joint
 
     shares : address of (J, 5) numbers of his muscles; heaviness, courses : by task, how heavy it is for him, NaN where
             nobody has asked; address of the (PARTS, J) course of loads, 0 where none is known, -1 before
-    units .. busy_until_s : see ``opsim.human.memory``; last_s : NaN where he has never done it
+    units .. busy_until_s : see ``opsim.human.forgetting``; last_s : NaN where he has never done it
     has_worked, resting : see ``human_effects``
     """
 

@@ -322,8 +322,6 @@ def install(build: Any) -> None:
     """A line that moves jobs at intervals, or all the time, for each that the plan has."""
     if not build.plan.lines:
         return
-    pass
-    pass
 
     build.keep_jobs()
     for plan in build.plan.lines:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.rules import less_gone_through, queue_key
-from opsim.plan.evenness import LEAST_EXPOSED
+from opsim.plan.compile import LEAST_EXPOSED
 from opsim.plugins import dispatch_rule, rule_of
 
 

@@ -13,7 +13,7 @@ from opsim.engine.floor.random_numbers import QUALITY, YIELD, number_at, stream_
 from opsim.engine.floor.records import Stream
 from opsim.engine.floor.state import Job, Station, Worker
 from opsim.log import BAD, FALSE_ALARM, REWORK, SCRAP
-from opsim.plan.quality import NOWHERE
+from opsim.plan.products import NOWHERE
 
 
 @struct

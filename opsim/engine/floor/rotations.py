@@ -12,13 +12,13 @@ from opsim.engine.floor.routing import alarm
 from opsim.engine.floor.state import Event, Job, Worker
 from opsim.engine.floor.worker import leave_all, leave_those
 from opsim.engine.rules import CALENDAR
+from opsim.layout import turns_away
 from opsim.log import ABSENT, OFF
-from opsim.posts import turns_away
 
 
 @struct
 class Posts:
-    """One person each for some posts, see ``opsim.posts``. Pairs are by post, then by member.
+    """One person each for some posts, see ``opsim.layout``. Pairs are by post, then by member.
 
     can : pairs; width : numbers in a key; keys : pairs, that many numbers each
     left : members without a post, in order; wanted : by post, members by their keys, n_wanted of them

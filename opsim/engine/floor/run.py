@@ -18,8 +18,8 @@ from opsim.engine.floor.build import Build
 from opsim.engine.floor.event_list import new_event
 from opsim.engine.floor.settle import close, happen, settle, start
 from opsim.log import EventLog, LogWriter, names_of
-from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+from opsim.threads import one_blas_thread
 
 AFTER_EVERYTHING = 2
 """SimPy's priorities are 0 (urgent) and 1 (normal): settle comes after both."""

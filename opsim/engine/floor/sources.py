@@ -18,7 +18,7 @@ from opsim.engine.floor.routing import product_of, want_in
 from opsim.engine.floor.state import Event, Job
 from opsim.engine.floor.stores import Refill
 from opsim.engine.rules import ARRIVAL
-from opsim.plan.release import BASE_STOCK
+from opsim.plan.sources import BASE_STOCK
 
 BY_TIME, BY_ORDER, BY_FLOOR = range(3)
 """Kinds of sources: with gaps, with a schedule, and those that are asked."""

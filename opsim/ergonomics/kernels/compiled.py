@@ -1,4 +1,7 @@
-"""``compiled``: numba.njit with the machine code kept on disk, or not kept where no cache can be written."""
+"""Compiled loops: arrays in, arrays out. Imported by the functions that need them: nobody else pays for numba.
+
+``compiled``: numba.njit with the machine code kept on disk, or not kept where no cache can be written.
+"""
 
 from __future__ import annotations
 

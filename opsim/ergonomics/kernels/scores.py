@@ -3,6 +3,10 @@
 Every sub-score is a pair (low, high), a row of ``codes``. RULA's and REBA's tables rise with each code, so that all the
 lows give the low score; OWAS's does not, and is asked for every code that there may be.
 NOTE: all in one file, the places of columns as an argument: numba's files on disk know of changes of this one alone.
+
+How many points of RULA each region of a body brings in, posture by posture. Twin: ``explained.explain``.
+
+NOTE: nothing of other kernels is used here, as what numba keeps on disk knows changes of this file only.
 """
 
 from __future__ import annotations
@@ -255,3 +259,61 @@ def score_all(measures, at, t, phases, walking, force, repeated, static, carryin
             lead_reba += right - left
         worse[n] = lead_rula > 0 or (lead_rula == 0 and lead_reba > 0)
         owas[n, 0], owas[n, 1] = owas_of(codes, said, tables[6])
+
+
+PARTS = ("trunk", "neck", "arms", "wrists", "legs", "load", "time")
+DRIVEN_BY_TRUNK, DRIVEN_BY_NECK, DRIVEN_BY_ARMS, DRIVEN_BY_WRISTS, DRIVEN_BY_LEGS, DRIVEN_BY_LOAD, DRIVEN_BY_TIME = (
+    range(7)
+)
+SETS = 2 ** len(PARTS)
+
+
+@compiled(error_model="numpy", nogil=True)
+def _rula(codes, forearm, force, time, there, table_a, table_b, table_c):
+    """RULA of the worse arm, with the parts that are not in the set ``there`` (a bit each) at their least.
+
+    codes (9,): neck, trunk, legs, upper arm, lower arm and wrist of the left arm, then of the right
+    """
+    more = (time if there >> DRIVEN_BY_TIME & 1 else 0) + (force if there >> DRIVEN_BY_LOAD & 1 else 0)
+    neck = codes[0] if there >> DRIVEN_BY_NECK & 1 else 1
+    trunk = codes[1] if there >> DRIVEN_BY_TRUNK & 1 else 1
+    legs = codes[2] if there >> DRIVEN_BY_LEGS & 1 else 1
+    d = min(table_b[neck - 1, trunk - 1, legs - 1] + more, 7)
+    twist = forearm if there >> DRIVEN_BY_WRISTS & 1 else 1
+    worst = 0
+    for first in (3, 6):
+        upper = codes[first] if there >> DRIVEN_BY_ARMS & 1 else 1
+        lower = codes[first + 1] if there >> DRIVEN_BY_ARMS & 1 else 1
+        wrist = codes[first + 2] if there >> DRIVEN_BY_WRISTS & 1 else 1
+        c = min(table_a[upper - 1, lower - 1, wrist - 1, twist - 1] + more, 8)
+        worst = max(worst, table_c[c - 1, d - 1])
+    return worst
+
+
+@compiled(error_model="numpy", nogil=True)
+def drive(codes, said, time, weights, table_a, table_b, table_c, out):
+    """Write the Shapley value of each part, (N, 7), of the middle of low and high.
+
+    codes (N, 9, 2) sub-scores as ``_rula`` has them, low and high; said (2, 2, 2): of empty hands and of loaded ones,
+    forearm and force, low and high, chosen by time[:, 1]; time (N, 2): points of muscle use, whether hands are loaded
+    weights (7,): of a set of so many other parts
+    """
+    worth = np.empty(SETS)
+    for n in range(len(codes)):
+        loaded = time[n, 1]
+        for there in range(SETS):
+            worth[there] = 0.0
+            for end in range(2):
+                worth[there] += 0.5 * _rula(
+                    codes[n, :, end], said[loaded, 0, end], said[loaded, 1, end], time[n, 0], there,
+                    table_a, table_b, table_c,
+                )  # fmt: skip
+        for part in range(7):
+            out[n, part] = 0.0
+        for there in range(SETS):
+            size = 0
+            for part in range(7):
+                size += there >> part & 1
+            for part in range(7):
+                if not there >> part & 1:
+                    out[n, part] += weights[size] * (worth[there | 1 << part] - worth[there])

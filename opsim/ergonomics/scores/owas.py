@@ -10,10 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from opsim.ergonomics.options import DISPUTED, Thresholds
-from opsim.ergonomics.scores.asked import angles_checked, choice_checked
-from opsim.ergonomics.scores.force import owas_load
-from opsim.ergonomics.scores.levels import owas_level
-from opsim.ergonomics.scores.tables import owas_table
+from opsim.ergonomics.scores.scoring import angles_checked, choice_checked
+from opsim.ergonomics.scores.tables import owas_level, owas_load, owas_table
 from opsim.problems import shown
 
 LEGS = {

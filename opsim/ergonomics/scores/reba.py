@@ -10,11 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from opsim.ergonomics.options import PAPER, Thresholds
-from opsim.ergonomics.scores.asked import angles_checked, choice_checked
-from opsim.ergonomics.scores.force import reba_load
-from opsim.ergonomics.scores.levels import reba_level
 from opsim.ergonomics.scores.rula import lower_arm_score, trunk_score, upper_arm_score, wrist_score
-from opsim.ergonomics.scores.tables import REBA_A, REBA_B, REBA_C
+from opsim.ergonomics.scores.scoring import angles_checked, choice_checked
+from opsim.ergonomics.scores.tables import REBA_A, REBA_B, REBA_C, reba_level, reba_load
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,6 @@
-"""RULA of one posture and arm, from angles and flags that somebody has read off.
+"""RULA, REBA and OWAS: a posture's scores as intervals, and what drives them.
+
+RULA of one posture and arm, from angles and flags that somebody has read off.
 
 Source: McAtamney & Corlett 1993, RULA: a survey method for the investigation of work-related upper limb disorders,
 Applied Ergonomics 24(2), 91-99. An angle on the edge of two bands takes the lower score. Forks: ``options.py``.
@@ -9,11 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from opsim.ergonomics.options import CHOICES, PAPER, Thresholds
-from opsim.ergonomics.scores.asked import angles_checked, choice_checked
-from opsim.ergonomics.scores.force import rula_force
-from opsim.ergonomics.scores.levels import rula_level
-from opsim.ergonomics.scores.tables import RULA_A, RULA_B, RULA_C
-from opsim.plan.handling import FORCES
+from opsim.ergonomics.scores.scoring import angles_checked, choice_checked
+from opsim.ergonomics.scores.tables import RULA_A, RULA_B, RULA_C, rula_force, rula_level
+from opsim.plan.tasks import FORCES
 
 
 @dataclass(frozen=True, slots=True)

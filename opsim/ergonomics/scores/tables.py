@@ -7,11 +7,20 @@ All tables of RULA and REBA rise with each of their codes. OWAS rises with arms 
 back (2) to a twisted one (3) in 35 cells, and with the legs in 47: from sitting (1) to standing (2) in 13, from one
 bent knee (5) to kneeling (6) in 19, from kneeling to walking (7) in 15. Its interval is therefore taken over every code
 that a posture may have.
+
+What the papers say is to be done about a score: action levels with their words.
+
+Loads in kilograms, in both hands together, as the methods count them.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+
+from opsim.plan.tasks import FORCES
+from opsim.problems import did_you_mean, shown
 
 
 def _table(text: str, *shape: int) -> np.ndarray:
@@ -101,3 +110,99 @@ def owas_table(disputed: tuple[str, ...] = ()) -> np.ndarray:
     for code in disputed:
         table[tuple(int(digit) - 1 for digit in code)] = OWAS_ALTERNATIVES[code]
     return table
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """An action level or category: its number, the scores from ``least`` to ``most``, and the published words."""
+
+    number: int
+    least: int
+    most: int
+    text: str
+
+
+RULA = (
+    Level(1, 1, 2, "acceptable if not maintained or repeated for long periods"),
+    Level(2, 3, 4, "further investigation, changes may be required"),
+    Level(3, 5, 6, "investigation and changes required soon"),
+    Level(4, 7, 7, "investigation and changes required immediately"),
+)
+"""McAtamney & Corlett 1993, Applied Ergonomics 24(2), 91-99."""
+REBA = (
+    Level(0, 1, 1, "negligible risk, no action necessary"),
+    Level(1, 2, 3, "low risk, action may be necessary"),
+    Level(2, 4, 7, "medium risk, action necessary"),
+    Level(3, 8, 10, "high risk, action necessary soon"),
+    Level(4, 11, 15, "very high risk, action necessary now"),
+)
+"""Hignett & McAtamney 2000, Applied Ergonomics 31, 201-205."""
+OWAS_LEVELS = (
+    Level(1, 1, 1, "normal, no action"),
+    Level(2, 2, 2, "slightly harmful, action in the near future"),
+    Level(3, 3, 3, "distinctly harmful, action as soon as possible"),
+    Level(4, 4, 4, "extremely harmful, action immediately"),
+)
+"""Karhu, Kansi & Kuorinka 1977, Applied Ergonomics 8, 199-201; its categories are scores themselves."""
+
+
+def rula_level(score: int) -> Level:
+    """The action level (1-4) of a RULA grand score of 1-7. Raises ValueError for another."""
+    return _level(RULA, "RULA", score)
+
+
+def reba_level(score: int) -> Level:
+    """The action level (0-4) of a REBA score of 1-15. Raises ValueError for another."""
+    return _level(REBA, "REBA", score)
+
+
+def owas_level(category: int) -> Level:
+    """The action category (1-4) of OWAS itself, with its words. Raises ValueError for another."""
+    return _level(OWAS_LEVELS, "OWAS", category)
+
+
+def _level(levels: tuple[Level, ...], method: str, score: int) -> Level:
+    for level in levels:
+        if level.least <= score <= level.most and score == int(score):
+            return level
+    raise ValueError(f"{method}: no score {shown(score)}, expected {levels[0].least} to {levels[-1].most}")
+
+
+RULES = ("paper", "worksheet")
+
+
+def rula_force(load_kg: float, pattern: str = "intermittent", rule: str = "paper") -> int:
+    """RULA's force score: 0 less than 2 kg; 1 from 2 to 10 kg now and then; 2 from 2 to 10 kg static or repeated, or
+    more than 10 kg now and then; 3 more than 10 kg static or repeated, or a shock of any size.
+
+    pattern : ``intermittent``, ``repeated``, ``static`` or ``shock``
+    rule    : ``paper``, or ``worksheet``, by which more than 10 kg is always 3
+    Raises ValueError for an unknown word, with the nearest. Source: McAtamney & Corlett 1993, fig. 6.
+    """
+    _known("force", pattern, FORCES)
+    _known("rule of force", rule, RULES)
+    if pattern == "shock":
+        return 3
+    if load_kg < 2:
+        return 0
+    if load_kg > 10 and rule == "worksheet":
+        return 3
+    return 1 + (load_kg > 10) + (pattern != "intermittent")
+
+
+def reba_load(load_kg: float, *, shock: bool = False) -> int:
+    """REBA's load or force score: 0 less than 5 kg, 1 to 10 kg, 2 above; 1 more for a shock or rapid build up.
+
+    Source: Hignett & McAtamney 2000, table A's load.
+    """
+    return (load_kg >= 5) + (load_kg > 10) + bool(shock)
+
+
+def owas_load(load_kg: float) -> int:
+    """OWAS's fourth digit: 1 to 10 kg, 2 to 20 kg, 3 above. Source: Karhu, Kansi & Kuorinka 1977."""
+    return 1 + (load_kg > 10) + (load_kg > 20)
+
+
+def _known(what: str, word: str, words: tuple[str, ...]) -> None:
+    if word not in words:
+        raise ValueError(f"no {what} {shown(word)}; {did_you_mean(word, words)}")

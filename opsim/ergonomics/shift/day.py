@@ -1,30 +1,152 @@
-"""All that workers' bodies did in the window, posture by posture: one pass over the rows of a log.
+"""The scores of a stretch of somebody's shift: each frame with what the scenario says of its task.
+
+The postures of one worker's performances, each looked at once: what comes again later is kept until then.
+
+All that workers' bodies did in the window, posture by posture: one pass over the rows of a log.
 
 Only what was really done counts. Each performance is drawn again by its name (worker, task, k) and looked at once; each
 piece of it is looked at where its progress lies and takes the time it took. Whatever asks what bodies went through
 is a fold over these frames.
+
+One pass over what bodies did, for all who ask something of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from opsim.ergonomics.columns import COLUMNS
-from opsim.ergonomics.neutral import neck_neutrals_rad
-from opsim.ergonomics.pieces import Pieces, pieces_of, worked_rows
-from opsim.ergonomics.shift.parts import Parts, Spans, assembled, whole
-from opsim.ergonomics.shift.seen import Seen
-from opsim.ergonomics.shift.standing import STANDING
-from opsim.ergonomics.shift.stretch import WAITING, Frames
-from opsim.ergonomics.shift.walks_seen import WalksSeen
-from opsim.ergonomics.strain.holds import marked
-from opsim.ergonomics.strain.repetition import repeated_rows
+from opsim.ergonomics.angles import COLUMNS
+from opsim.ergonomics.measures import has_body, measures_of
+from opsim.ergonomics.redraw import Lucks, Pieces, drawn_again, neck_neutrals_rad, pieces_of, worked_rows
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, Bounds, Scores, bounds_of, score
+from opsim.ergonomics.shift.frames import (
+    STANDING,
+    WAITING,
+    WALKING,
+    Frames,
+    Parts,
+    Spans,
+    assembled,
+    looked_at,
+    not_looked_at,
+    not_seen,
+    whole,
+)
+from opsim.ergonomics.shift.walks import WalksSeen, carried_by
+from opsim.ergonomics.strain.posture_limits import repeated_rows
+from opsim.ergonomics.strain.static_holds import marked
+from opsim.ergonomics.trunk import named_by
 from opsim.log import WAIT, EventLog
-from opsim.one_thread import one_blas_thread
 from opsim.plan import Plan
+from opsim.plan.tasks import Handling, Moment
+from opsim.streams import BLOCK
+from opsim.threads import one_blas_thread
+
+
+def scored(frames: Frames, plan: Plan) -> Scores:
+    """The scores of N frames by ``plan.ergonomics``; 0 where no posture is known, so that nothing can be said."""
+    n, known = len(frames), frames.known
+    rula, reba, owas = np.zeros((3, n, 2), np.int8)
+    found = Scores(rula, reba, owas, np.zeros(n, np.int8))
+    brought = np.where((frames.task == WALKING) & frames.carrying, frames.product, -1)
+    for task, product in sorted(set(zip(frames.task[known].tolist(), brought[known].tolist()))):
+        rows = np.flatnonzero(known & (frames.task == task) & (brought == product))
+        some = frames.some(rows)
+        flags = (some.repeated, some.static, some.carrying)
+        own = score(some.measures, said_of(task, plan, product, frames.worker), plan.ergonomics, *flags)
+        for name in ("rula", "reba", "owas", "worse"):
+            getattr(found, name)[rows] = getattr(own, name)
+    return found
+
+
+def said_of(task: int, plan: Plan, product: int = -1, worker: int = 0) -> Bounds:
+    """What is said of a task; of walking, with a job of a product in the worker's hands where there is one; and of
+    waiting, which is standing with nothing in the hands."""
+    if task >= 0:
+        return bounds_of(plan.tasks[task].handling)
+    return NOTHING_OPEN if task == WAITING else carried_by(plan, worker, product)
+
+
+class Looked(NamedTuple):
+    """Performances looked at: measures (m, C, COLUMNS), and (m,) from and to which progress hands may be full."""
+
+    measures: np.ndarray
+    begin: np.ndarray
+    end: np.ndarray
+
+    def one(self, place: int) -> Looked:
+        """One of them, by itself; NOTE: a copy, so that it does not keep the others."""
+        return Looked(*(column[place : place + 1].copy() for column in self))
+
+
+class Seen:
+    """Looks at pieces of one worker, stretch after stretch, block by block of his draws."""
+
+    def __init__(self, plan: Plan, replication: int, neutrals_rad: dict[str, float], lucks: Lucks):
+        self._plan, self._replication = plan, replication
+        self._neutrals_rad, self._lucks = neutrals_rad, lucks
+        self._kept: dict[tuple[int, int], Looked] = {}
+
+    def parts(self, spans: Spans, again: np.ndarray) -> Iterator[Parts]:
+        """Frames of some pieces of work; again : (P,) whether the performance of each goes on after this stretch."""
+        kept = np.array([key in self._kept for key in _keys(spans.pieces)], dtype=bool)
+        yield from self._seen_before(spans, np.flatnonzero(kept), again)
+        new = np.flatnonzero(~kept)
+        new, at = new[np.lexsort([spans.pieces.k[new], spans.pieces.task[new]])], 0
+        for block, some in drawn_again(spans.pieces.some(new), self._replication, self._plan, self._lucks):
+            which = new[at : at + some.k.size]
+            at += some.k.size
+            if has_body(block):
+                yield self._seen_now(spans, which, block, again)
+            else:
+                handling = self._plan.tasks[int(some.task[0])].handling
+                if handling.by_share:
+                    yield not_seen(spans, which, (handling.start.share, handling.end.share))
+                else:
+                    yield not_looked_at(spans, which)
+
+    def _seen_before(self, spans: Spans, which: np.ndarray, again: np.ndarray) -> Iterator[Parts]:
+        for at, key in zip(which.tolist(), _keys(spans.pieces.some(which))):
+            looked = self._kept[key]
+            yield looked_at(spans, np.array([at]), looked.measures, np.array([0]), (looked.begin, looked.end))
+        for at, key in zip(which.tolist(), _keys(spans.pieces.some(which))):
+            if not again[at]:
+                self._kept.pop(key, None)
+
+    def _seen_now(self, spans: Spans, which: np.ndarray, block: Any, again: np.ndarray) -> Parts:
+        pieces = spans.pieces.some(which)
+        numbers, first, place = np.unique(pieces.k, return_index=True, return_inverse=True)
+        looked = self._look(block, int(pieces.task[0]), numbers % BLOCK)
+        for at in np.flatnonzero(again[which[first]]).tolist():
+            self._kept[int(pieces.task[0]), int(numbers[at])] = looked.one(at)
+        return looked_at(spans, which, looked.measures, place, (looked.begin, looked.end))
+
+    def _look(self, block: Any, task: int, rows: np.ndarray) -> Looked:
+        named = self._plan.tasks[task]
+        with named_by(named):
+            measures = measures_of(block, rows, self._plan.ergonomics, self._neutrals_rad[named.name])
+        return Looked(np.asarray(measures, np.float32), *hands_full(named.handling, block, rows))
+
+
+def _keys(pieces: Pieces) -> Iterator[tuple[int, int]]:
+    """Task and k of each: which performance of the worker."""
+    return zip(pieces.task.tolist(), pieces.k.tolist())
+
+
+def hands_full(handling: Handling, block: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(m,) and (m,) from and to which share of their time hands hold what is handled, in some rows of a block."""
+    return _share(handling.start, block, rows), _share(handling.end, block, rows)
+
+
+def _share(moment: Moment, block: Any, rows: np.ndarray) -> np.ndarray:
+    if moment.mark < 0:
+        return np.full(rows.size, moment.share)
+    return np.asarray(block.mark_s)[rows, moment.mark] / np.asarray(block.duration_s)[rows]
+
 
 UPRIGHT = "upright"
 HOUR_S = 3600.0
@@ -126,3 +248,20 @@ def _until_s(log: EventLog, rows: np.ndarray) -> np.ndarray:
     until_s = np.empty(order.size)
     until_s[order] = last_s[number]
     return until_s
+
+
+class Fold(Protocol):
+    """Whoever looks at every stretch once: worker after worker, each in the order of time."""
+
+    def add(self, frames: Frames, scores: Scores) -> None:
+        """The next stretch; it lies within an hour of the clock."""
+
+
+def fold(log: EventLog, plan: Plan, folds: Iterable[Fold]) -> None:
+    """Show every stretch of a replication, with its scores, to all of ``folds``. Raises what ``days`` raises."""
+    folds = list(folds)
+    with one_blas_thread():
+        for frames in days(log, plan):
+            scores = scored(frames, plan)
+            for one in folds:
+                one.add(frames, scores)

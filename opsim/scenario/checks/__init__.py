@@ -7,43 +7,37 @@ from itertools import chain
 from pathlib import Path
 
 from opsim.problems import Problem
-from opsim.scenario.checks.additions import addition_problems
-from opsim.scenario.checks.assembly import assembly_problems
-from opsim.scenario.checks.assignment import assignment_problems
-from opsim.scenario.checks.batches import batch_problems
-from opsim.scenario.checks.card_stock import card_stock_problems
-from opsim.scenario.checks.cards import card_problems
-from opsim.scenario.checks.carrying import carrying_problems
-from opsim.scenario.checks.conveyors import conveyor_problems
-from opsim.scenario.checks.crews import crew_problems
-from opsim.scenario.checks.ergonomics import ergonomic_problems
-from opsim.scenario.checks.failures import failure_problems
-from opsim.scenario.checks.files import file_problems
-from opsim.scenario.checks.human import human_problems
-from opsim.scenario.checks.line_ways import line_way_problems
-from opsim.scenario.checks.lines import line_problems
-from opsim.scenario.checks.material import material_problems
-from opsim.scenario.checks.motions import motion_problems
-from opsim.scenario.checks.people import person_problems
-from opsim.scenario.checks.plugins import plugin_problems
-from opsim.scenario.checks.points import point_problems
-from opsim.scenario.checks.quality import quality_problems
-from opsim.scenario.checks.references import reference_problems
-from opsim.scenario.checks.rotations import rotation_problems
-from opsim.scenario.checks.routing import routing_problems
-from opsim.scenario.checks.saturated import saturated_problems
-from opsim.scenario.checks.sequence import sequence_problems
+from opsim.scenario.checks.assembly import (
+    assembly_problems,
+    batch_problems,
+    card_problems,
+    card_stock_problems,
+    store_problems,
+)
+from opsim.scenario.checks.lines import line_problems, line_way_problems, sharing_problems
+from opsim.scenario.checks.lookup import reference_problems
+from opsim.scenario.checks.motions import ergonomic_problems, human_problems, motion_problems, walking_emulator_problems
+from opsim.scenario.checks.names import (
+    addition_problems,
+    file_problems,
+    material_problems,
+    plugin_problems,
+    point_problems,
+)
+from opsim.scenario.checks.people import (
+    assignment_problems,
+    crew_problems,
+    patrol_problems,
+    person_problems,
+    rotation_problems,
+    staffing_problems,
+)
+from opsim.scenario.checks.routes import quality_problems, routing_problems, walking_problems
+from opsim.scenario.checks.sequence import failure_problems, sequence_problems, team_problems
 from opsim.scenario.checks.shifts import shift_problems
-from opsim.scenario.checks.sources import source_problems
-from opsim.scenario.checks.staffing import patrol_problems, staffing_problems
-from opsim.scenario.checks.stores import store_problems
-from opsim.scenario.checks.teams import team_problems
-from opsim.scenario.checks.tools import tool_problems
-from opsim.scenario.checks.transporters import transporter_problems
-from opsim.scenario.checks.walking import walking_problems
-from opsim.scenario.checks.walking_emulator import walking_emulator_problems
-from opsim.scenario.checks.work_sharing import sharing_problems
-from opsim.scenario.positions import Node
+from opsim.scenario.checks.sources import saturated_problems, source_problems
+from opsim.scenario.checks.transport import carrying_problems, conveyor_problems, tool_problems, transporter_problems
+from opsim.scenario.tree import Node
 
 
 def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:

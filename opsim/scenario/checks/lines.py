@@ -1,17 +1,24 @@
-"""Paced lines: stations that can move their jobs together, and people who are there and called."""
+"""Paced lines: stations that can move their jobs together, and people who are there and called.
+
+The ways of products over paced lines: on at the first station, from each to the next, off at the last.
+
+Work that two stations share: the second follows the first on every way, and both have work of their own.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 from opsim import units
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.references import named
-from opsim.scenario.positions import Node, child, entries, items, problem, text
+from opsim.scenario.checks.lookup import named, one_of, onward
 from opsim.scenario.schema.lines import INDEXED, MOVING
+from opsim.scenario.schema.routing import OUT, START
 from opsim.scenario.schema.workers import USUAL_WALK_M_PER_S
+from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 
-Path = tuple[str | int, ...]
+TreePath = tuple[str | int, ...]
 _NOT_ON_A_LINE = {
     "buffer": "the line's own stretch is all the room there is",
     "buffer_after": "a job moves on with the line",
@@ -82,7 +89,7 @@ def _crews(tree: Node, line: str, on_it: list[str]) -> Iterator[Problem]:
                 yield problem(station.place, ("crews", name, "stations", number), found, "a crew or a line, not both")
 
 
-def _andon(tree: Node, line: Node, on_it: list[str], path: Path) -> Iterator[Problem]:
+def _andon(tree: Node, line: Node, on_it: list[str], path: TreePath) -> Iterator[Problem]:
     """Who is called is there and can work; others do the usual work."""
     workers, called = entries(tree, "workers"), items(line, "andon", "workers")
     for number, worker in enumerate(called):
@@ -101,7 +108,7 @@ def _andon(tree: Node, line: Node, on_it: list[str], path: Path) -> Iterator[Pro
             yield problem(line.value["andon"].name_place, (*path, "andon"), found, hint)
 
 
-def _too_slow(tree: Node, line: Node, on_it: list[str], path: Path) -> Iterator[Problem]:
+def _too_slow(tree: Node, line: Node, on_it: list[str], path: TreePath) -> Iterator[Problem]:
     """Workers who could not walk after a job that moves away from them."""
     speed = _speed_m_per_s(line)
     for name, worker in entries(tree, "workers").items():
@@ -126,3 +133,196 @@ def _quantity(node: Node | None, kind: str) -> float | None:
         return None if node is None else units.parse(node.value, kind)
     except units.UnitError:
         return None
+
+
+Step = tuple[str, str, Node]
+"""(from, to, where it is said); START and OUT stand for the way in and the way out."""
+
+
+def line_way_problems(tree: Node) -> Iterator[Problem]:
+    """Ways that leave a line, or come onto it, in the middle; and what would move a job otherwise than the line."""
+    lines = {name: [one.value for one in items(line, "stations")] for name, line in entries(tree, "lines").items()}
+    for name, stations in lines.items():
+        known = all(isinstance(one, str) and one in entries(tree, "stations") for one in stations)
+        if not stations or not known or len(set(stations)) < len(stations):
+            continue
+        for product, node in entries(tree, "products").items():
+            steps = [step for step in _steps(node) if set(stations) & {step[0], step[1]}]
+            yield from _way(name, stations, product, steps)
+            yield from _alternatives(name, stations, product, node)
+            yield from _moved(stations, name, product, node, bool(steps))
+        yield from _legs(tree, name, stations)
+        yield from _cards(tree, name, stations)
+        yield from _rework(tree, name, stations)
+        yield from _kept(tree, name, stations)
+
+
+def _way(line: str, stations: list[str], product: str, steps: list[Step]) -> Iterator[Problem]:
+    """The first step of a product that a line does not go."""
+    allowed = set(pairwise(stations))
+    for before, after, node in steps:
+        if (before, after) in allowed or (before not in stations and after == stations[0]):
+            continue
+        if before == stations[-1] and after not in stations[1:]:
+            continue
+        came = f"begins at {after}" if before == START else f"comes from {before} to {after}"
+        found = f"{product} {came}" if after != OUT else f"{product} leaves from {before}"
+        yield problem(
+            node.place,
+            ("products", product),
+            f"{found}, and the line {line} goes {', '.join(stations)}",
+            "a way goes over all its stations in this order; one without work there has no tasks",
+        )
+        return
+
+
+def _alternatives(line: str, stations: list[str], product: str, node: Node) -> Iterator[Problem]:
+    for number, step in enumerate(items(node, "route")):
+        if len(one_of(step)) > 1 and set(one_of(step)) & set(stations):
+            found = f"{product} goes to {' or '.join(one_of(step))}, and the line {line} leads to one of them alone"
+            yield problem(step.place, ("products", product, "route", number), found, "name one station")
+
+
+def _steps(product: Node) -> Iterator[Step]:
+    """From where to where a product may go."""
+    route = items(product, "route")
+    ends = [] if not route else [Node(OUT, route[-1].place)]
+    for here, there in pairwise([Node(START, product.place), *route, *ends]):
+        yield from ((before, after, there) for before in one_of(here) for after in one_of(there))
+    for name, row in entries(product, "routing").items():
+        for other, node in onward(row):
+            yield name, other, node
+
+
+def _moved(stations: list[str], line: str, product: str, node: Node, passes: bool) -> Iterator[Problem]:
+    carried = child(node, "carried")
+    if passes and carried is not None and carried.value is True:
+        found = f"{product} goes over the line {line}, which moves it"
+        yield problem(carried.place, ("products", product, "carried"), found, "remove 'carried'")
+    for station, pieces in entries(node, "split").items():
+        if station in stations:
+            found = f"{product} is split at {station}, on the line {line}"
+            yield problem(pieces.name_place, ("products", product, "split"), found, "split it after the line")
+
+
+def _legs(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:
+    for name, vehicle in entries(tree, "transporters").items():
+        for number, leg in enumerate(items(vehicle, "legs")):
+            ends = [end.value for end in items(leg)]
+            if len(ends) == 2 and (ends[1] in stations or ends[0] in stations):
+                found = f"{name} would bring jobs to or from a station of the line {line}, which comes when it comes"
+                hint = "put a store or a station between them"
+                yield problem(leg.place, ("transporters", name, "legs", number), found, hint)
+
+
+def _cards(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:
+    for name, card in entries(tree, "cards").items():
+        begin = child(card, "from")
+        for node in [] if begin is None else items(begin) or [begin]:
+            if node.value in stations[1:]:
+                found = f"a card is taken before {node.value}, and the line {line} waits for nobody there"
+                yield problem(node.place, ("cards", name, "from"), found, f"take it before {stations[0]}")
+
+
+def _rework(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:
+    for name, station in entries(tree, "stations").items():
+        rework = child(station, "inspect", "then", "rework")
+        if rework is not None and rework.value in stations and name not in stations:
+            found = f"a job cannot come back to {shown(rework.value)}, on the line {line}"
+            hint = "rework it at a station of its own"
+            yield problem(rework.place, ("stations", name, "inspect", "then"), found, hint)
+
+
+def _kept(tree: Node, line: str, stations: list[str]) -> Iterator[Problem]:
+    """Stations from which jobs come onto the line, and that ask for a place there before they begin."""
+    before = {
+        step[0] for product in entries(tree, "products").values() for step in _steps(product) if step[1] == stations[0]
+    }
+    for name in sorted(before - set(stations)):
+        blocking = child(tree, "stations", name, "blocking")
+        if blocking is not None and blocking.value == "before":
+            found = f"no place on the line {line} can be kept: a job comes onto it when it moves"
+            yield problem(blocking.place, ("stations", name, "blocking"), found, "write 'blocking: after'")
+
+
+def sharing_problems(tree: Node) -> Iterator[Problem]:
+    """Shares whose tasks or stations do not fit together."""
+    stations = entries(tree, "stations")
+    takers: dict[str, str] = {}
+    for name, station in stations.items():
+        share, path = child(station, "share"), ("stations", name, "share")
+        if not entries(share):
+            continue
+        yield from _tasks(tree, name, station, path)
+        partner = child(share, "with")
+        yield from named(partner, stations, "station", (*path, "with"))
+        if partner is None or not isinstance(partner.value, str) or partner.value not in stations:
+            continue
+        if partner.value == name:
+            yield problem(partner.place, (*path, "with"), f"{name} shares work with itself", "name the next station")
+            continue
+        first = takers.setdefault(partner.value, name)
+        if first != name:
+            found = f"{first} shares work with {shown(partner.value)} already"
+            yield problem(partner.place, (*path, "with"), found, "one station shares with it, and may share more tasks")
+        yield from _partner(stations, name, partner, (*path, "with"))
+        yield from _ways(tree, name, partner, (*path, "with"))
+
+
+def _tasks(tree: Node, name: str, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
+    """What is shared are the station's last tasks, and not all of them; neither needs the other's batch."""
+    here = [task.value for task in items(station, "tasks")]
+    nodes = items(station, "share", "tasks")
+    shared = [task.value for task in nodes]
+    for number, node in enumerate(nodes):
+        yield from named(node, entries(tree, "tasks"), "task", (*path, "tasks", number))
+    known = all(isinstance(task, str) and task in entries(tree, "tasks") for task in (*shared, *here))
+    if nodes and known and len(here) == 1:
+        found = f"{shown(here[0])} is the only task of {name}, which must keep one of its own"
+        hint = f"give {name} a task before it, or remove 'share'"
+        yield problem(nodes[0].place, (*path, "tasks"), found, hint)
+    elif nodes and known and (len(shared) >= len(here) or here[len(here) - len(shared) :] != shared):
+        found = f"the shared tasks must be the last of those of {name}, after one of its own"
+        example = ", ".join(str(task) for task in [*(task for task in here if task not in shared), *shared])
+        yield problem(nodes[0].place, (*path, "tasks"), found, f"write 'tasks: [{example}]' at the station")
+
+
+def _partner(stations: dict[str, Node], name: str, partner: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
+    """The next station has a buffer to look at and work of its own; jobs at both go one by one."""
+    other = stations[partner.value]
+    buffer = child(other, "buffer")
+    if buffer is None or buffer.value in (None, "unlimited"):
+        found = f"{shown(partner.value)} has an unlimited buffer, which is never half full"
+        yield problem(partner.place, path, found, f"give {partner.value} a buffer, such as 'buffer: 4'")
+    if not items(other, "tasks"):
+        found = f"{shown(partner.value)} has no task of its own"
+        yield problem(partner.place, path, found, "name a station where work is done")
+    for one in (name, partner.value):
+        if child(stations[one], "batch") is not None:
+            yield problem(partner.place, path, f"{one} serves batches, whose jobs cannot share work one by one")
+
+
+def _ways(tree: Node, name: str, partner: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
+    """Every job that comes to one of the two goes from the first to the second."""
+    for made, product in entries(tree, "products").items():
+        wrong = _wrong_way(product, name, partner.value)
+        if wrong:
+            hint = f"send {made} from {name} to {partner.value} and nowhere else, or let it pass both by"
+            yield problem(partner.place, path, f"{shown(made)} {wrong}", hint)
+        for one in (name, partner.value):
+            if child(product, "split", one) is not None:
+                yield problem(partner.place, path, f"{shown(made)} is split at {one}, and its pieces share no work")
+
+
+def _wrong_way(product: Node, first: str, second: str) -> str:
+    """What is wrong with a product's way past two stations, in words; nothing where it is right."""
+    steps: list[tuple[list[str], list[str]]] = []
+    route = [one_of(step) for step in items(product, "route")]
+    steps += zip([[START], *route], [*route, ["out"]])
+    steps += [([name], [to for to, _ in onward(row)]) for name, row in entries(product, "routing").items()]
+    for before, after in steps:
+        if first in before and set(after) != {second}:
+            return f"does not always go from {first} to {second}"
+        if second in after and set(before) != {first}:
+            return f"comes to {second} without passing {first}"
+    return ""

@@ -1,14 +1,35 @@
-"""Tasks of several motions: their skeletons are one, and who walks in them has a way to walk."""
+"""Tasks of several motions: their skeletons are one, and who walks in them has a way to walk.
+
+The marks that the movement of a task has, found without loading it.
+
+The emulator of ``walking:``: one of walking at all, and for people as fast and as slow as the workers.
+
+Hands belong to tasks that have some, and figures of posture to runs in which somebody looks at postures.
+
+Human effects that stand on another one, or on bodies, and experience of tasks that exist.
+"""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from opsim.libraries import LibraryMissing, library_skeletons, resolve_library
-from opsim.problems import Problem, shown
-from opsim.scenario.checks.references import motion_emulators
-from opsim.scenario.positions import Node, child, entries, items, problem, text
+from opsim import units
+from opsim.kpi.catalogue import needs_postures, read_asked
+from opsim.libraries import (
+    LibraryMissing,
+    library_marks,
+    library_skeletons,
+    library_speeds,
+    library_tasks,
+    resolve_library,
+)
+from opsim.plan.compile import LEAST_EXPOSED
+from opsim.problems import Problem, did_you_mean, shown
+from opsim.scenario.checks.lookup import motion_emulators, named
+from opsim.scenario.schema.workers import Person
+from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 
 
 def motion_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -56,3 +77,226 @@ def _difference(one: tuple[str, ...], other: tuple[str, ...]) -> str:
     parts = (("no", [j for j in one if j not in other]), ("also", [j for j in other if j not in one]))
     said = [f"{word} {', '.join(names[:4])}{' and more' if len(names) > 4 else ''}" for word, names in parts if names]
     return " and ".join(said) or "the same joints, hung together in another way"
+
+
+WALK = "walk"
+MOMENTS = ("from", "to")
+
+
+def moment_problems(tree: Node, task: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Problem]:
+    """Moments of ``hold`` or ``loaded`` that are names: of a movement without such a mark, or in the wrong order."""
+    said = {key: node for key in MOMENTS if (node := child(task, path[-1], key)) is not None}
+    names = {key: node for key, node in said.items() if isinstance(node.value, str)}
+    marks = marks_of(tree, task, folder) if names else None
+    if marks is None:
+        return
+    for key, node in names.items():
+        if node.value not in marks:
+            hint = did_you_mean(node.value, marks, otherwise="its marks") or "say it as a share, such as 0.25"
+            found = f"no mark {shown(node.value)} in this movement" if marks else "this task has no marks"
+            yield problem(node.place, (*path, key), found, hint)
+    both = [marks.index(node.value) for node in names.values() if node.value in marks]
+    if len(both) == 2 and both[0] > both[1]:
+        yield problem(names["to"].place, (*path, "to"), f"{names['to'].value} comes before {names['from'].value}")
+
+
+def marks_of(tree: Node, task: Node, folder: Path) -> list[str] | None:
+    """Names of marks, in order; empty for a time without a body, None where they cannot be known here."""
+    emulator = text(task, "emulator")
+    if emulator is not None:
+        return _of_emulator(tree, emulator, folder)
+    if child(task, "motions") is not None:
+        return _of_motions(tree, task, folder)
+    return _of_plugin(task) if text(task, "plugin") else []
+
+
+def _of_emulator(tree: Node, emulator: str, folder: Path) -> list[str] | None:
+    library, _, inside = emulator.partition("/")
+    file = text(tree, "libraries", library)
+    if file is None:
+        return None
+    try:
+        marks = library_marks(resolve_library(file, folder)).get(inside)
+    except LibraryMissing:  # a problem of its own
+        return None
+    return None if marks is None else list(marks)
+
+
+def _of_motions(tree: Node, task: Node, folder: Path) -> list[str] | None:
+    """``reach.touch``, ``fasten.2.start``: as the emulator of many motions calls them."""
+    parts: list[tuple[str, list[str]]] = []
+    for path, model, _ in motion_emulators(tree, "", task):
+        marks = _of_emulator(tree, model, folder)
+        if marks is None:
+            return None
+        motion = task.value["motions"].value[path[3]]
+        repeat = child(motion, "repeat")
+        times = repeat.value if repeat is not None and type(repeat.value) is int else 1
+        parts += [(WALK if path[-1] == "walk" else model.partition("/")[2], marks)] * times
+    counts, seen, named = Counter(name for name, _ in parts), Counter[str](), []
+    for name, marks in parts:
+        seen[name] += 1
+        label = name if counts[name] == 1 else f"{name}.{seen[name]}"
+        named += [f"{label}.{mark}" for mark in marks]
+    return named
+
+
+def _of_plugin(task: Node) -> list[str] | None:
+    """What a plug-in's model says; nothing is known where it cannot be made, which is a problem of its own."""
+    from opsim.plugins import PluginError, plugin_model
+
+    said = child(task, "with")
+    values = said.plain() if said is not None and isinstance(said.value, dict) else {}
+    try:
+        return list(getattr(plugin_model(text(task, "plugin") or "", values), "mark_names", ()))
+    except (PluginError, ValueError, TypeError):
+        return None
+
+
+USUAL_M_PER_S = float(Person.model_fields["walk_m_per_s"].default)
+
+
+def walking_emulator_problems(tree: Node, folder: Path) -> Iterator[Problem]:
+    """A task that is no walking, and workers who walk faster or slower than the emulator can."""
+    model = child(tree, "walking", "emulator")
+    library, _, inside = (text(model) or "").partition("/")
+    file = text(tree, "libraries", library) if inside else None
+    if model is None or file is None:
+        return
+    try:
+        path = resolve_library(file, folder)
+        speeds, known = library_speeds(path), library_tasks(path)
+    except LibraryMissing:  # a problem of its own, said where the library is named
+        return
+    if inside in speeds:
+        yield from _speeds(tree, *speeds[inside])
+    elif inside in known:
+        hint = f"walking in it: {', '.join(speeds)}" if speeds else "the shipped libraries/walking.npz has one: walk"
+        yield problem(model.place, ("walking", "emulator"), f"{shown(inside)} is not an emulator of walking", hint)
+
+
+def _speeds(tree: Node, slowest: float, fastest: float) -> Iterator[Problem]:
+    for name, worker in entries(tree, "workers").items():
+        said = child(worker, "walk")
+        speed = _m_per_s(said)
+        if speed is not None and not slowest <= speed <= fastest:
+            found = f"people of {shown(text(tree, 'walking', 'emulator'))} cannot walk at {speed:g} m/s"
+            place = worker.name_place if said is None else said.place
+            hint = f"they walk at {slowest:g} to {fastest:g} m/s"
+            yield problem(place, ("workers", name, "walk"), found, hint)
+
+
+def _m_per_s(said: Node | None) -> float | None:
+    """The speed of a worker, that of the schema where he says none; None where it cannot be read."""
+    try:
+        return USUAL_M_PER_S if said is None else units.parse(said.value, "speed")
+    except units.UnitError:
+        return None
+
+
+HANDS = ("loaded", "handling")
+Spot = tuple[str, int, int]
+
+
+def ergonomic_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
+    """What is wrong with the hands of tasks, and with figures of posture.
+
+    base : the file's own tree: what it says of all tasks under ``defaults`` may be of no use to some of them
+    """
+    usual = {_spot(node) for node in entries(base, "defaults", "tasks").values()}
+    for name, task in entries(tree, "tasks").items():
+        yield from _hands(name, task, usual)
+        yield from moment_problems(tree, task, ("tasks", name, "loaded"), folder)
+    yield from _figures(tree)
+
+
+def _spot(node: Node) -> Spot:
+    """Where a node was written. NOTE: a Place itself is slow to hash, with all lines of its file."""
+    return node.place.source.file, node.place.line, node.place.column
+
+
+def _hands(name: str, task: Node, usual: set[Spot]) -> Iterator[Problem]:
+    """Hands where the station works alone; a time at which nothing is in them."""
+    alone = child(task, "automatic")
+    for key in HANDS:
+        node = child(task, key)
+        if node is None or _spot(node) in usual:
+            continue
+        if alone is not None and alone.value is True:
+            found = "the station works alone: there are no hands"
+            yield problem(node.name_place, ("tasks", name, key), found, f"remove {key!r}")
+        elif key == "loaded" and child(task, "load") is None:
+            found = "nothing says what is in the hands then"
+            yield problem(node.name_place, ("tasks", name, key), found, "add e.g. 'load: 6 kg' to the task")
+
+
+def _rules(tree: Node) -> Iterator[tuple[Part, ...]]:
+    """Where rules stand that may go by exposure."""
+    yield "allocation", "rule"
+    for name in entries(tree, "rotations"):
+        yield "rotations", name, "rule"
+
+
+def _figures(tree: Node) -> Iterator[Problem]:
+    """Figures and rules of posture where nobody looks at postures."""
+    node = child(tree, "run", "posture")
+    if node is None or node.value not in (False, "off"):
+        return
+    for path in _rules(tree):
+        if (rule := child(tree, *path)) is not None and rule.value == LEAST_EXPOSED:
+            found = "it goes by what postures do to bodies, and nobody looks at them ('posture: off')"
+            yield problem(rule.place, path, found, "take another rule, or leave postures on")
+    for key in ("outputs", "frontier"):
+        for number, asked in enumerate(items(tree, key)):
+            if isinstance(asked.value, str) and needs_postures([read_asked(asked.value).kpi]):
+                found = "it is made from postures, and nobody looks at them ('posture: off')"
+                yield problem(asked.place, (key, number), found, "remove one of the two lines")
+
+
+BODIES = ("emulator", "motions", "plugin")
+"""Keys of tasks that may have a body."""
+NEEDS = {
+    "rest": ("fatigue", "nobody tires, and nobody rests from it", "{model: lffrm}"),
+    "errors": ("fatigue", "nobody tires, and nobody errs by it", "{model: lffrm}"),
+    "forgetting": ("learning", "nobody learns what could be forgotten", "{model: wright}"),
+}
+"""Of an effect: the one that it stands on, what there is without it, and what is missing."""
+
+
+def human_problems(tree: Node) -> Iterator[Problem]:
+    """What is wrong with human effects."""
+    for name in entries(tree, "workers"):
+        for task, times in entries(tree, "workers", name, "experience").items():
+            path = ("workers", name, "experience", task)
+            yield from named(Node(task, times.name_place), entries(tree, "tasks"), "task", path)
+    for effect, (other, found, such) in NEEDS.items():
+        node = child(tree, "human", effect)
+        if node is not None and child(tree, "human", other) is None:
+            hint = f"add e.g. '{other}: {such}' to 'human', or remove {effect!r}"
+            yield problem(node.name_place, ("human", effect), found, hint)
+    yield from _errors(tree)
+    yield from _muscles(tree)
+
+
+def _errors(tree: Node) -> Iterator[Problem]:
+    """Errors of people, where every station works alone."""
+    node, tasks = child(tree, "human", "errors"), entries(tree, "tasks").values()
+    if node is not None and tasks and all(_alone(task) for task in tasks):
+        yield problem(node.name_place, ("human", "errors"), "every task is automatic: nobody is there to err")
+
+
+def _alone(task: Node) -> bool:
+    node = child(task, "automatic")
+    return node is not None and node.value is True
+
+
+def _muscles(tree: Node) -> Iterator[Problem]:
+    """Muscles that tire by the torque of joints, where no task has any."""
+    tasks = entries(tree, "tasks").values()
+    node = child(tree, "human", "fatigue")
+    if node is None or text(node, "model") != "3cc_r" or not tasks:
+        return
+    if not any(child(task, key) is not None for task in tasks for key in BODIES):
+        found = "3cc_r tires muscles by the torque of joints, and no task has a body"
+        hint = "take 'model: lffrm', or give a task an emulator"
+        yield problem(node.value["model"].place, ("human", "fatigue", "model"), found, hint)

@@ -1,4 +1,7 @@
-"""Shifts: those that are named exist, their breaks lie within them, and nobody is in two at once."""
+"""Breaks and meetings: each within its shift and on its days, no two at once, and time left to work.
+
+Shifts: those that are named exist, their breaks lie within them, and nobody is in two at once.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,89 @@ from pydantic import ValidationError
 
 from opsim.clock import DAY_S, DAYS, WEEK_S, on_the_clock
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.pauses import pause_problems
-from opsim.scenario.checks.references import named
-from opsim.scenario.positions import Node, Part, child, entries, items, problem
-from opsim.scenario.schema.shifts import Shift
+from opsim.scenario.checks.lookup import named
+from opsim.scenario.schema.run import Pause, Shift
+from opsim.scenario.tree import Node, Part, child, entries, items, problem
 
-Path = tuple[Part, ...]
+TreePath = tuple[Part, ...]
+Found = tuple[TreePath, Pause, Node]
+"""Where a pause stands, what it says, and its node."""
+
+
+def pause_problems(node: Node, shift: Shift, path: TreePath) -> Iterator[Problem]:
+    """What is wrong with the breaks and meetings of one shift."""
+    pauses = list(_pauses(node, shift, path))
+    within = []
+    for one in pauses:
+        mistakes = list(_outside(one, shift))
+        yield from mistakes
+        yield from _other_days(one, shift)
+        if not mistakes:
+            within.append(one)
+    overlaps = list(_overlaps(within, shift))
+    yield from overlaps
+    if not overlaps:
+        yield from _nothing_left(within, shift, node, path)
+
+
+def _pauses(node: Node, shift: Shift, path: TreePath) -> Iterator[Found]:
+    for kind, pauses in (("breaks", shift.breaks), ("meetings", shift.meetings)):
+        for name, pause in pauses.items():
+            found = child(node, kind, name)
+            if found is not None:
+                yield (*path, kind, name), pause, found
+
+
+def _outside(one: Found, shift: Shift) -> Iterator[Problem]:
+    path, pause, node = one
+    hours = f"{on_the_clock(shift.start_s)} to {on_the_clock(shift.end_s)}"
+    offset_s = shift.offset_s(pause)
+    if pause.lasts_s > shift.length_s:
+        found = f"lasts {pause.lasts_s / 60:g} min, and the whole shift {shift.length_s / 60:g} min"
+        yield problem(_at(node, "lasts"), (*path, "lasts"), found, "make it shorter")
+    elif offset_s >= shift.length_s:
+        found = f"{on_the_clock(pause.at_s)} is outside the shift, {hours}"
+        yield problem(_at(node, "at"), (*path, "at"), found, f"give a time from {on_the_clock(shift.start_s)} on")
+    elif offset_s + pause.lasts_s > shift.length_s:
+        found = f"goes on until {on_the_clock(pause.at_s + pause.lasts_s)}, beyond the shift, {hours}"
+        last = on_the_clock(shift.end_s - pause.lasts_s)
+        yield problem(_at(node, "at"), (*path, "at"), found, f"begin it at {last} or before, or make it shorter")
+
+
+def _other_days(one: Found, shift: Shift) -> Iterator[Problem]:
+    path, pause, node = one
+    beyond = [day for day in pause.days or () if day not in shift.days]
+    if beyond:
+        found = f"the shift does not begin on {' or '.join(beyond)}"
+        hint = f"days of this shift: {', '.join(shift.days)}"
+        yield problem(_at(node, "days"), (*path, "days"), found, hint)
+
+
+def _overlaps(pauses: list[Found], shift: Shift) -> Iterator[Problem]:
+    """Pauses that begin, on one of their days, before another one is over; each is told of one."""
+    in_order = sorted(pauses, key=lambda one: (shift.offset_s(one[1]), one[0]))
+    for number, (path, pause, node) in enumerate(in_order):
+        for before, other, _ in in_order[:number]:
+            ends_s = shift.offset_s(other) + other.lasts_s
+            if ends_s > shift.offset_s(pause) and set(pause.days or shift.days) & set(other.days or shift.days):
+                found = f"begins before {before[-1]} is over, at {on_the_clock(shift.start_s + ends_s)}"
+                yield problem(_at(node, "at"), (*path, "at"), found, "nobody is in two places at once")
+                break
+
+
+def _nothing_left(pauses: list[Found], shift: Shift, node: Node, path: TreePath) -> Iterator[Problem]:
+    for day in shift.days:
+        total_s = sum(pause.lasts_s for _, pause, _ in pauses if day in (pause.days or shift.days))
+        if total_s >= shift.length_s:
+            found = f"breaks and meetings take all of the shift ({total_s / 60:g} min on {day})"
+            first = child(node, "breaks") or child(node, "meetings") or node
+            yield problem(first.name_place, (*path, "breaks"), found, f"make {shown('lasts')} shorter")
+            return
+
+
+def _at(node: Node, key: str):
+    found = child(node, key)
+    return node.name_place if found is None else found.place
 
 
 def shift_problems(tree: Node) -> Iterator[Problem]:
@@ -41,7 +121,7 @@ def _read(node: Node) -> Shift | None:
         return None
 
 
-def _owners(tree: Node) -> Iterator[tuple[Node, Path]]:
+def _owners(tree: Node) -> Iterator[tuple[Node, TreePath]]:
     """What may follow a shift, each with its path."""
     for section in ("workers", "stations", "sources"):
         for name, node in entries(tree, section).items():
@@ -56,7 +136,7 @@ def _names(owner: Node) -> list[Node]:
     return [] if said is None else [said] if isinstance(said.value, str) else items(said)
 
 
-def _unknown(owner: Node, known: dict[str, Node], path: Path) -> Iterator[Problem]:
+def _unknown(owner: Node, known: dict[str, Node], path: TreePath) -> Iterator[Problem]:
     several = isinstance(getattr(child(owner, "shift"), "value", None), list)
     for number, node in enumerate(_names(owner)):
         if isinstance(node.value, str) and node.value not in known:
@@ -65,7 +145,7 @@ def _unknown(owner: Node, known: dict[str, Node], path: Path) -> Iterator[Proble
             yield problem(node.place, (*path, number) if several else path, f"no shift {shown(node.value)}", hint)
 
 
-def _in_two(worker: Node, shifts: dict[str, Shift], nodes: dict[str, Node], path: Path) -> Iterator[Problem]:
+def _in_two(worker: Node, shifts: dict[str, Shift], nodes: dict[str, Node], path: TreePath) -> Iterator[Problem]:
     """The first time in his weeks that a worker's next shift begins before the last one, or its overtime, is over."""
     named_here = _names(worker)
     names = [node.value for node in named_here]

@@ -1,23 +1,27 @@
-"""What comes in: one release or several sources, of products that there are, by files that can be read."""
+"""What comes in: one release or several sources, of products that there are, by files that can be read.
+
+A saturated source must come to an end: a buffer with a limit, or cards.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
 
-from opsim.orders import Mistake, read_orders, read_sequence
+from opsim.csv_input import Mistake, RecordedError, read_orders, read_sequence, resolve_times
 from opsim.problems import Problem, did_you_mean, nearest, shown
-from opsim.recorded import RecordedError, resolve_times
-from opsim.scenario.checks import releases as found
-from opsim.scenario.checks.ways import stations_of
-from opsim.scenario.positions import Node, Part, Place, Source, child, entries, items, problem, text
+from opsim.scenario.checks import lookup
+from opsim.scenario.checks.assembly import passes, values
+from opsim.scenario.checks.lookup import first_of, made_by, releases, stations_of
 from opsim.scenario.schema import Scenario
+from opsim.scenario.schema.sources import MOST_AT_ONCE
+from opsim.scenario.tree import Node, Part, Place, Source, child, entries, items, problem, text
 
 
 def source_problems(tree: Node, folder: Path) -> Iterator[Problem]:
     """Everything wrong with what a release, or each of the sources, says of other parts of the file."""
     yield from _one_way(tree)
-    for path, release in found.releases(tree).items():
+    for path, release in lookup.releases(tree).items():
         yield from _products(tree, release, path)
         yield from _files(tree, release, path, folder)
         if text(release, "kind") == "base_stock":
@@ -37,9 +41,9 @@ def _one_way(tree: Node) -> Iterator[Problem]:
         yield problem(place, "", "nothing says how jobs come in", "add e.g. 'release: {kind: poisson, every: 55 s}'")
 
 
-def _products(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
+def _products(tree: Node, release: Node, path: lookup.TreePath) -> Iterator[Problem]:
     products = entries(tree, "products")
-    named: list[tuple[str, Place, found.Path]] = [
+    named: list[tuple[str, Place, lookup.TreePath]] = [
         (name, node.name_place, ("products", name)) for name, node in entries(release, "products").items()
     ]
     for key in ("products", "sequence"):
@@ -51,7 +55,7 @@ def _products(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
             yield problem(place, (*path, *where), f"no product {shown(name)}", hint)
 
 
-def _files(tree: Node, release: Node, path: found.Path, folder: Path) -> Iterator[Problem]:
+def _files(tree: Node, release: Node, path: lookup.TreePath, folder: Path) -> Iterator[Problem]:
     """Lists of orders and sequences that cannot be read, every mistake of each."""
     for key in ("file", "sequence"):
         name = text(release, key)
@@ -64,7 +68,7 @@ def _files(tree: Node, release: Node, path: found.Path, folder: Path) -> Iterato
             yield problem(place, (*path, key), error.message, error.hint)
             continue
         yield from _in_the_file(folder / name, (*path, key), mistakes)
-        if key == "file" and says and found.says_products(release):
+        if key == "file" and says and lookup.says_products(release):
             hint = "remove the column, or products and sequence"
             yield problem(place, (*path, key), f"the products come from {shown(name)} and from the source", hint)
 
@@ -90,7 +94,7 @@ def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[Mistake],
     return mistakes, any(order.product is not None for order in orders)
 
 
-def _store(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
+def _store(tree: Node, release: Node, path: lookup.TreePath) -> Iterator[Problem]:
     """A base stock is kept in a store, of the one product that goes there."""
     node, stores = child(release, "store"), entries(tree, "stores")
     if node is None or not isinstance(node.value, str):
@@ -101,7 +105,7 @@ def _store(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
         yield problem(place, (*path, "store"), f"no store {shown(node.value)}", hint)
         return
     ending = [name for name, product in entries(tree, "products").items() if node.value in stations_of(product)]
-    named = found.made_by(tree, release) if found.says_products(release) else ending
+    named = lookup.made_by(tree, release) if lookup.says_products(release) else ending
     if not ending:
         hint = f"end the route of a product with {node.value}"
         yield problem(place, (*path, "store"), f"no product's way ends in {shown(node.value)}", hint)
@@ -113,3 +117,40 @@ def _store(tree: Node, release: Node, path: found.Path) -> Iterator[Problem]:
         yield problem(
             place if at is None else at.place, (*path, "products"), f"{named[0]} does not end in {shown(node.value)}"
         )
+
+
+def saturated_problems(tree: Node) -> Iterator[Problem]:
+    """Saturated sources into buffers that would never be full, or only after very many jobs."""
+    products = entries(tree, "products")
+    firsts: dict[str, str] = {}
+    paced = {one.value for line in entries(tree, "lines").values() for one in items(line, "stations")}
+    for release in releases(tree).values():
+        if text(release, "kind") == "saturated":
+            made = {name: products[name] for name in made_by(tree, release) if name in products}
+            free = {name: node for name, node in made.items() if not _limited(tree, name, node)}
+            firsts |= {one: name for name, node in free.items() for one in first_of(node) if one not in paced}
+    for name, product in firsts.items():
+        station = child(tree, "stations", name)
+        if station is not None and isinstance(station.value, dict):
+            yield from _endless(station, name, product)
+
+
+def _limited(tree: Node, name: str, product: Node) -> bool:
+    """Whether a loop of cards limits how many jobs of a product there may be from its first station on."""
+    firsts = set(first_of(product))
+    for card in entries(tree, "cards").values():
+        begin, end, asked = (values(card, key) for key in ("from", "to", "products"))
+        if (not asked or name in asked) and (not begin or firsts <= begin) and passes(product, begin, end):
+            return True
+    return False
+
+
+def _endless(station: Node, name: str, product: str) -> Iterator[Problem]:
+    buffer = child(station, "buffer")
+    if buffer is None or buffer.value is None or text(buffer) == "unlimited":
+        place = station.name_place if buffer is None else buffer.place
+        lookup = f"a saturated release into a buffer without limit (first of {shown(product)}) never ends"
+        yield problem(place, ("stations", name, "buffer"), lookup, "give the buffer a number of places, such as 1")
+    elif isinstance(buffer.value, int) and buffer.value > MOST_AT_ONCE:
+        lookup = f"a saturated release would fill {buffer.value:,} places at once; at most {MOST_AT_ONCE:,}"
+        yield problem(buffer.place, ("stations", name, "buffer"), lookup, "give the first buffer fewer places")

@@ -8,12 +8,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, create_model, model_validator
 
-from opsim.human.catalogue import EFFECTS, Entry, entry, models_of
-from opsim.human.parameter import Parameter
+from opsim.human.catalogue import EFFECTS, Entry, Parameter, entry, models_of
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Seconds, SecondsOrZero, or_never, plain_error
-from opsim.scenario.schema.base import Block
-from opsim.scenario.schema.clock_times import Clock, clock_text
+from opsim.scenario.schema.run import Clock, clock_text
+from opsim.scenario.tree import Block
 
 MODEL_TAGS: dict[str, type[Block]] = {}
 """The mark of each block in a place of pydantic's, such as ``<learning: wright>``."""

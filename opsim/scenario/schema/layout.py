@@ -1,4 +1,9 @@
-"""Where things are, and how a way between two places is measured."""
+"""Where things are, and how a way between two places is measured.
+
+Transporters: vehicles that fetch jobs and bring them on.
+
+Conveyors: belts and roller tracks that take jobs from one place to another.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +14,19 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from opsim.problems import shown
-from opsim.scenario.fields import Length, Name, NameText, PathLength, plain_error
-from opsim.scenario.schema.base import Block
+from opsim.scenario.fields import (
+    BeltSpeed,
+    Length,
+    Name,
+    NameText,
+    PathLength,
+    Pitch,
+    SecondsOrZero,
+    Speed,
+    Whole,
+    plain_error,
+)
+from opsim.scenario.tree import Block
 
 
 def _two_lengths(value: object) -> object:
@@ -87,3 +103,76 @@ class Layout(Block):
     def path_steps(self) -> list[Path]:
         """Every path between two neighbours."""
         return steps_of(self.paths or ())
+
+
+MOST_VEHICLES = 1000
+
+
+def _pair(value: object) -> object:
+    if not isinstance(value, list) or len(value) != 2 or not all(isinstance(end, str) for end in value):
+        raise plain_error(f"expected a leg as two stations, found {shown(value)}", "such as [drill, paint]")
+    return tuple(value)
+
+
+Leg = Annotated[tuple[str, str], BeforeValidator(_pair)]
+
+
+class Transporter(Block):
+    """Vehicles of one kind, such as forklifts: a job of a leg waits at its station until one of them has loaded it.
+
+    A job asks for a vehicle when its place at the next station is sure. The oldest call is served first, by the free
+    vehicle that is there soonest; it takes along what else waits at that place, oldest first, as far as it has room,
+    brings everything to where it goes, the nearest place first, and is free again when it is empty.
+    Vehicles do not meet on the road.
+    """
+
+    n: Whole = Field(1, ge=1, le=MOST_VEHICLES, description="how many vehicles", examples=[2])
+    at: NameText = Field(description="the place where they stand at the start", examples=["dock"])
+    speed_m_per_s: Speed = Field(alias="speed", description="how fast they drive", examples=["2 m/s"])
+    capacity: Whole = Field(1, ge=1, le=100_000, description="jobs that a vehicle carries at once", examples=[4])
+    load_s: SecondsOrZero = Field(0.0, alias="load", description="time to load a job", examples=["10 s"])
+    unload_s: SecondsOrZero = Field(0.0, alias="unload", description="time to unload a job", examples=["10 s"])
+    legs: list[Leg] = Field(
+        min_length=1,
+        description="from which station to which they bring jobs; stores and conveyors count as stations",
+        examples=["[[drill, paint], [paint, pack]]"],
+    )
+    roads: list[Way] | None = Field(
+        None,
+        min_length=1,
+        description="the only ways they take: places in a row, or one road with its length or direction; absent: they "
+        "go as people do",
+        examples=["[[dock, door, paint], {from: paint, to: dock, one_way: true}]"],
+    )
+    idle: Literal["stay", "home"] = Field(
+        "stay", description="what an empty vehicle does that nobody calls: stay where it is, or drive back to 'at'"
+    )
+
+
+class Conveyor(Block):
+    """A belt, used as a step of a route: a job rides it from end to end in length / speed, in the order it got on.
+
+    Jobs are at least ``pitch`` apart, so one gets on every pitch / speed at most, and length / pitch of them (rounded
+    up) are on it at once. A job at the end stays there until its next step has room.
+    """
+
+    start: NameText = Field(alias="from", description="the place where jobs get on", examples=["press"])
+    end: NameText = Field(alias="to", description="the place where jobs get off", examples=["pack"])
+    speed_m_per_s: BeltSpeed = Field(alias="speed", description="how fast it moves", examples=["0.2 m/s"])
+    pitch_m: Pitch = Field(
+        alias="pitch", description="room that a job takes, its gap to the next included", examples=["0.5 m"]
+    )
+    length_m: Pitch | None = Field(
+        None, alias="length", description="else that of the straight line between its ends", examples=["6 m"]
+    )
+    accumulating: bool = Field(
+        True,
+        description="true: jobs close up behind one that waits at the end; false: then the whole belt stands still",
+    )
+
+    @model_validator(mode="after")
+    def _room_for_one(self) -> Conveyor:
+        if self.length_m is not None and self.length_m < self.pitch_m:
+            found = f"a belt of {self.length_m:g} m has no room for a job of {self.pitch_m:g} m"
+            raise plain_error(found, "make the belt longer or the pitch smaller", on="length")
+        return self

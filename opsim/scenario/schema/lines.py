@@ -1,13 +1,36 @@
-"""Paced lines: stations of a route whose jobs move together."""
+"""Paced lines: stations of a route whose jobs move together.
+
+Crews: people who share a line by a rule of their own.
+
+Job rotation: people who change posts by the clock, by what was done, or by a rule.
+
+Work sharing: the last tasks of a station, which the next one may do instead.
+
+The sequence of work: what waits where, in which order, and what changing over costs.
+"""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
-from opsim.scenario.fields import BeltSpeed, NameText, PathLength, Pitch, Seconds, SecondsOrZero, plain_error
-from opsim.scenario.schema.base import Block
+from opsim import units
+from opsim.clock import LONGEST_S
+from opsim.problems import shown
+from opsim.scenario.fields import (
+    BeltSpeed,
+    NameText,
+    PathLength,
+    Pitch,
+    Seconds,
+    SecondsOrZero,
+    Whole,
+    is_name,
+    not_a_name,
+    plain_error,
+)
+from opsim.scenario.tree import Block
 
 INDEXED, MOVING = "indexed", "moving"
 
@@ -109,3 +132,201 @@ class Line(Block):
         if self.length_m is None:
             return self.takt_s
         return (max([self.length_m, *self.lengths_m.values()]) + self.drift_m) / self.pace_m_per_s
+
+
+class Crew(Block):
+    """People who go with their jobs along a line. Nobody else works at its stations, and they work nowhere else.
+
+    No job overtakes another: who catches up with the one ahead waits behind him. Who is on a break, absent or off is
+    passed over, and what he left is taken up by the next who comes to it. Who finds nothing to do goes to the first
+    station.
+
+    bucket_brigade: who has come to the end of the line walks back along it, station by station, to the job that is
+    furthest on of those of the people before him, and takes it over where it is, in the middle of a task too; whom he
+    relieves does the same, and the first begins a new job. What is left takes his own next time for the same share. A
+    job that is done at the station to which he is on his last way waits there for him. A task whose own rule of
+    interruption is finish, finish_job or restart is not taken over in the middle: he waits until it is done.
+
+    rabbit_chase: everybody goes with his job from the first station to the last, and straight back to the first.
+
+    Source: Bartholdi & Eisenstein 1996, A production line that balances itself, Operations Research 44(1).
+    """
+
+    kind: Literal["bucket_brigade", "rabbit_chase"] = Field(
+        description="bucket_brigade: a job is taken over from the one before; rabbit_chase: everybody with his own job"
+    )
+    stations: list[NameText] = Field(
+        min_length=1, description="in the order of the line; jobs may skip some, never go back", examples=["[a, b, c]"]
+    )
+    workers: list[NameText] = Field(
+        min_length=1,
+        description="in the order of the line: of a bucket brigade, from the one who begins jobs to the one who ends "
+        "them; slowest to fastest balances itself, the other way round they wait for each other",
+        examples=["[slow, middle, fast]"],
+    )
+
+
+IN_TURN = "in_turn"
+
+
+def _post(value: object) -> object:
+    """One station by its name is a post too."""
+    if isinstance(value, str):
+        return [value]
+    if not isinstance(value, list):
+        raise plain_error(f"expected a station or a list of them, found {shown(value)}", "such as [pack]")
+    return value
+
+
+_ONE_OR_MORE = WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]})
+Post = Annotated[list[NameText], BeforeValidator(_post), _ONE_OR_MORE]
+
+
+class Rotation(Block):
+    """People who change posts. A post is a station, or a few; who has a post works at no other post of the rotation.
+
+    The members who are there man the posts in the order of the lists, then each post a second time, and so on; at each
+    change everybody moves up by one post. Where there are fewer people than posts they go on to the empty ones. A post
+    goes to somebody with a skill for it, where there is one. What was begun is finished at the old post. A break
+    changes nothing; when somebody goes off shift or comes back, posts are given out anew. Stations in no post, and
+    people who are no members, are as ever.
+    """
+
+    workers: list[NameText] = Field(min_length=1, description="who changes posts", examples=["[ana, ben, cem]"])
+    posts: list[Post] = Field(
+        min_length=2,
+        description="the posts, each a station or a list of them; an empty list is a rest, or work at stations that "
+        "are in no post",
+        examples=["[pack, label, [lift, stack]]"],
+    )
+    every_s: Seconds | None = Field(
+        None,
+        alias="every",
+        description="by the clock, from the start of the run: time between changes",
+        examples=["2 h"],
+    )
+    after: Whole | None = Field(
+        None,
+        ge=1,
+        le=1_000_000,
+        description="by count: everybody changes when so many operations were done at one of the posts since the last "
+        "change",
+        examples=[50],
+    )
+    rule: NameText = Field(
+        IN_TURN,
+        description="who takes which post at a change: in_turn (everybody moves up by one), least_time (each post, the "
+        "first of the list first, goes to who was there for the shortest time so far), least_exposed (each post, the "
+        "heaviest first, goes to whose body has gone through least so far, RULA x time at work), or a plug-in's; "
+        "alone, without `every` and `after`, it is asked whenever an operation is done at one of the posts",
+        examples=["least_time", "least_exposed"],
+    )
+
+    @model_validator(mode="after")
+    def _at_some_time(self) -> Rotation:
+        if self.every_s is not None and self.after is not None:
+            raise plain_error(
+                "changes by the clock (every) and by count (after) both", "remove one of them", on="after"
+            )
+        if self.every_s is None and self.after is None and "rule" not in self.model_fields_set:
+            found = "nothing says when people change posts"
+            raise plain_error(found, "add 'every: 2 h', 'after: 50' or 'rule: least_time'")
+        return self
+
+
+class Share(Block):
+    """Work that two neighbours share: the last tasks here may be left to the next station, which does them first.
+
+    When the tasks before are done, the station looks at the next one. Where a server is free there, or less than so
+    much of its buffer is taken, the job goes on as it is; else the shared task is done here, and it is looked again
+    before another one. A task that was begun is finished where it was begun.
+    """
+
+    tasks: list[NameText] = Field(
+        min_length=1, description="the last of the station's tasks, in their order", examples=["[lid]"]
+    )
+    partner: NameText = Field(
+        alias="with", description="the next station on the way of every job that comes here", examples=["closing"]
+    )
+    when: Literal["half_full", "full"] = Field(
+        "half_full",
+        description="the station does the work itself where the next one's buffer is at least half full, or full",
+    )
+
+
+Blocking = Literal["after", "before"]
+
+
+def _time_or_task(value: object) -> object:
+    """What reads as a time is one; any other name is that of a task."""
+    if isinstance(value, str) and not value[:1].isdigit() and value[:1] not in "+-.":
+        if not is_name(value):
+            raise plain_error(*not_a_name(value))
+        return value
+    try:
+        seconds = units.parse(value, "time")
+    except units.UnitError as error:
+        raise plain_error(error.message, error.hint or "a time such as 5 min, or the name of a task") from None
+    if not 0 <= seconds <= LONGEST_S:
+        raise plain_error(
+            f"must be from 0 s to {LONGEST_S:.10g} s, found {shown(value)}", "such as '5 min', or 0 s for none"
+        )
+    return seconds
+
+
+SetupTime = Annotated[
+    float | str,
+    BeforeValidator(_time_or_task),
+    WithJsonSchema({"type": "string", "examples": ["5 min"], "description": "a time, or the name of a task"}),
+]
+
+
+class Setup(Block):
+    """What a server needs before a job of another product, or family, than the one it did last."""
+
+    times: dict[str, dict[str, SetupTime]] = Field(
+        {},
+        description="from what the server did last to what comes: a time, or the name of a task; the same again needs "
+        "none unless it stands here",
+        examples=["{a: {b: 5 min}}"],
+    )
+    otherwise: SetupTime | None = Field(
+        None, description="every change that is not in times; a time, or the name of a task", examples=["10 min"]
+    )
+    by: Literal["product", "family"] = Field("product", description="what is told apart: products, or their families")
+    attended: bool = Field(True, description="true: a worker with the station's skill does it; false: it runs alone")
+    first: NameText | None = Field(
+        None,
+        description="what the servers are set up for at the start; absent: for whatever comes first",
+        examples=["carton"],
+    )
+
+    @model_validator(mode="after")
+    def _says_something(self) -> Setup:
+        if not self.times and self.otherwise is None:
+            raise plain_error("nothing says how long a set-up takes", "add e.g. 'otherwise: 10 min'")
+        return self
+
+
+class Flow(Block):
+    """What holds at every station that does not say otherwise."""
+
+    dispatch: NameText = Field(
+        "fifo",
+        description="which waiting job is next, after priorities: fifo; spt: shortest operation; edd: earliest due "
+        "date; critical_ratio: time left over work left; least_setup: shortest set-up; downstream_first: fewest "
+        "operations left; a plug-in may bring more rules",
+        examples=["fifo", "spt", "edd", "critical_ratio", "least_setup", "downstream_first"],
+    )
+    routing: NameText = Field(
+        "shortest_queue",
+        description="which of the stations of a step with room a job goes to: shortest_queue: fewest jobs per server; "
+        "least_loaded: where it would be done first by mean times; first_free: the first of the list with a free "
+        "server; in_order: the first of the list with room; a plug-in may bring more rules",
+        examples=["shortest_queue", "least_loaded", "first_free", "in_order"],
+    )
+    blocking: Blocking = Field(
+        "after",
+        description="after: a job that is done waits on its server for room downstream; before: a job is begun only "
+        "when its place downstream is sure, and keeps it",
+    )

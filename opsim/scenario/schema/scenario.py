@@ -6,34 +6,21 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from opsim.kpi.better import read_asked
-from opsim.kpi.names import KPIS, USUAL
+from opsim.kpi.catalogue import KPIS, USUAL, read_asked
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Name, plain_error
-from opsim.scenario.schema.assembly import Store
-from opsim.scenario.schema.base import Block
-from opsim.scenario.schema.cards import Card
-from opsim.scenario.schema.conveyors import Conveyor
-from opsim.scenario.schema.crews import Crew
-from opsim.scenario.schema.ergonomics import Ergonomics
-from opsim.scenario.schema.failures import RepairTeam
-from opsim.scenario.schema.human import Human
-from opsim.scenario.schema.layout import Layout
-from opsim.scenario.schema.lines import Line
-from opsim.scenario.schema.material import Product, Station
-from opsim.scenario.schema.release import Release
-from opsim.scenario.schema.rotations import Rotation
-from opsim.scenario.schema.run import Run
-from opsim.scenario.schema.sequence import Flow
-from opsim.scenario.schema.shifts import Shift
-from opsim.scenario.schema.skills import SkillLevels
+from opsim.scenario.schema.human import Ergonomics, Human
+from opsim.scenario.schema.layout import Conveyor, Layout, Transporter
+from opsim.scenario.schema.lines import Crew, Flow, Line, Rotation
+from opsim.scenario.schema.run import Run, Shift
+from opsim.scenario.schema.sources import Card, Release
+from opsim.scenario.schema.stations import Product, Station, Store
 from opsim.scenario.schema.studies import Studies
-from opsim.scenario.schema.studies.figures import WayFigureText
-from opsim.scenario.schema.task_kinds import Task
+from opsim.scenario.schema.sweep import WayFigureText
+from opsim.scenario.schema.tasks import RepairTeam, Task, Walking
 from opsim.scenario.schema.tools import Tool
-from opsim.scenario.schema.transporters import Transporter
-from opsim.scenario.schema.walking import Walking
-from opsim.scenario.schema.workers import Allocation, Worker, Workforce
+from opsim.scenario.schema.workers import Allocation, SkillLevels, Worker, Workforce
+from opsim.scenario.tree import Block
 
 
 def _known_output(value: object) -> object:
@@ -183,7 +170,7 @@ class Scenario(Block):
     )
 
     def _repr_html_(self) -> str:
-        from opsim.shown.scenario import scenario_html
+        from opsim.notebook import scenario_html
 
         return scenario_html(self)
 

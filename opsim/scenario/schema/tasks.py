@@ -1,96 +1,207 @@
-"""Tasks: how long a piece of work takes, said in exactly one way."""
+"""A task of several motions in a row: ``motions: [work/reach, {walk: 3 m}, {emulator: work/fasten, repeat: 4}]``.
+
+Which kind of task a block is: one of ``emulator``, ``motions``, ``fixed``, ``recorded``, ``dist`` stands in it.
+
+How workers walk between places: with the postures of a walking emulator. Without it walking has times alone.
+
+Times in which nobody moves, such as repairs: fixed, recorded or from a distribution, and nothing besides.
+
+Numbers of cycles between two breakdowns: always so many, or drawn.
+
+What stops a station: breakdowns, planned maintenance, and the teams that put it right.
+"""
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
-from opsim.scenario.fields import Load, Seconds, Whole, plain_error
-from opsim.scenario.schema.base import Block
-from opsim.scenario.schema.handling import Handling, Loaded
-from opsim.scenario.schema.shifts import RULES
-from opsim.scenario.schema.tools import ATTENDED, Automatic, Hold, Needs
+from opsim.problems import did_you_mean, shown
+from opsim.scenario.fields import NameText, Seconds, WalkLength, Whole, plain_error
+from opsim.scenario.schema.distributions import (
+    Beta,
+    Empirical,
+    Erlang,
+    Exponential,
+    Gamma,
+    Geometric,
+    Hyperexponential,
+    Lognormal,
+    Normal,
+    Triangular,
+    Uniform,
+    Weibull,
+)
+from opsim.scenario.schema.task_block import Emulated, Fixed, Plugged, Recorded, TaskBlock
+from opsim.scenario.tree import DIST, Block
+
+MOST_MOTIONS = 200
+"""In one task, repeats counted."""
+_EXAMPLE = "such as work/reach, {walk: 3 m} or {emulator: work/fasten, repeat: 4}"
+_WHAT = ("emulator", "walk")
 
 
-class TaskBlock(Block):
-    """What every task may say."""
+class Step(Block):
+    """One of the motions of a task, as often as it is repeated: of an emulator, or walking some way."""
 
-    load_kg: Load | None = Field(
-        None,
-        alias="load",
-        description="mass in both hands together; 0 kg: nothing heavy; absent: scores are intervals",
-        examples=["6 kg"],
+    emulator: str | None = Field(None, description="library/task", examples=["work/fasten"])
+    walk_m: WalkLength | None = Field(
+        None, alias="walk", description="a walk of this length, as in 'walking:'", examples=["3 m"]
     )
-    loaded: Loaded | None = Field(
-        None,
-        description="when the load is in the hands; absent: all the time",
-        examples=["{from: grasp, to: release}"],
-    )
-    handling: Handling | None = Field(
-        None,
-        description="what no posture tells: grip, force, forearm, support",
-        examples=["{grip: fair, force: repeated}"],
-    )
-    repeat: Whole = Field(
-        1, ge=1, le=10_000, description="how often it is done, each with a draw of its own", examples=[3]
-    )
-    automatic: Automatic = Field(
-        False,
-        description="true: the station does it alone, no worker; attended: the station's time, and a worker stays",
-        examples=[True],
-    )
-    team: Whole = Field(
-        1,
-        ge=1,
-        le=100,
-        description="workers at once; none is sent before so many are free, the slowest ends it",
-        examples=[2],
-    )
-    needs: Needs = Field({}, description="so many of each tool, from when its worker sets out until the task is done")
-    hold: Hold | None = Field(
-        None,
-        description="a tool in the hands from one moment of each performance to another",
-        examples=["{tool: torque_gun, from: grasp, to: release}"],
-    )
-    interruption: RULES | None = Field(
-        None,
-        description="how it is left at breaks and at the end of the shift, whatever the shift says (at_break, at_end)",
-        examples=["finish"],
-    )
-    per: Literal["unit", "lot"] = Field("unit", description="done for each unit of a lot, or once for the lot")
+    repeat: Whole = Field(1, ge=1, le=MOST_MOTIONS, description="how often, each with a draw of its own", examples=[2])
 
     @property
     def words(self) -> str:
-        """Where the time comes from, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
-        raise NotImplementedError
-
-    @model_validator(mode="after")
-    def _hands(self) -> TaskBlock:
-        """Who works, and with what in his hands."""
-        if self.team > 1 and self.automatic is True:
-            raise plain_error(
-                "nobody is needed where the station works alone", "write 'automatic: attended'", on="team"
-            )
-        if self.team > 1 and self.hold is not None:
-            hint = "take 'needs' for what the team works with, or make it a task of its own"
-            raise plain_error("a tool is held by one worker, and this task is done by a team", hint, on="hold")
-        if self.interruption is not None and self.automatic is True:
-            found = "no worker leaves what the station does alone"
-            raise plain_error(found, "remove 'interruption'", on="interruption")
-        if self.hold is not None and self.automatic is True:
-            hint = "take 'needs' for what the run takes as a whole"
-            raise plain_error("nobody holds a tool where the station works alone", hint, on="hold")
-        if self.automatic == ATTENDED and any(hasattr(self, kind) for kind in ("emulator", "motions", "plugin")):
-            hint = "give the station's time, such as 'fixed: 40 s'"
-            raise plain_error("a movement takes its worker's time, not the station's", hint, on="automatic")
-        return self
+        """In a few words, e.g. ``work/fasten x 4``."""
+        what = f"walk {self.walk_m:g} m" if self.emulator is None else self.emulator
+        return what if self.repeat == 1 else f"{what} x {self.repeat}"
 
 
-class Emulated(TaskBlock):
-    """Duration and posture from a motion emulator: ``emulator: library/task``."""
+def _one_step(value: object) -> object:
+    """A text, or a block that says one motion."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, list):
+        raise plain_error("a list of motions inside a list of motions", "write them in one list, one after the other")
+    if not isinstance(value, dict):
+        raise plain_error(f"expected a motion, found {shown(value)}", _EXAMPLE)
+    if "motions" in value:
+        raise plain_error("motions inside motions", "write them in one list, one after the other", on="motions")
+    said = [key for key in _WHAT if key in value]
+    if len(said) > 1:
+        raise plain_error("a motion of an emulator, and a walk", "make them two of the list", on="walk")
+    if not said:
+        near = next((hint for key in value if (hint := did_you_mean(key, _WHAT)).startswith("did")), "")
+        raise plain_error("nothing says which motion this is", near or _EXAMPLE)
+    if value[said[0]] is None:
+        needed = "how far" if said == ["walk"] else "of which emulator"
+        raise plain_error(f"nothing says {needed}", "such as {walk: 3 m}" if said == ["walk"] else _EXAMPLE, on=said[0])
+    return value
 
-    emulator: str = Field(description="library/task", examples=["moves/deep_squat"])
+
+def _step_tag(value: Any) -> str:
+    return "<motion>" if isinstance(value, str) else "<step>"
+
+
+Motion = Annotated[
+    Annotated[str, Tag("<motion>")] | Annotated[Step, Tag("<step>")],
+    Discriminator(_step_tag),
+    BeforeValidator(_one_step),
+]
+
+
+def _not_too_many(value: object) -> object:
+    """A list of motions that can be had; what is wrong with a single one is said there."""
+    if not isinstance(value, list):
+        raise plain_error(f"expected a list of motions, found {shown(value)}", "write them in [ ], " + _EXAMPLE)
+    if not value:
+        raise plain_error("expected at least one motion, found none", _EXAMPLE)
+    repeats = [step.get("repeat", 1) if isinstance(step, dict) else 1 for step in value]
+    n = sum(r for r in repeats if isinstance(r, int) and not isinstance(r, bool) and 1 <= r <= MOST_MOTIONS)
+    if n > MOST_MOTIONS:
+        raise plain_error(
+            f"expected at most {MOST_MOTIONS} motions with their repeats, found {n:,}", "make it two tasks"
+        )
+    return value
+
+
+class Motions(TaskBlock):
+    """Several motions in a row, each with a draw of its own, joined where postures meet; their times add up."""
+
+    motions: Annotated[list[Motion], BeforeValidator(_not_too_many)] = Field(
+        description="motions one after the other: library/task, {walk: 3 m}, or {emulator: library/task, repeat: 4}",
+        examples=["[work/reach, {walk: 3 m}, {emulator: work/fasten, repeat: 4}]"],
+    )
+
+    @property
+    def steps(self) -> list[Step]:
+        """All motions as blocks."""
+        return [Step.model_validate({"emulator": one}) if isinstance(one, str) else one for one in self.motions]
+
+    @property
+    def words(self) -> str:
+        return f"motions: {', '.join(step.words for step in self.steps)}"
+
+
+DISTRIBUTIONS: dict[str, type[TaskBlock]] = {
+    "exponential": Exponential,
+    "lognormal": Lognormal,
+    "gamma": Gamma,
+    "uniform": Uniform,
+    "erlang": Erlang,
+    "geometric": Geometric,
+    "weibull": Weibull,
+    "triangular": Triangular,
+    "normal": Normal,
+    "hyperexponential": Hyperexponential,
+    "beta": Beta,
+    "empirical": Empirical,
+}
+TASK_KINDS: dict[str, type[TaskBlock]] = {
+    "<emulator>": Emulated,
+    "<motions>": Motions,
+    "<plugin>": Plugged,
+    "<fixed>": Fixed,
+    "<recorded>": Recorded,
+    **{f"<{name}>": model for name, model in DISTRIBUTIONS.items()},
+}
+KIND_KEYS = ("emulator", "motions", "plugin", "fixed", "recorded", "dist")
+
+
+def _one_kind(value: object) -> object:
+    """A task says in exactly one way where its time comes from."""
+    if not isinstance(value, dict):
+        raise plain_error(f"expected a block of keys, found {shown(value)}", "such as {fixed: 20 s}")
+    kinds = [key for key in KIND_KEYS if key in value]
+    if not kinds:
+        near = next((hint for key in value if (hint := did_you_mean(key, KIND_KEYS)).startswith("did")), "")
+        raise plain_error(
+            "nothing says how long this task takes", near or "add one of: emulator, motions, fixed, recorded, dist"
+        )
+    if len(kinds) > 1:
+        raise plain_error(f"the time comes from {kinds[0]} and from {kinds[1]}", "keep one of them", on=kinds[1])
+    if kinds == ["dist"] and value["dist"] not in list(DISTRIBUTIONS):
+        hint = did_you_mean(value["dist"], DISTRIBUTIONS)
+        raise plain_error(f"unknown distribution {shown(value['dist'])}", hint, on="dist")
+    return value
+
+
+def _kind_tag(value: Any) -> str:
+    kind = next(key for key in KIND_KEYS if key in value)
+    return f"<{value['dist']}>" if kind == "dist" else f"<{kind}>"
+
+
+Task = Annotated[
+    Annotated[Emulated, Tag("<emulator>")]
+    | Annotated[Motions, Tag("<motions>")]
+    | Annotated[Plugged, Tag("<plugin>")]
+    | Annotated[Fixed, Tag("<fixed>")]
+    | Annotated[Recorded, Tag("<recorded>")]
+    | Annotated[Exponential, Tag("<exponential>")]
+    | Annotated[Lognormal, Tag("<lognormal>")]
+    | Annotated[Gamma, Tag("<gamma>")]
+    | Annotated[Uniform, Tag("<uniform>")]
+    | Annotated[Erlang, Tag("<erlang>")]
+    | Annotated[Geometric, Tag("<geometric>")]
+    | Annotated[Weibull, Tag("<weibull>")]
+    | Annotated[Triangular, Tag("<triangular>")]
+    | Annotated[Normal, Tag("<normal>")]
+    | Annotated[Hyperexponential, Tag("<hyperexponential>")]
+    | Annotated[Beta, Tag("<beta>")]
+    | Annotated[Empirical, Tag("<empirical>")],
+    Discriminator(_kind_tag),
+    BeforeValidator(_one_kind),
+]
+
+
+class Walking(Block):
+    """Postures for all walking, from an emulator of cyclic motion; how long a walk takes stays distance / speed."""
+
+    emulator: str = Field(
+        description="library/task of an emulator of walking: gives the postures of all walks; times stay the same",
+        examples=["walking/walk"],
+    )
 
     @property
     def library(self) -> str:
@@ -100,54 +211,174 @@ class Emulated(TaskBlock):
     def library_task(self) -> str:
         return self.emulator.partition("/")[2]
 
-    @property
-    def words(self) -> str:
-        return f"emulator {self.emulator}"
+
+_OF_TASKS = {**{name: field.alias or name for name, field in TaskBlock.model_fields.items()}, "between_share": ""}
+"""What only work of a worker has, by attribute: the key in the file."""
 
 
-class Plugged(TaskBlock):
-    """Duration from an emulator that a plug-in brings: ``plugin: NAME`` and what is said to it, ``with: {...}``."""
-
-    plugin: str = Field(description="an installed emulator", examples=["mtm1_get_and_place"])
-    said: dict[str, Any] = Field(
-        {},
-        alias="with",
-        description="the emulator's parameters, quantities with their units",
-        examples=["{reach: 40 cm}"],
-    )
-
-    @property
-    def words(self) -> str:
-        said = ", ".join(f"{key} {value}" for key, value in self.said.items())
-        return f"plug-in {self.plugin}" + (f" with {said}" if said else "")
+def _time_alone(block: TaskBlock) -> TaskBlock:
+    if isinstance(block, Emulated | Motions | Plugged):
+        raise plain_error("a time without a body is wanted here", "take fixed, recorded or dist")
+    given = block.model_fields_set & set(_OF_TASKS)
+    if given:
+        key = _OF_TASKS[min(given)] or min(given)
+        raise plain_error(f"{key!r} means nothing here", "remove it", on=key)
+    return block
 
 
-class Fixed(TaskBlock):
-    """Always this long."""
-
-    fixed_s: Seconds = Field(alias="fixed", description="always this long", examples=["20 s"])
-
-    @property
-    def mean_s(self) -> float:
-        return self.fixed_s
-
-    @property
-    def words(self) -> str:
-        return f"fixed, {self.fixed_s:g} s"
+def _tag(value: object) -> str:
+    return "<model>" if isinstance(value, dict | TaskBlock) else "<time>"
 
 
-class Recorded(TaskBlock):
-    """Durations in seconds from a column of a CSV file.
+TimeModel = Annotated[Task, AfterValidator(_time_alone)]
+"""A block that says a time, such as {dist: exponential, mean: 10 min}."""
+PlainTime = Annotated[Annotated[Seconds, Tag("<time>")] | Annotated[TimeModel, Tag("<model>")], Discriminator(_tag)]
+"""A time, always the same, or a block that says where it comes from."""
 
-    resample: drawn again; trace: replayed in order; smooth: from their smoothed distribution.
+
+def mean_s(time: float | TaskBlock) -> float | None:
+    """Mean of a plain time in seconds; None where a file has to be read first."""
+    return time if isinstance(time, float) else getattr(time, "mean_s", None)
+
+
+MOST_CYCLES = 1_000_000_000
+
+
+class GeometricCycles(Block):
+    """The same chance, one in `mean`, after each cycle."""
+
+    dist: Literal["geometric"] = DIST
+    mean: float = Field(ge=1, le=MOST_CYCLES, description="cycles on average", examples=[100])
+
+
+class UniformCycles(Block):
+    """Any number of cycles from low to high, equally likely: what wears out in use."""
+
+    dist: Literal["uniform"] = DIST
+    low: Whole = Field(ge=1, le=MOST_CYCLES, description="fewest cycles", examples=[400])
+    high: Whole = Field(ge=1, le=MOST_CYCLES, description="most cycles", examples=[500])
+
+    @model_validator(mode="after")
+    def _low_first(self) -> UniformCycles:
+        if self.low > self.high:
+            raise plain_error(f"low ({self.low}) must be at most high ({self.high})", on="low")
+        return self
+
+
+CYCLE_KINDS: dict[str, type[Block]] = {"<geometric cycles>": GeometricCycles, "<uniform cycles>": UniformCycles}
+SO_MANY = "<so many>"
+Cycles = (
+    Annotated[Whole, Field(ge=1, le=MOST_CYCLES), Tag(SO_MANY)]
+    | Annotated[GeometricCycles, Tag("<geometric cycles>")]
+    | Annotated[UniformCycles, Tag("<uniform cycles>")]
+)
+"""A whole number of cycles, or a block with numbers where one of a time has quantities."""
+
+
+def cycles_tag(value: object) -> str | None:
+    """Which form of Cycles a value has; None where it has quantities, or is something else."""
+    if isinstance(value, int):
+        return SO_MANY
+    if isinstance(value, GeometricCycles | UniformCycles):
+        return f"<{value.dist} cycles>"
+    if isinstance(value, dict) and f"<{value.get('dist')} cycles>" in CYCLE_KINDS:
+        said = [value[key] for key in ("mean", "low", "high") if key in value]
+        return None if any(isinstance(one, str) for one in said) or "step" in value else f"<{value['dist']} cycles>"
+    return None
+
+
+_TEAM = Field(None, description="repair team that has to come; absent: it begins at once", examples=["mechanics"])
+
+
+def _not_a_mean(value: object) -> object:
+    """A time alone would be taken for a mean by one and for an exact time by another."""
+    if isinstance(value, str):
+        raise plain_error(f"{shown(value)} on average or exactly?", "{dist: exponential, mean: ...} or {fixed: ...}")
+    return value
+
+
+def _counts(value: object) -> object:
+    """By cycles, ``every`` is a number of cycles, with no unit."""
+    if isinstance(value, dict) and value.get("by") == "cycles":
+        every = value.get("every")
+        if isinstance(every, str) or (isinstance(every, dict) and cycles_tag(every) is None):
+            found = f"by: cycles counts operations, found {shown(every) if isinstance(every, str) else 'a time'}"
+            raise plain_error(found, "such as 500, {dist: geometric, mean: 500} or {dist: uniform, ...}", on="every")
+    return value
+
+
+Every = Annotated[
+    Cycles | Annotated[TimeModel, Tag("<model>")],
+    Discriminator(lambda value: cycles_tag(value) or "<model>"),
+    BeforeValidator(_not_a_mean),
+]
+
+
+class Breakdown(Block):
+    """The station stops, all of its servers, until it is repaired. Short ones without a team are minor stops.
+
+    by: clock: the time that it is up, in work or not; busy: the time that something is done on it; cycles: operations
+    done, and it stops as the next one would begin. What is under way is interrupted. A station that stands does not
+    break down again, and its counts stand still; what falls due at the same time follows.
     """
 
-    recorded: str = Field(description="a CSV file in the scenario's folder", examples=["times.csv"])
-    column: str | None = Field(None, description="needed where the file has several columns", examples=["seconds"])
-    by: Literal["resample", "trace", "smooth"] = Field(
-        "resample", description="drawn again; in the file's order; or drawn from the smoothed distribution"
+    every: Every = Field(
+        description="from one repair to the next breakdown: a time by its distribution, or by cycles a number",
+        examples=["{dist: exponential, mean: 4 h}"],
+    )
+    by: Literal["clock", "busy", "cycles"] = Field(
+        "clock", description="what counts towards it: time that it is up, time at work, or operations done"
+    )
+    repair: Annotated[TimeModel, BeforeValidator(_not_a_mean)] = Field(
+        description="how long the repair takes", examples=["{dist: lognormal, mean: 10 min, cv: 0.8}"]
+    )
+    team: NameText | None = _TEAM
+    job: Literal["resume", "restart", "scrap"] = Field(
+        "resume",
+        description="the jobs that were in work: the task goes on with what was left, begins anew, or the job is scrap",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _counted(cls, value: object) -> object:
+        return _counts(value)
+
+    @model_validator(mode="after")
+    def _as_it_is_counted(self) -> Breakdown:
+        if self.by != "cycles" and not isinstance(self.every, TaskBlock):
+            hint = "write 'by: cycles', or e.g. {dist: exponential, mean: 4 h}"
+            raise plain_error(f"by: {self.by} needs a time, found a number of cycles", hint, on="every")
+        return self
+
+
+class Maintenance(Block):
+    """A planned stop by the clock: at `first`, then every so often, however long the last one took."""
+
+    every_s: Seconds = Field(alias="every", description="from one start to the next", examples=["8 h"])
+    first_s: Seconds | None = Field(
+        None, alias="first", description="when it is due for the first time; absent: as `every`", examples=["4 h"]
+    )
+    lasts: PlainTime = Field(description="how long it takes", examples=["20 min"])
+    team: NameText | None = _TEAM
+    when: Literal["after_job", "at_once"] = Field(
+        "after_job",
+        description="after_job: jobs that were begun are finished first, none is begun; at_once: they are interrupted",
     )
 
     @property
-    def words(self) -> str:
-        return f"recorded, {self.recorded} ({self.by})"
+    def lasts_s(self) -> float | None:
+        """Mean length in seconds; None where a file has to be read first."""
+        return mean_s(self.lasts)
+
+    @model_validator(mode="after")
+    def _shorter_than_its_period(self) -> Maintenance:
+        if self.lasts_s is not None and self.lasts_s >= self.every_s:
+            found = f"lasts {self.lasts_s:g} s and comes every {self.every_s:g} s: the station would never work"
+            raise plain_error(found, "make it shorter, or rarer", on="lasts")
+        return self
+
+
+class RepairTeam(Block):
+    """People who repair: so many stops can be put right at once, the one that waits longest first."""
+
+    n: Whole = Field(1, ge=1, le=100_000, description="how many stops at once", examples=[1])

@@ -1,16 +1,49 @@
-"""Workers, and the rules by which they choose."""
+"""Skills: how fast and how well a worker works at a station.
+
+Workers, and the rules by which they choose.
+"""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Speed, Whole, plain_error
-from opsim.scenario.schema.base import Block
+from opsim.scenario.fields import Age, Height, Mass, MostLoad, Name, NameText, Pace, Rating, Speed, Whole, plain_error
 from opsim.scenario.schema.routing import Probability
-from opsim.scenario.schema.shifts import ShiftNames
-from opsim.scenario.schema.skills import Skills
+from opsim.scenario.schema.run import ShiftNames
+from opsim.scenario.tree import Block
+
+RATING, SKILL = "<rating>", "<skill>"
+
+
+def _some(value: float) -> float:
+    if value == 0:
+        raise plain_error("a quality must be more than 0: nothing good would ever come out", "such as 0.97")
+    return value
+
+
+class Skill(Block):
+    """How fast and how well somebody works at a station."""
+
+    pace: Rating = Field(1.0, description="rating; 1.1: the duration divided by 1.1", examples=[1.1])
+    quality: Annotated[Probability, AfterValidator(_some)] = Field(
+        1.0,
+        description="share of operations that he leaves without a defect, times the yield of the station; where "
+        "several work on an operation, the lowest of theirs counts",
+        examples=[0.99],
+    )
+
+
+def skill_tag(value: object) -> str:
+    """Which form a skill has: a number alone is its pace."""
+    return SKILL if isinstance(value, dict | Skill) else RATING
+
+
+SkillText = Annotated[Annotated[Rating, Tag(RATING)] | Annotated[Skill, Tag(SKILL)], Discriminator(skill_tag)]
+Skills = dict[str, SkillText]
+SkillLevels = dict[Name, SkillText]
+
 
 MOST_WORKERS = 500
 """That a workforce may have."""

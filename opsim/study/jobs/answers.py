@@ -1,4 +1,7 @@
-"""Answers to jobs: computed where they are missing, kept as they come, read figure by figure."""
+"""Answers that are kept no longer than the process that asked for them.
+
+Answers to jobs: computed where they are missing, kept as they come, read figure by figure.
+"""
 
 from __future__ import annotations
 
@@ -11,20 +14,39 @@ from dataclasses import replace
 import numpy as np
 
 from opsim.engine.choice import SIMPY
+from opsim.pool import cores
 from opsim.problems import Problem, ScenarioError
 from opsim.results import Key
 from opsim.study.engine_choice import Chosen
-from opsim.study.jobs.decides import decided_by
-from opsim.study.jobs.engines import Engines
-from opsim.study.jobs.evaluate import loaded_of
-from opsim.study.jobs.far_away import Work, by_executor
-from opsim.study.jobs.in_memory import InMemory
-from opsim.study.jobs.job import Job, Point
+from opsim.study.jobs.evaluate import Engines, decided_by, loaded_of
+from opsim.study.jobs.executors import Done, OnThisMachine, Work, by_executor
+from opsim.study.jobs.job import Answer, Job, Missing, Point, Shard, ShardDone, Source, keys_in
 from opsim.study.jobs.journal import Address, Journal
-from opsim.study.jobs.near import Done, OnThisMachine
-from opsim.study.jobs.shard import Missing, Shard, ShardDone
-from opsim.study.jobs.source import Source
-from opsim.study.pool import cores
+
+
+class InMemory:
+    """As a Journal without files."""
+
+    def __init__(self) -> None:
+        self._found: dict[Address, tuple[list[Key], tuple[float, ...]]] = {}
+        self._keys: dict[str, list[Key]] = {}
+
+    def __contains__(self, address: Address) -> bool:
+        return address in self._found
+
+    def add(self, address: Address, answer: Answer) -> None:
+        """Keep an answer."""
+        keys = self._keys.setdefault(answer.figures, keys_in(answer.figures))
+        self._found[address] = keys, answer.values
+
+    def keys(self, address: Address) -> list[Key]:
+        """The figures of an answer that is there."""
+        return self._found[address][0]
+
+    def values(self, address: Address) -> list[float]:
+        """The numbers of an answer that is there, in the order of its keys."""
+        return list(self._found[address][1])
+
 
 Progress = Callable[[int, int], None]
 SAID_EVERY_S = 0.2

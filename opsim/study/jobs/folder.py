@@ -8,15 +8,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from opsim.files import write_text
 from opsim.problems import ScenarioError
 from opsim.study.jobs.answers import Answers
-from opsim.study.jobs.engines_file import EnginesFile, files_in
-from opsim.study.jobs.header import HEADER, Header, NotAStudy, differing, read_header, write_header
+from opsim.study.jobs.header import (
+    HEADER,
+    EnginesFile,
+    Header,
+    NotAStudy,
+    differing,
+    files_in,
+    read_header,
+    write_header,
+)
+from opsim.study.jobs.job import Shard
 from opsim.study.jobs.journal import Journal
-from opsim.study.jobs.shard import Shard
-from opsim.study.lock import locked
-from opsim.study.resolved import differences, read_resolved, resolved_text
-from opsim.whole import write_text
+from opsim.study.resolved_scenario import differences, read_resolved, resolved_text
+from opsim.study.results_folder import locked
 
 ANSWERS, ALL, RESOLVED = "answers", "all.jsonl", "scenario.resolved.yaml"
 RESULTS = ("summary.json", "figures.parquet")

@@ -1,4 +1,8 @@
-"""Answers kept in files as they come: whatever ends the process, what is written stays and is read again.
+"""The lines of a journal: JSON lists that end with their own checksum, so that a damaged one is known as such.
+
+A file that only grows, a whole line at a time.
+
+Answers kept in files as they come: whatever ends the process, what is written stays and is read again.
 
 A line an answer, ``[point, replication, workforce, set, values, check]``, and before the first answer of a kind a line
 with its figures, ``[set, [[kpi, subject, part, unit], ...], check]``. In memory there is only where each answer stands.
@@ -7,16 +11,100 @@ with its figures, ``[set, [[kpi, subject, part, unit], ...], check]``. In memory
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Iterable, Iterator
+import math
+import os
+import time
+from collections.abc import Container, Iterable, Iterator, Sequence
 from hashlib import blake2b
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
+from zlib import crc32
 
+from opsim.files import whole_file
 from opsim.results import Key
-from opsim.study.jobs.answer import Answer, keys_in
-from opsim.study.jobs.appended import Appended
-from opsim.study.jobs.lines import Damaged, from_line, number, plain_number, to_line
-from opsim.whole import whole_file
+from opsim.study.jobs.job import Answer, keys_in
+
+CHECK = len(', "01234567"]')
+
+
+class Damaged(ValueError):
+    """A line that is not what was written."""
+
+
+def to_line(values: Sequence[Any]) -> bytes:
+    """A list of plain values as one line; floats exactly, by ``repr``."""
+    body = json.dumps(list(values), ensure_ascii=False, allow_nan=False)[:-1].encode()
+    return body + b', "%08x"]\n' % crc32(body)
+
+
+def from_line(line: bytes) -> list[Any]:
+    """What was written. Raises Damaged, for a line without its end too."""
+    body = line[: -CHECK - 1]
+    if line[len(body) :] != b', "%08x"]\n' % crc32(body):
+        raise Damaged("not a line of a journal")
+    values: list[Any] = json.loads(body + b"]")
+    return values
+
+
+def plain_number(value: float) -> float | str | None:
+    """A float for JSON: nan is null, an infinite one is text."""
+    if math.isfinite(value):
+        return float(value)
+    return None if math.isnan(value) else str(float(value))
+
+
+def number(plain: float | str | None) -> float:
+    """The float again."""
+    return math.nan if plain is None else float(plain)
+
+
+FSYNC_EVERY_S = 1.0
+
+
+class Appended:
+    """A file to whose end lines are added; about once a second all of them are on the disk."""
+
+    def __init__(self, path: Path, end: int):
+        """end : what stands behind it (a line that was not finished) is cut off. Raises OSError."""
+        self.path, self.end = path, end
+        self._file = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
+        os.ftruncate(self._file, end)
+        self._synced_s = time.monotonic()
+
+    def add(self, line: bytes) -> int:
+        """The offset at which the line begins. Raises OSError, and then the file is as it was before."""
+        begin = self.end
+        try:
+            os.lseek(self._file, begin, os.SEEK_SET)
+            written = 0
+            while written < len(line):
+                written += os.write(self._file, line[written:])
+            self.end = begin + len(line)
+            self._sync_sometimes()
+        except OSError as error:
+            self._cut(begin)
+            raise OSError(error.errno, error.strerror, str(self.path)) from error
+        return begin
+
+    def close(self) -> None:
+        """All lines on the disk, and the file let go."""
+        if self._file < 0:
+            return
+        try:
+            os.fsync(self._file)
+        finally:
+            os.close(self._file)
+            self._file = -1
+
+    def _sync_sometimes(self) -> None:
+        if time.monotonic() - self._synced_s >= FSYNC_EVERY_S:
+            os.fsync(self._file)
+            self._synced_s = time.monotonic()
+
+    def _cut(self, end: int) -> None:
+        self.end = end
+        os.ftruncate(self._file, end)
+
 
 Address = tuple[str, int, int]
 """(what decides the answers of a point, replication, workforce or -1)"""
@@ -34,7 +122,7 @@ class Journal:
 
         Damaged lines of ``own`` are taken out.
 
-        NOTE: nobody else may write to ``own``; see opsim/study/lock.py.
+        NOTE: nobody else may write to ``own``; see opsim/study/results_folder.py.
         """
         self.damaged: list[str] = []
         self.twice: list[str] = []

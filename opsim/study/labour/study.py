@@ -1,4 +1,11 @@
-"""A labour study, as a function of answers: what is asked first, all at once, and what is made of it."""
+"""Answers as tables of workforces x replications, and which figures are asked for.
+
+Scenarios that have nothing to split, each with the reason and the way out; and what is too little to be sure.
+
+A labour study, as a function of answers: what is asked first, all at once, and what is made of it.
+
+What a labour study found, as JSON: numbers as they are, in SI, none of them rounded.
+"""
 
 from __future__ import annotations
 
@@ -8,20 +15,135 @@ from typing import Any
 
 import numpy as np
 
+from opsim.kpi.catalogue import EXPOSURE, POSTURE, read_asked
 from opsim.plan import Plan
 from opsim.problems import ScenarioError
 from opsim.results import Key
 from opsim.scenario.read import Loaded
-from opsim.study.jobs import Answers, Point
-from opsim.study.labour.budget import FigureBudget, figure_budget
-from opsim.study.labour.buy_back import BoughtBack, bought_back, curve_of
-from opsim.study.labour.candidates import Candidate, more_skills, more_workers
-from opsim.study.labour.day_asked import DayAsked, DayFound, day_asked, day_found
-from opsim.study.labour.parts import VarianceParts, variance_parts
-from opsim.study.labour.points import Points, points_of
-from opsim.study.labour.refused import refuse_nothing, too_few_days
-from opsim.study.labour.sources import VariabilitySource, sources_on
-from opsim.study.labour.tables import THROUGHPUT, Tables, figures_of
+from opsim.study.intervals import Interval
+from opsim.study.jobs import Answers, Job, Point
+from opsim.study.labour.budget import (
+    BETWEEN,
+    LEFT,
+    FigureBudget,
+    VariabilitySource,
+    figure_budget,
+    people_differ,
+    sources_on,
+)
+from opsim.study.labour.daily_output import DayAsked, DayFound, day_asked, day_found
+from opsim.study.labour.interventions import (
+    BoughtBack,
+    Candidate,
+    Points,
+    bought_back,
+    curve_of,
+    jobs_of,
+    more_skills,
+    more_workers,
+    points_of,
+)
+from opsim.study.labour.variance_components import CROSSED, VariancePart, VarianceParts, variance_parts
+
+THROUGHPUT: Key = ("throughput_per_h", "", "", "1/h")
+ALWAYS = (THROUGHPUT[0], "work_in_progress")
+BY_THEMSELVES = {*POSTURE, *EXPOSURE, "fatigue_mean", "fatigue_most", "rest_taken_min_per_h"} - {
+    "posture_measured_share"
+}
+"""Outputs that are figures of the budget where nobody names any: of all people, and of the one with most."""
+NO_PARTS = ("", "worst")
+MOST_FIGURES = 6
+"""As many as a table of a page has room for."""
+
+
+class Tables:
+    """(W, R) tables of figures of points."""
+
+    def __init__(self, answers: Answers, block: Any):
+        self._answers, self._shape = answers, (block.workforces, block.replications)
+        self._design = block.design
+
+    def ask(self, points: Sequence[Point]) -> None:
+        """Have all jobs of some points computed, in one go."""
+        self._answers.ensure([job for point in points for job in self.jobs(point)])
+
+    def jobs(self, point: Point) -> list[Job]:
+        """Of a point, one workforce after the other."""
+        return jobs_of(point, *self._shape, self._design)
+
+    def of(self, point: Point, key: Key) -> np.ndarray:
+        """(W, R) of one figure; nan where it was not observed."""
+        return self._answers.values(self.jobs(point), [key]).reshape(self._shape)
+
+    def keys(self, point: Point) -> list[Key]:
+        """Of the figures that a point has."""
+        return self._answers.keys(self.jobs(point))
+
+
+def kept_figures(block: Any, loaded: Loaded) -> tuple[str, ...]:
+    """Names of the figures that are kept of each replication."""
+    asked = block.figures or [name for name in loaded.scenario.outputs or () if name in BY_THEMSELVES]
+    names = [*ALWAYS, *(read_asked(name).kpi for name in asked), day_asked(block.target, None).kpi]
+    return tuple(dict.fromkeys(names))
+
+
+def figures_of(block: Any, loaded: Loaded, known: Sequence[Key]) -> tuple[list[Key], list[str]]:
+    """(keys of the figures that are split and budgeted, what is left out in words).
+
+    Throughput, jobs inside, then what was asked for; else what the outputs say of bodies. Raises ValueError for a
+    figure that these runs have not.
+    """
+    always = [key for name in ALWAYS for key in known if key[:3] == (name, "", "")]
+    if block.figures:
+        asked = [key for name in block.figures for key in _named(name, known)]
+    else:
+        outputs = BY_THEMSELVES.intersection(loaded.scenario.outputs or ())
+        asked = [key for key in known if key[0] in outputs and not key[1] and key[2] in NO_PARTS]
+    found = list(dict.fromkeys([*always, *asked]))
+    left = ["/".join(key[:3]).rstrip("/") for key in found[MOST_FIGURES:]]
+    words = [f"not told: {', '.join(left)}; name the figures that are wanted under 'figures'"] if left else []
+    return found[:MOST_FIGURES], words
+
+
+def _named(name: str, known: Sequence[Key]) -> list[Key]:
+    one = read_asked(name)
+    of = [key for key in known if key[:2] == (one.kpi, one.subject)]
+    found = [key for key in of if (key[2] == one.part if one.part else key[2] in NO_PARTS)]
+    if not found:
+        there = sorted({"/".join(key[:3]).rstrip("/") for key in known if key[0] == one.kpi})
+        hint = f"there are {', '.join(there[:8])}" if there else "these runs have none of it"
+        raise ValueError(f"figures: no {one.name!r}; {hint}")
+    return found
+
+
+def refuse_nothing(loaded: Loaded, plan: Plan) -> None:
+    """Raises ValueError where there is nobody, or people do not differ."""
+    if not plan.workers:
+        raise ValueError(f"{loaded.file}: there are no workers, so nobody is hired; 'opsim sweep' asks of machines")
+    said = loaded.scenario.run.variability
+    if BETWEEN not in LEFT[said]:
+        raise ValueError(
+            f"{loaded.file}: run.variability is {said}: differences between people are switched off already; take full"
+        )
+    if not people_differ(plan):
+        raise ValueError(
+            f"{loaded.file}: people do not differ in any task, so there is nothing to split; say how much of the "
+            "spread of a time lies between them, such as 'between_share: 0.4' beside its cv, or take emulated tasks"
+        )
+
+
+FEWEST_DAYS = 3
+"""Replications of a crossed design whose intervals hold what they say."""
+
+
+def too_few_days(design: str, replications: int) -> str:
+    """What to say of a crossed design whose intervals are too narrow; "" otherwise."""
+    if design != CROSSED or replications >= FEWEST_DAYS:
+        return ""
+    return (
+        "Two days cannot tell how much days differ, so the intervals here are too narrow (95 % ones hold 9 times in "
+        "10): take --replications 4, or --design nested."
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +166,7 @@ class LabourFound:
 
     def to_frame(self) -> Any:
         """The parts of each figure's variance as a pandas DataFrame. Raises ImportError where pandas is absent."""
-        from opsim.frames import frame_of_rows
+        from opsim.results import frame_of_rows
 
         names = ("kpi", "subject", "part", "unit", "of", "variance", "low", "high", "share")
         rows = [
@@ -145,3 +267,99 @@ def _day(asked: DayAsked, tables: Tables, full: Point, design: str) -> DayFound:
         hint = f"there are {', '.join(there[:8])}" if there else "these runs have none of it"
         raise ValueError(f"target: no figure {asked.name!r}; {hint}")
     return day_found(asked, key, tables.of(full, key), design)
+
+
+KEY = ("kpi", "subject", "part", "unit")
+
+
+def labour_summary(found: LabourFound) -> dict[str, Any]:
+    """The content of summary.json."""
+    return {
+        "design": found.design,
+        "workforces": found.workforces,
+        "replications": found.replications,
+        "variance": [_parts(key, parts) for key, parts in found.parts.items()],
+        "sources": [{"name": s.name, "off": s.off, "keeps_mean": s.keeps_mean} for s in found.sources],
+        "budget": [_budget_as_json(one) for one in found.budget],
+        "bought_back": None if found.bought is None else _bought_as_json(found.bought),
+        "day": _day_as_json(found.day),
+        "warning": found.warning or None,
+        "notes": list(found.words),
+    }
+
+
+def _parts(key: Key, parts: VarianceParts) -> dict[str, Any]:
+    every = parts.parts if parts.run in parts.parts else (*parts.parts, parts.run)
+    return {**dict(zip(KEY, key)), "mean": parts.mean, "parts": {part.name: _part(part, parts) for part in every}}
+
+
+def _part(part: VariancePart, parts: VarianceParts) -> dict[str, Any]:
+    return {
+        "sd": part.sd,
+        "low_sd": part.low_sd,
+        "high_sd": part.high_sd,
+        "estimate_of_variance": part.estimate,
+        "truncated": part.truncated,
+        "share": parts.share(part.name),
+    }
+
+
+def _budget_as_json(one: FigureBudget) -> dict[str, Any]:
+    return {
+        **dict(zip(KEY, one.key)),
+        "as_it_is": _interval(one.full),
+        "all_off": _interval(one.all_off),
+        "parts": {name: _interval(of) for name, of in one.parts.items()},
+        "interaction": _interval(one.interaction),
+        "whole": _interval(one.whole),
+        "alone": {name: _interval(of) for name, of in one.alone.items()},
+    }
+
+
+def _bought_as_json(bought: BoughtBack) -> dict[str, Any]:
+    return {
+        "loss": _interval(bought.loss),
+        "without_the_loss": _interval(bought.equal),
+        "ways": [
+            {
+                "name": curve.name,
+                "kind": curve.kind,
+                "first_enough": None if curve.first is None else curve.first.count,
+                "steps": [
+                    {
+                        "more": s.count,
+                        "gained": _interval(s.gained),
+                        "beyond": _interval(s.beyond),
+                        "enough": s.enough,
+                        "sure": s.surely,
+                    }
+                    for s in curve.steps
+                ],
+            }
+            for curve in bought.curves
+        ],
+    }
+
+
+def _day_as_json(day: DayFound) -> dict[str, Any]:
+    met = day.chance
+    return {
+        "figure": "good units of a day" if day.asked.a_day else day.asked.name,
+        "hours": day.asked.hours if day.asked.a_day else None,
+        "quantiles": [{"q": q.q, "estimate": q.estimate, "low": q.low, "high": q.high} for q in day.quantiles],
+        "target": None if day.asked.target is None else day.asked.target.words,
+        "chance": None
+        if met is None
+        else {
+            "estimate": met.estimate,
+            "low": met.low,
+            "high": met.high,
+            "count": met.count,
+            "n": met.n,
+            "counts_as": met.counts_as,
+        },
+    }
+
+
+def _interval(of: Interval) -> dict[str, float]:
+    return {"mean": of.mean, "half_width": of.half_width, "low": of.low, "high": of.high}

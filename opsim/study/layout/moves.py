@@ -6,12 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from opsim.names import enumerated, natural_key
-from opsim.problems import did_you_mean, shown
-from opsim.scenario.changes import flow_text
-from opsim.scenario.layout_moves import Moved, read_any_moved, read_moved
-from opsim.study.layout.adding import added_changes
-from opsim.study.layout.floor import Floor, NoLayout
+from opsim.problems import did_you_mean, enumerated, natural_key, shown
+from opsim.scenario.fields import Moved, read_any_moved, read_moved
+from opsim.scenario.variants import flow_text
+from opsim.study.layout.floor import Floor, NoLayout, added_changes
 
 TOGETHER = "all together"
 WIDEST = 116

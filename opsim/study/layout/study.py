@@ -1,25 +1,143 @@
-"""The layout study: flows of today, proposals, all simulated, the one to take, looked at again on fresh luck."""
+"""Which station stands where: flows between places, changes of the layout, first proposals, and the best simulated.
+
+A change of the layout in words: ``swap press and wash and move packing to bay_7``.
+
+Which layout to take, and whether one is clearly better or worse than the present one.
+
+The layout study: flows of today, proposals, all simulated, the one to take, looked at again on fresh luck.
+
+A layout study for machines.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from opsim.kpi.better import MORE, Asked, read_asked
-from opsim.kpi.values import SECONDS_PER_HOUR
+from opsim.kpi.catalogue import LESS, MORE, AskedFigure, read_asked
+from opsim.kpi.window import SECONDS_PER_HOUR
 from opsim.layout import Ways, ways
-from opsim.scenario.varied import Varied
+from opsim.problems import enumerated, natural_key
+from opsim.scenario.study_checks import Varied
+from opsim.study.compare import holm, paired
+from opsim.study.intervals import CONFIDENCE
 from opsim.study.jobs import Answers, Job, Point
-from opsim.study.layout.choose import chosen, gains, losses
+from opsim.study.layout.evaluate import (
+    BEST,
+    WALKED,
+    Against,
+    Flow,
+    Flows,
+    Proposals,
+    against,
+    exposure_asked,
+    flows_of,
+    measures,
+    proposals,
+)
 from opsim.study.layout.floor import Floor, Movable, NoLayout, floor_of, movable
-from opsim.study.layout.flows import Flows, flows_of
-from opsim.study.layout.judge import Against, against, exposure_asked, measures
 from opsim.study.layout.moves import Candidate, clash, what_ifs
-from opsim.study.layout.proposals import Proposals, proposals
+
+MOST_SAID, MOVE = 4, "move "
+
+
+def said(before: Mapping[str, str], candidate: Candidate, *, brief: bool = False) -> str:
+    """What to do so that today's layout (place of each station) becomes the other one, in few words.
+
+    brief : of many moves only how many they are
+    """
+    steps = list(_steps(before, candidate))
+    if len(steps) > MOST_SAID:
+        moved = [name for name, place in candidate.at.items() if before.get(name) != place]
+        if brief:
+            return f"move {len(moved)} stations"
+        return f"move {len(moved)} stations ({', '.join(f'{name} to {candidate.at[name]}' for name in moved)})"
+    return enumerated([_short(step, before) for before, step in zip(["", *steps], steps)])
+
+
+def _short(step: str, before: str) -> str:
+    """``saw to b4`` after another move: ``move press to a3 and saw to b4``."""
+    return step.removeprefix(MOVE) if before.startswith(MOVE) else step
+
+
+def moved_stations(before: Mapping[str, str], candidate: Candidate) -> list[str]:
+    """The stations that stand elsewhere than before."""
+    return [name for name, place in candidate.at.items() if before.get(name, place) != place]
+
+
+def _steps(before: Mapping[str, str], candidate: Candidate) -> Iterator[str]:
+    moved = {name: candidate.at[name] for name in sorted(moved_stations(before, candidate), key=natural_key)}
+    done: set[str] = set()
+    for name, place in moved.items():
+        if name in done:
+            continue
+        other = next((one for one in moved if before[one] == place and moved[one] == before[name]), None)
+        if other is not None:
+            done |= {name, other}
+            yield f"swap {name} and {other}"
+    for name, place in moved.items():
+        if name not in done:
+            yield f"{MOVE}{name} to {place}"
+    for place, (x, y) in candidate.moved.items():
+        yield f"put {place} at ({x:g} m, {y:g} m)"
+    for name in candidate.added:
+        yield f"add {name} at {candidate.at[name]}"
+
+
+def gains(of: Mapping[str, Against], best: AskedFigure) -> list[str]:
+    """Which of WALKED and BEST are clearly better than now."""
+    better = of[BEST].less if best.better == LESS else of[BEST].more
+    return [measure for measure, one in ((WALKED, of[WALKED].less), (BEST, better)) if one]
+
+
+def losses(of: Mapping[str, Against], best: AskedFigure) -> list[str]:
+    """Which of WALKED and BEST are clearly worse than now."""
+    worse = of[BEST].more if best.better == LESS else of[BEST].less
+    return [measure for measure, one in ((WALKED, of[WALKED].more), (BEST, worse)) if one]
+
+
+def chosen(layouts: Mapping[str, Mapping[str, np.ndarray]], best: AskedFigure, now: str) -> tuple[str, list[str]]:
+    """(the layout to take, those that no test tells from the best one): of these, the one with the least walking.
+
+    Those that are clearly worse than the present one are not among them, even where no test tells them from the best.
+    layouts : with the present one, ``now``, among them; a figure that is missing everywhere is worse than any
+    """
+    sign = -1.0 if best.better == LESS else 1.0
+    names = list(layouts)
+    goodness = {name: known_mean(sign * layouts[name][BEST], -np.inf) for name in names}
+    top = max(names, key=goodness.__getitem__)
+    alike = [top, *_not_worse(layouts, names, top, sign)]
+    if top != now:
+        kept = [now, *_not_worse(layouts, names, now, sign)]
+        alike = [name for name in alike if name == top or name in kept]
+    if best.kpi == "walked_m":
+        return top, alike
+    return min(alike, key=lambda name: (known_mean(layouts[name][WALKED], np.inf), names.index(name))), alike
+
+
+def _not_worse(
+    layouts: Mapping[str, Mapping[str, np.ndarray]], names: Sequence[str], base: str, sign: float
+) -> list[str]:
+    """The others that have the figure and are not clearly worse than ``base`` by it; tests held together (Holm)."""
+    others = [name for name in names if name != base and np.isfinite(layouts[name][BEST]).any()]
+    found = [paired(layouts[name][BEST].tolist(), layouts[base][BEST].tolist())[:2] for name in others]
+    p = holm([one for _, one in found])
+    return [
+        name
+        for name, (difference, _), one in zip(others, found, p)
+        if not (one <= 1 - CONFIDENCE and sign * difference.mean < 0)
+    ]
+
+
+def known_mean(values: np.ndarray, otherwise: float = np.nan) -> float:
+    """The mean of what is known; ``otherwise`` where nothing is."""
+    known = values[np.isfinite(values)]
+    return float(known.mean()) if known.size else otherwise
+
 
 FEWEST = 10
 """Replications of each layout, where nobody says how many."""
@@ -42,11 +160,11 @@ class LayoutAsked:
         return self.block.replications or max(FEWEST, self.floor.scenario.run.replications)
 
     @property
-    def best(self) -> Asked:
+    def best(self) -> AskedFigure:
         return read_asked(self.block.best)
 
     @property
-    def exposure(self) -> Asked | None:
+    def exposure(self) -> AskedFigure | None:
         return exposure_asked(self.floor.scenario.outputs, self.block.exposure)
 
     @property
@@ -134,7 +252,7 @@ class LayoutFound:
 
 def asked_of(varied: Varied, loaded: Any, block: Any, variant: str | None, seed: int | None = None) -> LayoutAsked:
     """varied : the variant with its tree; loaded : the same, read. seed : instead of its own"""
-    from opsim.scenario.positions import entries, text
+    from opsim.scenario.tree import entries, text
 
     own = {name: text(node, "at") is not None for name, node in entries(varied.tree, "stations").items()}
     return LayoutAsked(floor_of(loaded, own), block, variant, loaded.scenario.run.seed if seed is None else seed)
@@ -203,3 +321,65 @@ def _jobs(point: Point, numbers: range) -> list[Job]:
 
 def _measured(asked: LayoutAsked, answers: Answers, point: Point, numbers: range) -> dict[str, np.ndarray]:
     return measures(answers, _jobs(point, numbers), asked.hours, asked.best, asked.exposure)
+
+
+def summary(found: LayoutFound) -> dict[str, Any]:
+    """What came out, for machines."""
+    return {
+        "replications": found.asked.replications,
+        "best": found.asked.best.name,
+        "exposure": None if found.asked.exposure is None else found.asked.exposure.name,
+        "taken": None if found.taken is None else found.taken.name,
+        "gains": found.gains,
+        "losses": found.losses,
+        "alike": list(found.alike),
+        "all_together_left_out": found.asked.clash or None,
+        "fresh": {name: _numbers(one) for name, one in found.fresh.items()},
+        "layouts": [_as_json(found, one) for one in found.candidates],
+        "proposals": _made(found),
+        "flows": [_flow_json(flow) for flow in found.flows.largest_first()],
+        "walked_m_per_h": found.flows.walked_m_per_h,
+    }
+
+
+def _made(found: LayoutFound) -> dict[str, Any] | None:
+    made = found.proposals
+    if made is None:
+        return None
+    names = ("exact", "tried", "now_m_per_h", "best_m_per_h")
+    return {name: getattr(made, name) for name in names}
+
+
+def _as_json(found: LayoutFound, one: Candidate) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "what": said(found.asked.floor.at, one),
+        "proposed": one.proposed,
+        "changes": dict(one.changes),
+        "predicted_m_per_h": one.predicted_m_per_h,
+        "against_now": {name: _numbers(of) for name, of in found.compared[one.name].items()},
+    }
+
+
+def _numbers(one: Against) -> dict[str, Any]:
+    difference = one.difference
+    return {
+        "now": one.now.mean,
+        "then": one.then.mean,
+        "difference": difference.mean,
+        "low": difference.low,
+        "high": difference.high,
+        "n": difference.n,
+        "p": one.p,
+        "p_holm": one.p_together,
+    }
+
+
+def _flow_json(flow: Flow) -> dict[str, Any]:
+    return {
+        "between": [flow.start, flow.end],
+        "trips_per_h": float(flow.trips_per_h),
+        "with_a_job_per_h": flow.with_a_job_per_h,
+        "distance_m": flow.distance_m,
+        "metres_per_h": float(flow.metres_per_h),
+    }

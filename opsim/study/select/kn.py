@@ -1,4 +1,8 @@
-"""Kim and Nelson's fully sequential procedure, with limits on other figures where they are asked for.
+"""Decisions of a fully sequential procedure at one replication: who beats whom, who keeps the limits, who is out.
+
+How far apart sums have to be before anything is decided: the triangles of a fully sequential procedure.
+
+Kim and Nelson's fully sequential procedure, with limits on other figures where they are asked for.
 
 All systems run side by side; whoever is clearly beaten by another that keeps the limits, or is clearly beyond a limit,
 is thrown out. Systems may share random numbers: their differences then vary less, and it ends sooner.
@@ -11,14 +15,161 @@ KN++ (Kim & Nelson 2006), which estimates the spread anew as it goes, is left ou
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.kpi.better import MORE
-from opsim.study.select.asking import Limit, Observe, sign_of
-from opsim.study.select.race import Race, decide, ended_how, names_of, open_limits, open_pairs
-from opsim.study.select.rooms import UNMOVED, Rooms
-from opsim.study.select.selection import CHOSEN, TIED, Asked, Out, Selection, Stage, plain_means
+from opsim.kpi.catalogue import MORE
+from opsim.study.select.constants import kn_eta
+from opsim.study.select.selection import (
+    CHOSEN,
+    NONE_WITHIN,
+    RAN_OUT,
+    TIED,
+    Asked,
+    Limit,
+    Observe,
+    Out,
+    Selection,
+    Stage,
+    plain_means,
+    sign_of,
+)
+
+ROUNDING = 1e-9
+"""Differences below this share of the sums are of the order in which numbers were added, not of the systems."""
+
+
+@dataclass(slots=True)
+class Race:
+    """What is decided so far. beats : (k, k), 1 where row beat column; within : (k, L), 1 kept, -1 broken, 0 open."""
+
+    alive: np.ndarray
+    beats: np.ndarray
+    within: np.ndarray
+    n: np.ndarray
+
+
+def decide(
+    race: Race, sums: np.ndarray, pair_room: np.ndarray, limit_room: np.ndarray, asked: Asked, r: int
+) -> list[Out]:
+    """Every decision that can be taken at the r-th replication, each once and for all; who is thrown out by them."""
+    over = np.where(np.abs(sums[:, 1:]) <= ROUNDING * r * _bounds(asked), 0.0, sums[:, 1:])
+    race.within[(race.within == 0) & (over <= -limit_room)] = 1
+    race.within[(race.within == 0) & (over > limit_room)] = -1
+    apart = sums[:, None, 0] - sums[None, :, 0]
+    apart[np.abs(apart) <= ROUNDING * np.abs(sums[:, 0]).max()] = 0.0
+    race.beats[open_pairs(race) & (apart > pair_room)] = 1
+    beyond = race.alive & (race.within < 0).any(axis=1)
+    judges = race.alive & (race.within > 0).all(axis=1)
+    beaten = race.alive & ~beyond & (race.beats[judges] > 0).any(axis=0)
+    race.alive &= ~(beyond | beaten)
+    found = []
+    for i in np.flatnonzero(beyond | beaten):
+        if beyond[i]:
+            limit = asked.limits[int(np.argmax(race.within[i] < 0))].name
+            found.append(Out(asked.systems[i], r, limit=limit))
+        else:
+            by = max(np.flatnonzero(judges & (race.beats[:, i] > 0)), key=lambda j: (race.alive[j], sums[j, 0], -j))
+            found.append(Out(asked.systems[i], r, by=asked.systems[by]))
+    return found
+
+
+def _bounds(asked: Asked) -> np.ndarray:
+    return np.array([abs(limit.bound) for limit in asked.limits])
+
+
+def open_pairs(race: Race) -> np.ndarray:
+    """(k, k) which two of those left nobody has told apart."""
+    open_yet = race.alive[:, None] & race.alive[None] & (race.beats == 0) & (race.beats.T == 0)
+    np.fill_diagonal(open_yet, False)
+    return open_yet
+
+
+def open_limits(race: Race) -> np.ndarray:
+    """(k, L) of which limits nobody knows whether those left keep them."""
+    return np.asarray(race.alive[:, None] & (race.within == 0))
+
+
+def ended_how(race: Race, begun: np.ndarray, r: int, most: int) -> str:
+    """How it ended; "" where it goes on. begun : (k, k) where triangles begin, 0 of two that never differed"""
+    left = np.flatnonzero(race.alive)
+    if not left.size:
+        return NONE_WITHIN
+    if (race.within[left] > 0).all():
+        if left.size == 1:
+            return CHOSEN
+        if not begun[np.ix_(left, left)].any():
+            return TIED
+    return RAN_OUT if r >= most else ""
+
+
+def names_of(asked: Asked, alive: np.ndarray) -> tuple[str, ...]:
+    """The systems that are left. alive : (k,)"""
+    return tuple(name for name, here in zip(asked.systems, alive) if here)
+
+
+UNMOVED = 59
+"""Replications before no spread at all is believed: what happens in 5 % of replications shows in so many of them but
+with a chance of 0.95^59 < 0.05."""
+
+
+class Rooms:
+    """Where the triangles begin, by the spread of the first stage; a wider one closes later.
+
+    A difference (or the figure of a limit) that is the same in the whole first stage says nothing of its spread: it may
+    be a stop that is rare. Nothing is decided of it before ``look_again_at`` replications, which are its first stage.
+    pairs : (k, k), limits : (k, L), of sums at replication 0; inf where nothing is decided yet
+    """
+
+    def __init__(self, asked: Asked, error: float, starts: np.ndarray):
+        """starts : (k, n0, 1 + L) of the first stage, limits as by how much they are exceeded; error : of a decision"""
+        self._asked, self._error = asked, error
+        self._tolerances = np.array([limit.tolerance for limit in asked.limits])
+        self.look_again_at = min(max(asked.first_stage, UNMOVED), asked.most)
+        self.pairs, self.limits = self._begun(starts)
+        if asked.first_stage < self.look_again_at:
+            self.pairs[self.pairs == 0.0] = np.inf
+            self.limits[self.limits == 0.0] = np.inf
+
+    def look_again(self, alive: np.ndarray, values: np.ndarray) -> None:
+        """values : (alive, look_again_at, 1 + L) as ``starts``"""
+        pairs, limits = self._begun(values)
+        grid = np.ix_(alive, alive)
+        self.pairs[grid] = np.where(np.isinf(self.pairs[grid]), pairs, self.pairs[grid])
+        self.limits[alive] = np.where(np.isinf(self.limits[alive]), limits, self.limits[alive])
+
+    def at(self, r: int) -> tuple[np.ndarray, np.ndarray]:
+        """(k, k) and (k, L): how much larger than 0 a sum has to be at the r-th replication."""
+        return (
+            np.maximum(0.0, self.pairs - 0.5 * self._asked.indifference * r),
+            np.maximum(0.0, self.limits - 0.5 * self._tolerances * r),
+        )
+
+    def affordable(self, pairs: np.ndarray) -> float:
+        """The indifference at which these pairs' triangles close at the last replication allowed; nan of none.
+
+        pairs : (k, k), whether it counts
+        """
+        if not pairs.any():
+            return float("nan")
+        return float(np.sqrt(2.0 * self._asked.indifference * self.pairs[pairs].max() / self._asked.most))
+
+    def _begun(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Source: Kim & Nelson 2001, h^2 S^2 / (2 c d) with c = 1 and h^2 = 2 c eta (n0 - 1)."""
+        freedom = values.shape[1] - 1
+        scale = 2.0 * kn_eta(freedom, self._error) * freedom
+        figures, over = values[..., 0], values[..., 1:]
+        pairs = np.array([_variances(of - figures, np.abs(figures).max(initial=0.0)) for of in figures])
+        bounds = np.array([abs(limit.bound) for limit in self._asked.limits])
+        limits = _variances(over.swapaxes(1, 2), bounds[None] + np.abs(over).max(axis=1, initial=0.0))
+        return scale * pairs / (2.0 * self._asked.indifference), scale * limits / (2.0 * self._tolerances)
+
+
+def _variances(values: np.ndarray, size: float | np.ndarray) -> np.ndarray:
+    """Along the last axis; 0 where they differ by no more than rounding of numbers of this size."""
+    return np.where(np.ptp(values, axis=-1) <= ROUNDING * size, 0.0, values.var(axis=-1, ddof=1))
+
 
 ASSUMES = (
     "means of replications are normally distributed (nearly so where many jobs pass)",

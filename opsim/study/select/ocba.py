@@ -10,9 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from opsim.kpi.better import MORE
-from opsim.study.select.asking import Observe, sign_of
-from opsim.study.select.selection import CHOSEN, SPENT, Asked, Selection, Stage, plain_means
+from opsim.kpi.catalogue import MORE
+from opsim.study.select.selection import CHOSEN, SPENT, Asked, Observe, Selection, Stage, plain_means, sign_of
 
 TINY = 1e-12
 ASSUMES = (

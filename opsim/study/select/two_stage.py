@@ -6,10 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from opsim.kpi.better import MORE
-from opsim.study.select.asking import Answered, Observe, sign_of
+from opsim.kpi.catalogue import MORE
 from opsim.study.select.constants import dudewicz_dalal_h, rinott_h
-from opsim.study.select.selection import CHOSEN, RAN_OUT, Asked, Selection, Stage, plain_means
+from opsim.study.select.selection import (
+    CHOSEN,
+    RAN_OUT,
+    Answered,
+    Asked,
+    Observe,
+    Selection,
+    Stage,
+    plain_means,
+    sign_of,
+)
 
 ASSUMES = (
     "means of replications are normally distributed (nearly so where many jobs pass)",

@@ -1,4 +1,11 @@
-"""What a factor does to a figure: ends against a base (tornado), means over a grid. Plain functions on arrays."""
+"""The error of a fit itself, beside the luck of its replications: where levels are read from a fit, not run.
+
+What a factor does to a figure: ends against a base (tornado), means over a grid. Plain functions on arrays.
+
+What each factor does by a fitted response, with the fit's own error.
+
+The best of the points, and which others are not told from it.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +14,42 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from opsim.study.interval import CONFIDENCE, Interval, t_interval
-from opsim.study.paired import holm, paired
-from opsim.study.sweep.beside_fit import BesideFit
+from opsim.kpi.catalogue import LESS, MORE
+from opsim.study.intervals import CONFIDENCE, Interval, holm, paired, t_interval
+from opsim.study.sweep.factors import Factor
+from opsim.study.sweep.response_surface import Response, columns
+
+
+@dataclass(frozen=True, slots=True)
+class BesideFit:
+    """Standard errors that the misfit gives levels of a factor, with ``degrees`` of freedom.
+
+    rows : by level, (C,) what multiplies the coefficients there; reference : the same where changes are against
+    """
+
+    response: Response
+    rows: Mapping[str, np.ndarray]
+    reference: np.ndarray
+
+    @property
+    def degrees(self) -> int:
+        """Points beyond the terms, from which the misfit is known."""
+        return self.response.spare
+
+    def of(self, level: str) -> float:
+        """Of the mean at a level."""
+        return self.response.misfit_of(self.rows[level], 1)
+
+    def against_reference(self, level: str) -> float:
+        """Of a level's change; nothing where it is the reference."""
+        return self._of_difference(self.rows[level] - self.reference)
+
+    def between(self, one: str, other: str) -> float:
+        """Of the difference of two levels."""
+        return self._of_difference(self.rows[one] - self.rows[other])
+
+    def _of_difference(self, row: np.ndarray) -> float:
+        return self.response.misfit_of(row, 2) if row.any() else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,3 +175,78 @@ def _held(interval: Interval, p: float, comparisons: int, error: float, spare: i
         p = 2 * float(stdtr(degrees, -abs(interval.mean) / both))
     t = float(stdtrit(degrees, 1 - (1 - CONFIDENCE) / (2 * comparisons)))
     return replace(interval, half_width=t * both), float(np.minimum(1.0, p * comparisons))
+
+
+def effects_by_fit(factors: Sequence[Factor], response: Response) -> list[Swing]:
+    """Each factor at its ends and in its middle, the others in theirs; of categories, each against the mean of all.
+
+    Intervals hold the luck of the replications and the misfit; nothing is clear by a fit that is not to be trusted.
+    """
+    each = response.per_replication if response.per_replication.size else response.coefficients[:, None]
+    centre = columns(response.terms, _plain_centre(response), response.room)[0]
+    found = []
+    for column, factor in enumerate(factors):
+        rows = {words: _row(response, column, number) for number, words in _levels(factor)}
+        of = {words: row @ each for words, row in rows.items()}
+        found.append(swing(factor.path, of, centre @ each, BesideFit(response, rows, centre)))
+    return ranked(found, any_clear=response.trusted)
+
+
+def _levels(factor: Factor) -> list[tuple[float, str]]:
+    """(number, words) of the values, of a range with its middle."""
+    values = list(factor.values)
+    if not factor.categories and factor.is_range:
+        values.insert(1, factor.at(0.5))
+    return [(factor.number(value), factor.words(value)) for value in values]
+
+
+def _plain_centre(response: Response) -> np.ndarray:
+    """The middle of every factor; -1, which is no category, where it has no order: their mean."""
+    categories = np.array(response.room.categories) > 0
+    return np.where(categories, np.nan, 0.0)[None]
+
+
+def _row(response: Response, column: int, number: float) -> np.ndarray:
+    scaled = _plain_centre(response)
+    room = response.room
+    scaled[0, column] = number if room.categories[column] else (number - room.centre[column]) / room.half[column]
+    return columns(response.terms, scaled, room)[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Best:
+    """The point that is best in the replications that both of a pair have; ``like_it`` other points are not told from
+    it (paired, all together, Holm). shared : the fewest replications that it has together with another point
+    """
+
+    row: int
+    mean: Interval
+    like_it: int
+    better: str
+    shared: int
+
+
+def best_of(values: np.ndarray, means: Sequence[Interval], better: str) -> Best:
+    """The best point, and how many others are not told from it. values : (P, n), nan where a figure has no value"""
+    row = _champion(values * {MORE: 1.0, LESS: -1.0}[better], means)
+    tests = [paired(values[row], other) for place, other in enumerate(values) if place != row]
+    p = holm([np.nan if i.n > 0 and i.mean == 0 and i.sd == 0 else p for i, p, _ in tests])
+    ahead = np.array([i.mean for i, _, _ in tests]) * {MORE: 1.0, LESS: -1.0}[better] > 0
+    clear = int(np.count_nonzero((p <= 1 - CONFIDENCE) & ahead))
+    return Best(row, means[row], len(tests) - clear, better, min((i.n for i, _, _ in tests if i.n), default=0))
+
+
+def _champion(values: np.ndarray, means: Sequence[Interval]) -> int:
+    """The row that is highest; where values are missing, the last that beat the one before it in what both have.
+
+    Means over different replications would compare their luck. values : (P, n), more is better
+    """
+    with np.errstate(invalid="ignore"):
+        whole = np.array([np.nan if not one.n else np.nanmean(row) for row, one in zip(values, means)])
+    row = int(np.nanargmax(whole))
+    if np.isnan(values).any():
+        for other in range(len(values)):
+            by = values[other] - values[row]
+            if not np.isnan(by).all() and np.nanmean(by) > 0:
+                row = other
+    return row

@@ -1,20 +1,267 @@
-"""``opsim sweep`` as a pure function of answers: points, what each figure is there, and how it is told."""
+"""What a sweep found of one figure: means at the points, what each factor does, a fitted response, the best point.
+
+Which figures a sweep tells: those that are asked for, or what the scenario puts in front.
+
+A sweep as plain values, for summary.json.
+
+``opsim sweep`` as a pure function of answers: points, what each figure is there, and how it is told.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
+from opsim.kpi.catalogue import KPIS, AskedFigure, better_of, read_asked, subject_of
+from opsim.problems import did_you_mean
 from opsim.results import Key
+from opsim.scenario.schema.sweep import SENSITIVITY
+from opsim.scenario.variants import flow_text
+from opsim.study.compare import remedy
+from opsim.study.intervals import Interval, t_interval
 from opsim.study.jobs import Job, Point
-from opsim.study.sweep.factors import UNCHANGED
-from opsim.study.sweep.figures import check_figures, chosen, kept_of
-from opsim.study.sweep.found import found_of
-from opsim.study.sweep.points import Points, points_of
-from opsim.study.sweep.summary import summary_of
+from opsim.study.sweep.designs import MORRIS_STEP, Sensitivity, morris_effects, sobol_indices
+from opsim.study.sweep.effects import Best, Swing, best_of, effects_by_fit, main_effects, tornado
+from opsim.study.sweep.factors import AS_IT_IS, UNCHANGED, Factor, Points, points_of
+from opsim.study.sweep.response_surface import Response, block_error, fit_response
+
+AGAINST_BASE, OVER_OTHERS, BY_FIT = "base", "mean", "fit"
+
+
+@dataclass(frozen=True)
+class Found:
+    """One figure. means : a point each; how : what the changes of ``swings`` are against; noise_share : of the variance
+    of the points' means, how much is luck (nan where it is not known)
+    """
+
+    key: Key
+    means: tuple[Interval, ...]
+    how: str = ""
+    swings: tuple[Swing, ...] = ()
+    response: Response | None = None
+    no_response: str = ""
+    sensitivity: tuple[Sensitivity, ...] = ()
+    best: Best | None = None
+    noise_share: float = float("nan")
+    replications: int = 1
+    factors: tuple[Factor, ...] = field(default=(), repr=False)
+
+
+def found_of(key: Key, better: str, points: Points, values: np.ndarray, seed: int) -> Found:
+    """values : (P, n) of the figure, replications with common random numbers; seed : of the bootstrap's intervals."""
+    means = tuple(t_interval(row) for row in values)
+    known = [one for one in means if one.n]
+    best = best_of(values, means, better) if better and len(known) > 1 else None
+    found = Found(key, means, best=best, replications=values.shape[1], factors=points.factors)
+    if points.design in SENSITIVITY:
+        return replace(found, sensitivity=_sensitivity(points, means, seed), noise_share=_noise_share(values))
+    if points.design == "one_at_a_time":
+        return replace(found, how=AGAINST_BASE, swings=tuple(_against_base(points, values)))
+    response, why = _response(points, values)
+    complete = values[:, ~np.isnan(values).any(axis=0)]
+    if points.design == "grid" and complete.size:
+        how, swings = OVER_OTHERS, main_effects(points.array, complete, *_names(points.factors))
+    else:
+        how, swings = BY_FIT, [] if response is None else effects_by_fit(points.factors, response)
+    return replace(found, how=how, swings=tuple(swings), response=response, no_response=why)
+
+
+def _against_base(points: Points, values: np.ndarray) -> list[Swing]:
+    ends = {}
+    for column, factor in enumerate(points.factors):
+        rows = [row for row in range(1, len(values)) if points.values[row][column] is not UNCHANGED]
+        ends[factor.path] = {factor.words(points.values[row][column]): values[row] for row in rows}
+    bases = {path: _base_name(points.bases.get(path), of) for path, of in ends.items()}
+    return tornado(values[0], ends, bases)
+
+
+def _base_name(said: str | None, ends: Mapping[str, object]) -> str:
+    """What the scenario has, in words: an end where it is one of them."""
+    if said is None or said in ends:
+        return AS_IT_IS if said is None else said
+    return f"{said} ({AS_IT_IS})"
+
+
+def _names(factors: Sequence[Factor]) -> tuple[list[str], list[list[str]]]:
+    return [f.path for f in factors], [[f.words(value) for value in f.grid_values()] for f in factors]
+
+
+def _response(points: Points, values: np.ndarray) -> tuple[Response | None, str]:
+    """The fit, or why there is none."""
+    spans = [factor.span if not factor.categories else (0.0, 1.0) for factor in points.factors]
+    low, high = zip(*spans)
+    categories = [factor.categories for factor in points.factors]
+    try:
+        return fit_response(points.numbers(), values, low=low, high=high, categories=categories), ""
+    except ValueError as error:
+        return None, str(error)
+
+
+def _sensitivity(points: Points, means: Sequence[Interval], seed: int) -> tuple[Sensitivity, ...]:
+    """Nothing where a point has no value: the designs need all of theirs."""
+    y = np.array([one.mean for one in means])
+    if np.isnan(y).any():
+        return ()
+    n = len(points.factors)
+    if points.design == "morris":
+        return tuple(morris_effects(points.array, y, n, seed, [_moved(factor) for factor in points.factors]))
+    return tuple(sobol_indices(y, n, seed))
+
+
+def _moved(factor: Factor) -> float:
+    """By which share of its range a factor moves at a step of Morris' paths; values without order change as a whole."""
+    if factor.categories > 1:
+        return 1.0
+    return round(MORRIS_STEP * factor.steps) / factor.steps if factor.steps else MORRIS_STEP
+
+
+def _noise_share(values: np.ndarray) -> float:
+    known = values[~np.isnan(values).any(axis=1)]
+    if len(known) < 2 or known.shape[1] < 2 or np.ptp(known.mean(axis=1)) == 0:
+        return float("nan")
+    return min(1.0, block_error(known) / known.shape[1] / float(known.mean(axis=1).var(ddof=1)))
+
+
+SECTIONS = {"worker": "workers", "station": "stations", "task": "tasks", "product": "products"}
+MOST_BY_ITSELF = 6
+"""Figures that a sweep chooses, where nobody does."""
+
+
+def kept_of(figures: Sequence[str] | None, outputs: Sequence[str]) -> tuple[str, ...]:
+    """Names of the figures that are kept of each replication."""
+    return tuple(dict.fromkeys(read_asked(text).kpi for text in figures)) if figures else tuple(dict.fromkeys(outputs))
+
+
+def check_figures(figures: Sequence[str], scenario: Any) -> None:
+    """Raises ValueError with everything that is wrong with the figures, before anything is run."""
+    wrong = [words for text in figures if (words := _wrong(read_asked(text), scenario))]
+    if wrong:
+        raise ValueError("\n".join(wrong))
+
+
+def chosen(figures: Sequence[str] | None, outputs: Sequence[str], keys: Sequence[Key]) -> list[tuple[Key, str]]:
+    """The figures and which way of each is better. keys : of all that the replications have
+
+    Raises ValueError where one that was asked for is in no replication.
+    """
+    if figures:
+        return [_found(read_asked(text), keys) for text in figures]
+    whole = [key for kpi in outputs for key in keys if key[0] == kpi and not key[1] and not key[2]]
+    if not whole:
+        raise ValueError("the scenario's outputs are of single things: name figures, such as --figure throughput_per_h")
+    return [(key, better_of(key[0], key[2])) for key in whole[:MOST_BY_ITSELF]]
+
+
+def _found(asked: AskedFigure, keys: Sequence[Key]) -> tuple[Key, str]:
+    for key in keys:
+        if key[:3] == (asked.kpi, asked.subject, asked.part):
+            return key, asked.better
+    of = [AskedFigure(*key[:3]).name for key in keys if key[0] == asked.kpi]
+    if of:
+        raise ValueError(f"no figure {asked.name!r}; {did_you_mean(asked.name, of, otherwise='there are')}")
+    raise ValueError(f"no figure {asked.name!r}; {remedy(asked.kpi, {key[0] for key in keys})}")
+
+
+def _wrong(asked: AskedFigure, scenario: Any) -> str:
+    """What is wrong with one figure; nothing where all is well."""
+    if asked.kpi not in KPIS:
+        return f"no figure {asked.kpi!r}; {did_you_mean(asked.kpi, KPIS)}"
+    kind = subject_of(asked.kpi)
+    names = list(getattr(scenario, SECTIONS.get(kind, ""), None) or ())
+    if kind and not asked.subject:
+        such = f", such as {asked.kpi}/{names[0]}" if names else f": {asked.kpi}/NAME"
+        return "" if asked.part else f"{asked.kpi}: it is of each {kind}: say which{such}"
+    if kind in SECTIONS and asked.subject and asked.subject not in (*names, "none"):
+        return f"{asked.name}: no {kind} {asked.subject!r}; {did_you_mean(asked.subject, names)}"
+    return ""
+
+
+def summary_of(points: Points, found: Sequence[Found], replications: int) -> dict[str, Any]:
+    """For machines: the points, and of every figure what ``Found`` says."""
+    return {
+        "design": points.design,
+        "replications": replications,
+        "factors": [_factor(factor) for factor in points.factors],
+        "points": [
+            {f.path: value for f, value in zip(points.factors, values) if value is not UNCHANGED}
+            for values in points.values
+        ],
+        "figures": [_figure(one) for one in found],
+        "words": [*points.words, *points.warned],
+    }
+
+
+def _factor(factor: Factor) -> dict[str, Any]:
+    values = [value for value in factor.values if value is not UNCHANGED]
+    return {"path": factor.path, **({"from": values[0], "to": values[1]} if factor.is_range else {"values": values})}
+
+
+def _figure(found: Found) -> dict[str, Any]:
+    said: dict[str, Any] = dict(zip(("kpi", "subject", "part", "unit"), found.key))
+    said["points"] = [_interval(one) for one in found.means]
+    if found.swings:
+        said["against"] = found.how
+        said["factors"] = [
+            {
+                "path": one.name,
+                "lowest_at": one.levels[one.least].name,
+                "highest_at": one.levels[one.most].name,
+                "difference": _interval(one.rise),
+                "clear": one.clear,
+                "levels": [
+                    {"value": level.name, "mean": _interval(level.mean), "change": _interval(level.change)}
+                    for level in one.levels
+                ],
+            }
+            for one in found.swings
+        ]
+    if found.sensitivity:
+        said["sensitivity"] = [
+            {"path": f.path, **{k: getattr(one, k) for k in ("alone", "alone_half", "total", "total_half", "spread")}}
+            for f, one in zip(found.factors, found.sensitivity)
+        ]
+        said["noise_share"] = found.noise_share
+    if found.response is not None:
+        said["response"] = _response_as_json(found)
+    if found.best is not None:
+        said["best"] = {
+            "point": found.best.row + 1,
+            "better": found.best.better,
+            "not_told_from_it": found.best.like_it,
+        }
+    return said
+
+
+def _response_as_json(found: Found) -> dict[str, Any]:
+    response = found.response
+    assert response is not None
+    return {
+        "kind": response.kind,
+        "centre": response.room.centre.tolist(),
+        "half_range": response.room.half.tolist(),
+        "terms": [
+            {
+                "of": [_part(found.factors, part) for part in term],
+                "coefficient": float(value),
+                "half_width": float(half),
+            }
+            for term, value, half in zip(response.terms, response.coefficients, response.half_widths)
+        ],
+        **{k: getattr(response, k) for k in ("loo_rmse", "noise", "r2", "r2_predicted", "lack_of_fit_p", "trusted")},
+    }
+
+
+def _part(factors: Sequence[Factor], part: tuple[int, int]) -> dict[str, Any]:
+    factor, what = factors[part[0]], part[1]
+    return {"path": factor.path, **({"power": what} if what > 0 else {"is": flow_text(factor.values[-what])})}
+
+
+def _interval(one: Interval) -> dict[str, Any]:
+    return {"mean": one.mean, "low": one.low, "high": one.high, "sd": one.sd, "n": one.n}
+
 
 MOST_CHECKED = 200
 """Points that are checked whole before the first run, beside every value of every factor by itself."""
@@ -38,7 +285,7 @@ def study(asked: Any, answers: Any) -> tuple[dict[str, Any], Any]:
     Raises ScenarioError with everything that is wrong with points before the first run, ValueError where a part of a
     figure is in no replication.
     """
-    from opsim.report.sweep_page import sweep_page
+    from opsim.report.studies.sweep import sweep_page
 
     scenario, figures, seed = asked.loaded.scenario, asked.block.figures, _seed(asked)
     points = with_bases(points_of(asked.block, seed), asked.loaded.resolved)

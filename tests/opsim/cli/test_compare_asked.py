@@ -1,8 +1,8 @@
 import pytest
 
-from opsim.cli.compare_asked import check_asked, frontier_texts
+from opsim.cli.compare import check_asked, frontier_texts
 from opsim.plan import compile_plan
-from opsim.plan.human import NO_EFFECTS
+from opsim.plan.workers import NO_EFFECTS
 from opsim.scenario.read import scenarios_in
 from tests.human_plans import LINE
 

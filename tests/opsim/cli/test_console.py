@@ -1,6 +1,6 @@
 import json
 
-from opsim.cli.console import print_json, print_table
+from opsim.cli.app import print_json, print_table
 
 
 def test_names_in_a_table_are_never_markup(capsys):

@@ -7,7 +7,7 @@ import pytest
 from stand_in_engine import install_rule, stand_in
 
 from opsim.cli import main
-from opsim.cli.engine_option import COMPILING
+from opsim.cli.progress import COMPILING
 from tests.opsim.cli.calls import LINE, line, opsim
 
 RUNNING = ("run", "compare", "view", "long-run", "sweep", "select", "labour", "layout")
@@ -133,8 +133,7 @@ def test_on_a_terminal_the_bar_counts_what_is_compiled(tmp_path, monkeypatch):
     shown = []
     monkeypatch.setattr("opsim.cli.progress._Bar.__call__", lambda self, *told: shown.append(told))
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
-    from opsim.cli.engine_option import telling
-    from opsim.cli.progress import progress
+    from opsim.cli.progress import progress, telling
     from opsim.engine.choice import Choice
 
     with progress("run base") as report:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from emulator.recordings.bvh import read_bvh, read_bvh_file
-from opsim.ergonomics.again import performance_again
+from opsim.ergonomics.redraw import performance_again
 from opsim.log import WORK
-from opsim.study.reopened import reopened
+from opsim.study.run import reopened
 from tests.opsim.cli.calls import opsim
 from tests.opsim.export.made_results import results
 
@@ -102,7 +102,7 @@ def test_what_is_performed_at_a_time_is_that_performance(run, tmp_path):
 
 
 def test_a_walk_goes_as_far_as_it_was_and_takes_as_long(run, tmp_path):
-    from opsim.walks import walks_of
+    from opsim.history import walks_of
 
     walks = walks_of(run.log(), run.plan)
     k = int(np.flatnonzero(np.isclose(walks.distance_m, 6.0))[1])

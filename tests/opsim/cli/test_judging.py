@@ -5,8 +5,8 @@ import shutil
 import pytest
 
 from emulator.judge import held_out_table
-from opsim.cli import judging
-from opsim.report.paper.write import Section
+from opsim.cli.motion import judge as judging
+from opsim.report.motion.emulator_paper import Section
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 

@@ -74,7 +74,7 @@ def test_where_no_page_can_be_written_it_is_told_all_the_same(results, monkeypat
     def refuse(path, _):
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr("opsim.report.study_page.write_text", refuse)
+    monkeypatch.setattr("opsim.report.page.write_text", refuse)
     code, shown, complaint = opsim("long-run", results)
     assert code == 1 and "Jobs finished" in shown and "cannot be written: Permission denied" in complaint
 

@@ -72,7 +72,7 @@ def test_a_library_that_is_not_there_is_said_with_those_that_are(folder):
 
 @pytest.mark.parametrize("words", [("-o", "x.png"), ("--video", "-o", "x.GIF")])
 def test_without_matplotlib_it_is_said_before_anything_is_drawn(folder, monkeypatch, words):
-    monkeypatch.setattr("opsim.report.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
     ending = words[-1][2:].upper()
     assert complaint_on(*words).startswith(f"{ending} files need matplotlib, which is not installed")
     assert list(folder.iterdir()) == []
@@ -80,5 +80,5 @@ def test_without_matplotlib_it_is_said_before_anything_is_drawn(folder, monkeypa
 
 @pytest.mark.parametrize("words", [("-n", 1, "-o", "x.svg"), ("--video", "-n", 1)])
 def test_drawings_and_pages_need_no_matplotlib(folder, monkeypatch, words):
-    monkeypatch.setattr("opsim.report.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
     assert opsim("motion", "show", BENCH, "reach", *words)[0] == 0

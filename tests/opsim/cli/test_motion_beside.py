@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from emulator import read_motions
-from opsim.cli.motion_beside import seen
+from opsim.cli.motion.side_by_side import seen
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import opsim

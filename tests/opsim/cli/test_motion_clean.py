@@ -9,7 +9,7 @@ import pytest
 
 from emulator.cleaning import Repair
 from emulator.recordings.npz import read_recording, write_recording
-from opsim.cli.motion_clean_view import column_of
+from opsim.cli.motion.clean_page import column_of
 from tests.made_takes import clean, error_m, same, spoilt
 from tests.opsim.cli.calls import opsim
 
@@ -188,7 +188,7 @@ def test_control_c_while_writing_leaves_nothing_half_written(spoiled, monkeypatc
 
 
 def test_control_c_while_drawing_says_what_was_written(spoiled, monkeypatch):
-    monkeypatch.setattr("opsim.report.cleaned_picture.write_cleaned", stops)
+    monkeypatch.setattr("opsim.report.motion.cleaning_charts.write_cleaned", stops)
     code, _, said = opsim("motion", "clean", "reach.npz", "-o", "clean.npz")
     assert code == 130 and read_recording("clean.npz").takes
     assert "stopped; written: clean.npz; not written: clean.clean.svg, clean.clean.html" in said

@@ -3,8 +3,8 @@ import json
 import pytest
 
 from emulator.judge.paper import Table
-from opsim.cli import judging
-from opsim.report.paper.write import Section
+from opsim.cli.motion import judge as judging
+from opsim.report.motion.emulator_paper import Section
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 

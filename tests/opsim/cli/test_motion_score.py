@@ -10,7 +10,7 @@ from emulator.recordings.bvh_write import write_bvh
 from emulator.recordings.npz import write_recording
 from emulator.recordings.take import Recording, Take
 from emulator.skeleton import standard_skeleton
-from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
+from opsim.ergonomics.options import NOT_SEEN, RULES
 from tests.opsim.cli.calls import opsim
 from tests.opsim.ergonomics.bodies import bent
 

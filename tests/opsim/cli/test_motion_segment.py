@@ -153,7 +153,7 @@ def test_control_c_while_drawing_says_what_was_written(folder, tmp_path, monkeyp
     def stops(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("opsim.report.segment_picture.draw_cuts", stops)
+    monkeypatch.setattr("opsim.report.motion.segmentation.draw_cuts", stops)
     out = tmp_path / "w.npz"
     code, _, said = opsim("motion", "segment", folder / "walks.npz", "-o", out)
     there = f"{out}, {out.with_suffix('.cuts.txt')}"

@@ -7,9 +7,9 @@ import pytest
 from PIL import Image
 
 from emulator.model.mean_performance import mean_performance
-from opsim.cli.motion_video import video
+from opsim.cli.motion.video import video
 from opsim.libraries import load_library
-from opsim.report.staged import RATE_HZ
+from opsim.report.sections.motions import CARD_RATE_HZ as RATE_HZ
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import opsim
 
@@ -108,7 +108,7 @@ def test_pauses_are_said_where_there_are_any(reach):
 
 def test_the_strip_shows_the_same_performances(folder, reach, monkeypatch):
     rows = []
-    monkeypatch.setattr("opsim.report.strips.draw_strips", lambda strips, *_, **__: rows.extend(strips))
+    monkeypatch.setattr("opsim.report.sections.motions.draw_strips", lambda strips, *_, **__: rows.extend(strips))
     assert opsim("motion", "show", BENCH, "reach", "-n", 2, "--seed", 4, "-o", "x.svg")[0] == 0
     assert np.allclose(rows[0].positions_m, mean_performance(reach).positions_m(n_times=61)[0])
     assert [f"{row.duration_s:.2f} s" for row in rows] == [card.who for card in made(reach, n=2, seed=4).cards]

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from opsim.report import contents
+from opsim.report import render as contents
 from tests.opsim.cli.calls import opsim
 from tests.opsim.cli.test_view import CELL, cell
 
@@ -64,14 +64,14 @@ def test_every_figure_of_the_report_becomes_an_svg_file_of_the_same_bytes_again(
 
 
 def test_figures_of_several_variants_have_a_folder_each(results, tmp_path, monkeypatch):
-    monkeypatch.setattr("opsim.report.drawn.chart.chart_svg", lambda chart, legend=(): b"<svg/>")
+    monkeypatch.setattr("opsim.report.plot.matplotlib_chart.chart_svg", lambda chart, legend=(): b"<svg/>")
     code, shown, _ = opsim("report", results, "--svg", tmp_path / "svg")
     assert code == 0 and f"files in {tmp_path / 'svg' / 'together'}" in shown
     assert {path.name for path in (tmp_path / "svg").iterdir()} == {"alone", "together"}
 
 
 def test_without_matplotlib_it_is_said_how_to_get_it_before_anything_is_written(results, tmp_path, monkeypatch):
-    monkeypatch.setattr("opsim.report.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
     code, _, complaint = opsim("report", results, "--svg", tmp_path / "svg")
     assert code == 2 and "pip install opsim[matplotlib]" in complaint and not (tmp_path / "svg").exists()
 
@@ -141,12 +141,12 @@ def test_another_library_than_that_of_the_run_is_refused(results):
 
 
 def test_a_section_that_cannot_be_made_is_a_warning_and_the_report_is_there(results, monkeypatch):
-    from opsim.report import gantt
+    from opsim.report.sections import gantt
 
     def broken(material):
         raise ValueError("no clock here")
 
-    monkeypatch.setattr(gantt, "section", broken)
+    monkeypatch.setattr(gantt, "gantt_section", broken)
     code, _, complaint = opsim("report", results, "--scenario", "alone")
     assert code == 0
     assert complaint == "warning: alone: the report lacks gantt, which could not be made: no clock here\n"

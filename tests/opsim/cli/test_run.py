@@ -2,10 +2,10 @@ import json
 
 import pytest
 
-from opsim.cli.run_table import without_repeats
+from opsim.cli.run import without_repeats
 from opsim.engine.endless import EndlessInstant
 from opsim.laws import BrokenLog
-from opsim.study.pool import ProcessLost
+from opsim.pool import ProcessLost
 from tests.opsim.cli.calls import LINE, line, opsim
 
 TWO = LINE + "overrides: {wide: {stations.press.servers: 2}}\nscenarios: {base: [], wider: [wide]}\n"

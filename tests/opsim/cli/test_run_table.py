@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from opsim.cli.run_table import matters, print_results
+from opsim.cli.run import matters, print_results
 from tests.made_result import kpi
 
 

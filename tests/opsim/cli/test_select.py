@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from opsim.cli import main
-from opsim.scenario.varied import Varied
+from opsim.scenario.study_checks import Varied
 
 SHORT = ["--horizon", "3 h", "--processes", "1", "--replications", "8", "--indifference", "2"]
 

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from opsim.export.sql_tables import EXAMPLES, TABLES
+from opsim.export.sql import EXAMPLES, TABLES
 from tests.opsim.cli.calls import opsim
 from tests.opsim.export.made_results import results
 

@@ -4,12 +4,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.cli.sweep_vary import vary_of
-from opsim.kpi.amounts import check_indifference, read_limit
-from opsim.kpi.target import read_target
+from opsim.cli.study_options import vary_of
+from opsim.kpi.targets import check_indifference, read_limit, read_target
 from opsim.problems import ScenarioError
-from opsim.scenario.layout_moves import EXAMPLES, read_any_moved, read_moved
-from opsim.study.jobs.shard import Shard
+from opsim.scenario.fields import EXAMPLES, read_any_moved, read_moved
+from opsim.study.jobs.job import Shard
 from tests.opsim.cli.calls import LINE, line, opsim
 
 PEOPLE = """

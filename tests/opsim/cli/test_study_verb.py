@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 from stand_in_engine import stand_in
 
-from opsim.kpi.figure import Figure
-from opsim.study.jobs.answer import Answer
+from opsim.kpi.catalogue import Figure
+from opsim.study.jobs.job import Answer
 from opsim.study.jobs.journal import Journal
 from tests import made_study
 from tests.opsim.cli.calls import LINE, line, opsim
@@ -174,7 +174,8 @@ def test_a_scenario_that_has_changed_since_or_gone_is_refused_at_merge(tmp_path)
 
 
 def clear():
-    from opsim.study.jobs import decides, evaluate
+    from opsim.study.jobs import evaluate
+    from opsim.study.jobs import evaluate as decides
 
     decides._made_from.cache_clear()
     evaluate._variant.cache_clear()
@@ -244,7 +245,7 @@ def test_a_full_disk_is_said_and_what_is_finished_is_gone_on_with(tmp_path, monk
 
 
 def test_two_runs_into_one_folder_are_refused(tmp_path):
-    from opsim.study.lock import locked
+    from opsim.study.results_folder import locked
 
     swept("-o", "s")
     with locked(tmp_path / "s" / "answers" / ".all.jsonl.lock", ""):

@@ -3,7 +3,7 @@ import json
 import numpy as np
 import pytest
 
-from opsim.cli.sweep_vary import vary_of
+from opsim.cli.study_options import vary_of
 from tests.opsim.cli.calls import LINE, line, opsim
 
 GRID = (

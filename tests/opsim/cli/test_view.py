@@ -3,7 +3,7 @@ import shutil
 
 import pytest
 
-from opsim.cli.replay_drawn import Drawn, too_large
+from opsim.cli.view import Drawn, too_large
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import line, opsim
 
@@ -58,7 +58,7 @@ def drawn(monkeypatch):
         asked.append(wanted)
         return Drawn(wanted, *(wanted.window_s or (0.0, 360.0)), 1_234_567)
 
-    monkeypatch.setattr("opsim.cli.replay_drawn.draw_replay", draw)
+    monkeypatch.setattr("opsim.cli.view.draw_replay", draw)
     return asked
 
 
@@ -204,7 +204,7 @@ def test_of_a_large_page_it_is_said_how_many_hours_a_small_one_has_room_for():
 
 
 def test_a_page_that_no_browser_opens_is_not_written(results, monkeypatch):
-    monkeypatch.setattr("opsim.cli.replay_drawn.MOST_BYTES", 100_000)
+    monkeypatch.setattr("opsim.cli.view.MOST_BYTES", 100_000)
     code, _, complaint = opsim("view", results / "alone", "--to", "1 min")
     assert code == 2 and "replay.html: not written;" in complaint
     assert sorted(path.name for path in (results / "alone").glob("*replay*")) == []

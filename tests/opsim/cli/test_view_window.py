@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.cli.view_window import window_s
+from opsim.cli.view import window_s
 
 MON_6, H = 6 * 3600.0, 3600.0
 

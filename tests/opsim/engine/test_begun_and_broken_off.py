@@ -6,9 +6,9 @@ from human_plans import planned
 from made_shops import ran, spans
 
 from opsim.engine.floor import run_plan
+from opsim.history import practice
 from opsim.laws import CHECKS, audit
 from opsim.log import NO_TOOL, WAIT, WORK
-from opsim.practice import practice
 
 TIRES = "human: {fatigue: {model: lffrm, tires_half_in: 1 min, recovers_half_in: 1 min, slows: 0.5}}\n"
 CLOCK = "human: {circadian: {amplitude: 0.3}}\n"

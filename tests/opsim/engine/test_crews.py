@@ -5,7 +5,7 @@ import pytest
 from plans import plan, ran
 
 from opsim.engine.draws import Draws
-from opsim.kpi.crews import hand_overs
+from opsim.kpi.lines import hand_overs
 from opsim.log import FINISH, KINDS, WORK
 
 BENCH = """

@@ -13,10 +13,10 @@ from made_floors import text_of
 from made_people_blocks import people_floor_with
 
 from opsim.engine.floor import run_plan
+from opsim.history import tiredness
 from opsim.kpi import figures
 from opsim.laws import audit
 from opsim.log import FINISH, NO_TOOL, SETUP, WAIT, WORK
-from opsim.tiredness import tiredness
 
 LFFRM = "human: {fatigue: {model: lffrm, slows: 0}, rest: {above: 1, until: 0.5}}"
 MUSCLES = "human: {fatigue: {model: 3cc_r, slows: 0}, rest: {above: 1, until: 0.5}}"

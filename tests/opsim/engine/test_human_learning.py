@@ -8,7 +8,7 @@ from opsim.clock import on_grid
 from opsim.engine.floor import run_plan
 from opsim.human.catalogue import entry, models_of
 from opsim.log import FINISH, WORK
-from opsim.plan.human import HumanPlan
+from opsim.plan.workers import HumanPlan
 
 ONE = """
 opsim: 1

@@ -14,10 +14,10 @@ from made_floors import text_of
 from made_people_blocks import people_floor_with
 
 from opsim.engine.floor import run_plan
+from opsim.history import tiredness
 from opsim.kpi import figures
 from opsim.laws import audit
 from opsim.log import BREAK, OFF, REST, WORK
-from opsim.tiredness import tiredness
 
 TIRED = "fatigue: {model: lffrm, tires_half_in: 10 min, recovers_half_in: 5 min}"
 ONE = """

@@ -5,7 +5,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.locked import locked
+from opsim.kpi.deadlock import locked
 from opsim.laws import CHECKS, audit
 from opsim.log import BLOCKED, FINISH, WAIT, WALK, WORK
 

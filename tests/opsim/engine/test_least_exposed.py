@@ -13,7 +13,7 @@ from opsim.engine.floor import FloorOfPlan, run_plan
 from opsim.engine.floor.human_effects import stops, works
 from opsim.engine.floor.human_state import Dose, dose_so_far
 from opsim.engine.floor.run import run_until
-from opsim.ergonomics.shift.dose_rates import DoseRates
+from opsim.ergonomics.shift.worst import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios
 

@@ -231,7 +231,7 @@ def test_a_breakdown_in_a_setup_only_puts_it_off(tmp_path, attended):
 
 
 def test_setting_up_is_work_of_the_body_too(tmp_path):
-    from opsim.ergonomics.pieces import pieces_in_window
+    from opsim.ergonomics.redraw import pieces_in_window
     from opsim.plan import compile_plan
     from opsim.scenario.read import scenarios_in
 

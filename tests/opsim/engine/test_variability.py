@@ -12,7 +12,7 @@ from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 from opsim.tasks import Gamma
-from opsim.tasks.switched import Switched
+from opsim.tasks.variability import Switched
 
 MIXED = """
 opsim: 1

@@ -5,9 +5,9 @@ import pytest
 from plans import plan, ran
 
 from opsim.engine.rules import keeps_shared
-from opsim.kpi.cycle import visits
+from opsim.kpi.cycle_times import visits
 from opsim.log import FINISH, WORK
-from opsim.plan.loads.work import tasks_at, visit_s
+from opsim.plan.loads.flows import tasks_at, visit_s
 
 LINE = """
 opsim: 1

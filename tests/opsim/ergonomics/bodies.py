@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from opsim.ergonomics.joints import CANONICAL
+from opsim.ergonomics.angles import CANONICAL
 
 STANDING = {
     "pelvis": (0, 0, 0.95), "spine": (0, 0, 1.1), "chest": (0, 0, 1.25), "neck": (0, 0, 1.45), "head": (0, 0, 1.65),

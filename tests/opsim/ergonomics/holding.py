@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from opsim.ergonomics.columns import AT, COLUMNS
+from opsim.ergonomics.angles import AT, COLUMNS
 
 
 def naive_held(value, start_s, end_s, backward, forward, band, least_s, gap_s):

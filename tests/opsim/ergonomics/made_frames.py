@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.shift.stretch import Frames
+from opsim.ergonomics.angles import AT, COLUMNS
+from opsim.ergonomics.shift.frames import Frames
 
 
 def made_frames(n=None, *, worker=0, start_s=0.0, seconds=1.0, task=0, k=0, carrying=False, **measures):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from plans import plan
 
-from opsim.ergonomics.joints import CANONICAL
+from opsim.ergonomics.angles import CANONICAL
 from opsim.streams import BLOCK
 from tests.opsim.ergonomics.bodies import ABOVE_THE_HIPS, standing, turn
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import product
 from math import acos, cos, degrees, isnan, radians
 
-from opsim.ergonomics.columns import AT
+from opsim.ergonomics.angles import AT
 from opsim.ergonomics.scores.owas import owas
 from opsim.ergonomics.scores.reba import reba
 from opsim.ergonomics.scores.rula import rula

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from plans import ran
 
-from opsim.ergonomics.again import performance_again
-from opsim.ergonomics.exposure import trunk_exposure
+from opsim.ergonomics.redraw import performance_again
+from opsim.ergonomics.trunk import trunk_exposure
+from opsim.history import BY_ANOTHER, HANDED_OVER, RESTARTED, RESUMED, job_pieces
 from opsim.log import WAIT, WORK
-from opsim.pieces import BY_ANOTHER, HANDED_OVER, RESTARTED, RESUMED, job_pieces
 from tests.opsim.ergonomics.made_work import BEND, made_plan
 from tests.opsim.kpi.made_logs import made, work
 

@@ -6,6 +6,7 @@ import pytest
 from recordings import reference
 
 from opsim.ergonomics.angles import (
+    CANONICAL,
     elbow_bend_rad,
     knee_bend_rad,
     neck_angles,
@@ -15,7 +16,6 @@ from opsim.ergonomics.angles import (
     upper_arm_angles,
     wrist_bend_rad,
 )
-from opsim.ergonomics.joints import CANONICAL
 from tests.opsim.ergonomics.bodies import arm, bent, mirrored, moved, standing, turn
 
 X, Y, Z = np.eye(3)

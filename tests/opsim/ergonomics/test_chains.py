@@ -1,7 +1,6 @@
 import numpy as np
 
-from opsim.ergonomics.chains import bone_chain, joint_places
-from opsim.ergonomics.joints import CANONICAL
+from opsim.ergonomics.angles import CANONICAL, bone_chain, joint_places
 
 
 def test_a_parent_comes_before_its_children_however_joints_are_numbered():

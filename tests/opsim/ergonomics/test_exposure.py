@@ -9,13 +9,12 @@ from plans import loaded
 
 from opsim.clock import on_grid
 from opsim.engine.floor import run_plan
-from opsim.ergonomics import bodies
-from opsim.ergonomics.exposure import trunk_exposure
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.pieces import drawn_again, pieces_in_window
+from opsim.ergonomics import trunk as bodies
+from opsim.ergonomics.angles import CANONICAL
+from opsim.ergonomics.redraw import drawn_again, pieces_in_window
+from opsim.ergonomics.trunk import trunk_exposure
 from opsim.plan import compile_plan
-from opsim.plugins.blame import Found, PluginError
-from opsim.plugins.model import GuardedModel
+from opsim.plugins.guard import Found, GuardedModel, PluginError
 from opsim.streams import BLOCK
 from tests.opsim.ergonomics.bodies import standing
 from tests.opsim.ergonomics.made_work import BEND, COOK, COUNT, Bending, Bends, BendsApart, Skeleton, made_plan

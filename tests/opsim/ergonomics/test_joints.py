@@ -1,5 +1,5 @@
 import emulator.skeleton
-from opsim.ergonomics.joints import CANONICAL, SIDES
+from opsim.ergonomics.angles import CANONICAL, SIDES
 
 
 def test_the_canonical_names_are_those_of_the_emulator():

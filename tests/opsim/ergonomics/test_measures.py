@@ -4,16 +4,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.measures import first_measures, has_body, measures_of, n_cells
+from opsim.ergonomics.angles import AT, CANONICAL, COLUMNS
+from opsim.ergonomics.measures import first_measures, has_body, measures_of, measures_of_positions, n_cells
 from opsim.ergonomics.options import USUAL
-from opsim.ergonomics.posture_measures import measures_of_positions
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 from opsim.streams import BLOCK, stream
 from opsim.tasks import TimePerformances
-from opsim.tasks.retimed import retimed
+from opsim.tasks.variability import retimed
 from tests.opsim.ergonomics.made_work import SKELETON, Bends, BendsApart, up_and_down
 
 LIBRARIES = shipped_folder() / "libraries"

@@ -1,5 +1,5 @@
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.missing import missing_scores
+from opsim.ergonomics.angles import CANONICAL
+from opsim.ergonomics.measures import missing_scores
 
 
 def without(*words):

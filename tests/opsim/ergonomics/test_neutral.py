@@ -4,8 +4,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.neutral import neck_neutral_rad, neck_neutrals_rad
+from opsim.ergonomics.angles import CANONICAL
+from opsim.ergonomics.redraw import neck_neutral_rad, neck_neutrals_rad
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 from opsim.tasks import Fixed

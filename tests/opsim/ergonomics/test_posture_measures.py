@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from recordings import reference
 
-from opsim.ergonomics.columns import ANGLES, AT, COLUMNS, LENGTHS
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.measures import measures_of_joints
+from opsim.ergonomics.angles import ANGLES, AT, CANONICAL, COLUMNS, LENGTHS
+from opsim.ergonomics.measures import measures_of_joints, measures_of_positions
 from opsim.ergonomics.options import USUAL
-from opsim.ergonomics.posture_measures import measures_of_positions
 from tests.opsim.ergonomics.bodies import arm, bent, mirrored, moved, standing, turn
 from tests.opsim.ergonomics.built import CASES, NAMES, built
 

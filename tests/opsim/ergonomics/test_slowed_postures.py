@@ -8,15 +8,14 @@ from human_plans import shipped
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.ergonomics import exposure
-from opsim.ergonomics.again import performance_again
-from opsim.ergonomics.pieces import drawn_again, pieces_in_window
+from opsim.ergonomics import trunk as exposure
+from opsim.ergonomics.redraw import drawn_again, performance_again, pieces_in_window
+from opsim.external_draws import OwnLuck, takes_shift
 from opsim.laws import audit
 from opsim.log import SETUP, WORK
-from opsim.own_luck import OwnLuck, takes_shift
 from opsim.streams import BLOCK
-from opsim.tasks.simple import Fixed
-from opsim.tasks.switched import switched
+from opsim.tasks.distributions import Fixed
+from opsim.tasks.variability import switched
 
 CELL = """
 opsim: 1

@@ -8,14 +8,13 @@ from plans import plan
 
 from opsim.engine.floor import run_plan
 from opsim.ergonomics import walking as looking
-from opsim.ergonomics.exposure import trunk_exposure
-from opsim.ergonomics.walking import walking_exposure
-from opsim.ergonomics.walks import drawable, drawn_walks, walk_again, walker
+from opsim.ergonomics.trunk import trunk_exposure
+from opsim.ergonomics.walking import drawable, drawn_walks, walk_again, walker, walking_exposure
+from opsim.history import walks_of
 from opsim.libraries import load_library
 from opsim.log import WALK
 from opsim.shipped import shipped_folder
 from opsim.streams import BLOCK
-from opsim.walks import walks_of
 from tests.opsim.ergonomics.bodies import STANDING
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.made_walks import MadeWalks, Walk, walking

@@ -4,16 +4,13 @@ import numpy as np
 import pytest
 from plans import ran
 
-from opsim.ergonomics.again import performance_again
-from opsim.ergonomics.columns import AT
-from opsim.ergonomics.measures import n_cells
-from opsim.ergonomics.neutral import neck_neutrals_rad
-from opsim.ergonomics.posture_measures import measures_of_positions
-from opsim.ergonomics.scores.bounds import bounds_of
-from opsim.ergonomics.scores.scoring import score
-from opsim.ergonomics.shift.booking import Booking
-from opsim.ergonomics.shift.fold import fold
-from opsim.ergonomics.strain.repetition import repeated_rows
+from opsim.ergonomics.angles import AT
+from opsim.ergonomics.measures import measures_of_positions, n_cells
+from opsim.ergonomics.redraw import neck_neutrals_rad, performance_again
+from opsim.ergonomics.scores.scoring import bounds_of, score
+from opsim.ergonomics.shift.day import fold
+from opsim.ergonomics.shift.ledger import Booking
+from opsim.ergonomics.strain.posture_limits import repeated_rows
 from opsim.log import WORK
 
 CELL = """

@@ -5,15 +5,14 @@ import json
 import numpy as np
 import pytest
 
-from opsim.ergonomics.joints import CANONICAL
+from opsim.ergonomics.angles import CANONICAL
 from opsim.ergonomics.measures import measures_of_positions
 from opsim.ergonomics.options import USUAL, Options
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, Bounds
-from opsim.ergonomics.scores.explained import explain
+from opsim.ergonomics.scores.explain import explain
 from opsim.ergonomics.scores.owas import owas
 from opsim.ergonomics.scores.reba import reba
 from opsim.ergonomics.scores.rula import rula
-from opsim.ergonomics.scores.scoring import score
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, Bounds, score
 from tests.opsim.ergonomics.bodies import arm, bent, moved, turn
 from tests.opsim.ergonomics.reference import WHERE
 

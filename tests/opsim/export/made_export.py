@@ -4,7 +4,7 @@ from functools import lru_cache
 
 from opsim.engine.floor import run_plan
 from opsim.export.ocel import object_log
-from opsim.export.run_clock import RunClock
+from opsim.export.tables import RunClock
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.scenario.read import scenarios_in

@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from opsim.export.ocel_json import write_ocel_json
+from opsim.export.ocel import write_ocel_json
 from tests.json_schema import complaints
 from tests.opsim.export.hostile import HARMFUL, hostile
 from tests.opsim.export.made_export import MANY, made, ran

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.export.ocel_sqlite import table_word, write_ocel_sqlite
+from opsim.export.ocel import table_word, write_ocel_sqlite
 from tests.opsim.export.hostile import HARMFUL, hostile
 from tests.opsim.export.made_export import MANY, made, ran, shop
 

@@ -1,6 +1,6 @@
 from pathlib import Path
 
-from opsim.export.places import out_for
+from opsim.export.tables import out_for
 
 
 def test_of_several_files_each_has_its_variant_and_replication_before_the_ending():

@@ -3,9 +3,8 @@ import csv
 import duckdb
 import pytest
 
-from opsim.export.rows import CSV, PARQUET, write_rows
-from opsim.export.run_clock import RunClock
-from opsim.log_store import write_events
+from opsim.export.tables import CSV, PARQUET, RunClock, write_rows
+from opsim.log_parquet import write_events
 from tests.opsim.export.hostile import HARMFUL, hostile
 from tests.opsim.export.made_export import ran
 

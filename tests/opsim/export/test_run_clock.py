@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.export.run_clock import MONDAY, RunClock, monday_of
+from opsim.export.tables import MONDAY, RunClock, monday_of
 
 
 def test_the_run_begins_on_its_day_of_the_week_of_a_stated_monday():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.export.spreadsheet import DANGEROUS, guarded, identifier
+from opsim.export.tables import DANGEROUS, guarded, identifier
 
 CONNECTION = duckdb.connect()
 """One for all examples: to open a database costs more than to ask it."""

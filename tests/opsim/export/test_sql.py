@@ -1,9 +1,8 @@
 import duckdb
 import pytest
 
-from opsim.export.sql import WrongQuery, answer, write_answer
-from opsim.export.sql_tables import EXAMPLES, TABLES, fill
-from opsim.log_store import read_events
+from opsim.export.sql import EXAMPLES, TABLES, WrongQuery, answer, fill, write_answer
+from opsim.log_parquet import read_events
 from tests.opsim.export.made_results import variants
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from opsim import log as kinds
-from opsim.export.state_changes import station_changes, worker_changes
+from opsim.export.ocel_objects import station_changes, worker_changes
 from tests.opsim.export.made_export import MANY, ran
 
 FIRST_OF = (

@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.export.when import run_s, start_of
+from opsim.export.tables import run_s, start_of
 
 TUESDAY_SIX = 86_400.0 + 6 * 3600.0
 

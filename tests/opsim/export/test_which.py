@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from opsim.export.which import at_time, performance_of, walk_of
+from opsim.export.tables import at_time, performance_of, walk_of
+from opsim.history import walk_rows
 from opsim.log import SETUP, WALK, WORK, WORKER_KINDS
-from opsim.walks import walk_rows
 from tests.opsim.export.made_export import ran
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from opsim.fitting.families import FAMILIES, gamma_shape
+from opsim.fitting import FAMILIES, gamma_shape
 from opsim.tasks import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Normal, Weibull
 
 FAMILY = {family.name: family for family in FAMILIES}

@@ -2,9 +2,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from opsim.fitting import fitted
-from opsim.fitting.families import FAMILIES
-from opsim.fitting.judge import _judged, ks_distance
+from opsim.fitting import FAMILIES, _judged, fitted, ks_distance
 from opsim.tasks import Erlang, Exponential, Lognormal, Weibull
 
 

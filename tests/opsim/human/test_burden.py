@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.ergonomics.joint_loads.torque import JOINTS
-from opsim.human import burden
-from opsim.human.burden import DRAWS, PARTS, Burdens
+from opsim.ergonomics.joint_loads import JOINTS
+from opsim.human import muscle_fatigue as burden
+from opsim.human.muscle_fatigue import DRAWS, PARTS, Burdens
 
 CELL = """
 opsim: 1

@@ -5,7 +5,7 @@ from dataclasses import FrozenInstanceError
 import pytest
 
 from opsim.human.catalogue import EFFECTS, catalogue, entry, made, models_of
-from opsim.plan.human import HumanPlan
+from opsim.plan.workers import HumanPlan
 
 ENTRIES = list(catalogue())
 

@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.human.circadian import Circadian
+from opsim.human.fatigue import Circadian
 
 HOUR_S = 3600.0
 

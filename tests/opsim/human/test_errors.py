@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.human.errors import ErrorsByFatigue
+from opsim.human.fatigue import ErrorsByFatigue
 
 
 @pytest.mark.parametrize(("level", "good"), [(0.0, 1.0), (0.5, 0.9), (1.0, 0.8), (1.7, 0.8), (-0.1, 1.0)])

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from naive_learning import exponent, remembered
 
 from opsim.human.forgetting import LearnForgetCurve
-from opsim.human.power_curves import Wright
+from opsim.human.learning import Wright
 
 ALWAYS = {"least_pause_s": 0.0}
 

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from opsim.human.lffrm import Lffrm
-from opsim.human.rest import RestByNeed
+from opsim.human.fatigue import Lffrm, RestByNeed
 
 levels = st.floats(0.0, 1.0)
 seconds = st.floats(0.0, 1e5)

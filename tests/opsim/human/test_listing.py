@@ -2,9 +2,7 @@ from math import inf
 
 import pytest
 
-from opsim.human.catalogue import entry
-from opsim.human.listing import as_written, name_written, parameters_written
-from opsim.human.parameter import Parameter
+from opsim.human.catalogue import Parameter, as_written, entry, name_written, parameters_written
 
 TIME = Parameter("pause_s", "a pause", "s", 60.0)
 

@@ -1,8 +1,7 @@
 import pytest
 
-from opsim.human.forgetting import LearnForgetCurve
-from opsim.human.memory import Memory
-from opsim.human.power_curves import Wright
+from opsim.human.forgetting import LearnForgetCurve, Memory
+from opsim.human.learning import Wright
 
 HALF = Wright(0.5**0.5)
 

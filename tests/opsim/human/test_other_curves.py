@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.human.other_curves import DualPhase, Hyperbolic
+from opsim.human.learning import DualPhase, Hyperbolic
 
 
 @pytest.mark.parametrize(("n", "time"), [(1, 1.0), (10, 16.5 / 21), (990, 1.01 * 11 / 21)])

@@ -3,8 +3,8 @@ from math import inf, nan
 
 import pytest
 
-from opsim.human.parameter import Checked, neutral_of, parameter, parameters_of
-from opsim.human.power_curves import DeJong
+from opsim.human.catalogue import Checked, neutral_of, parameter, parameters_of
+from opsim.human.learning import DeJong
 
 
 @dataclass(frozen=True, slots=True)

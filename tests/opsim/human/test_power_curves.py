@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.human.power_curves import DeJong, Plateau, StanfordB, Wright
+from opsim.human.learning import DeJong, Plateau, StanfordB, Wright
 
 
 def test_at_eighty_percent_the_eighth_unit_takes_0_512_of_the_first():

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.human.state_pace import Schultz
+from opsim.human.fatigue import Schultz
 
 SHARES = st.floats(0.0, 1.0)
 

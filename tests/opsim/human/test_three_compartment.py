@@ -3,9 +3,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.ergonomics.kernels import compartments as kernel
-from opsim.human.muscles import ENDURANCE, MUSCLES, TRACKING_PER_S, endurance_seen_s
-from opsim.human.three_compartment import JOINTS, ThreeCompartment, endurance_s
+from opsim.ergonomics.kernels import muscles as kernel
+from opsim.human.muscle_fatigue import (
+    ENDURANCE,
+    JOINTS,
+    MUSCLES,
+    TRACKING_PER_S,
+    ThreeCompartment,
+    endurance_s,
+    endurance_seen_s,
+)
 from tests.opsim.human.compartments import naive_course, naive_held
 
 SHOULDER = MUSCLES["shoulder"]

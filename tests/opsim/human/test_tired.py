@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.human.lffrm import Lffrm
-from opsim.human.three_compartment import JOINTS, ThreeCompartment
-from opsim.human.tired import Tired
+from opsim.human.fatigue import Lffrm, Tired
+from opsim.human.muscle_fatigue import JOINTS, ThreeCompartment
 
 MODEL = Lffrm(tires_half_in_s=600.0, recovers_half_in_s=300.0)
 

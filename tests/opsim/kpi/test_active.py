@@ -5,7 +5,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.active import active_periods, active_time
+from opsim.kpi.states import active_periods, active_time
 from opsim.log import WORK
 from tests.opsim.kpi.made_logs import made, work
 

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.kpi.amounts import LimitText, amount, bounds, check_indifference, percent, read_limit, unit_of
-from opsim.kpi.better import Asked
+from opsim.kpi.catalogue import AskedFigure as Asked
+from opsim.kpi.targets import LimitText, amount, bounds, check_indifference, percent, read_limit, unit_of
 
 
 @pytest.mark.parametrize(("said", "unit", "found"), [

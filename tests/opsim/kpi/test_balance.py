@@ -6,7 +6,7 @@ import pytest
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.balance import line_balance
+from opsim.kpi.throughput import line_balance
 
 LINE = """
 opsim: 1

@@ -2,18 +2,18 @@ from itertools import product
 
 import pytest
 
-from opsim.kpi.better import (
+from opsim.kpi.catalogue import (
+    KPIS,
     LESS,
     LESS_IS_BETTER,
     LESS_OF,
     LESS_OF_LIMITS,
     MORE,
     MORE_IS_BETTER,
-    Asked,
     better_of,
     read_asked,
 )
-from opsim.kpi.names import KPIS
+from opsim.kpi.catalogue import AskedFigure as Asked
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.active import Periods, active_periods, active_time
-from opsim.kpi.bottleneck import bottleneck, longest_under_way
+from opsim.kpi.states import Periods, active_periods, active_time, bottleneck, longest_under_way
 from tests.opsim.kpi.made_logs import made, work
 
 THREE = line(3, 0, horizon="40 s", warm_up="0 s")

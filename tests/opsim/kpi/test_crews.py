@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.kpi.crews import crews, hand_overs
+from opsim.kpi.lines import crews, hand_overs
 from opsim.log import WORK, event_log, names_of, row
 
 TEXT = """

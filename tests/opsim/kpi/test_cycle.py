@@ -7,7 +7,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.cycle import cycle_times, task_durations, visits
+from opsim.kpi.cycle_times import cycle_times, task_durations, visits
 from opsim.log import WORK
 from tests.opsim.kpi.made_logs import made, work
 

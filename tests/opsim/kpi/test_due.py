@@ -5,7 +5,7 @@ from made_shops import HEAD
 from plans import CELL, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.due import due_dates
+from opsim.kpi.throughput import due_dates
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 

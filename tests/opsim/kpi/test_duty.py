@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.kpi.duty import present_s
+from opsim.kpi.workers import present_s
 from opsim.log import ABSENT, BREAK, JOB_BLOCKED, MEETING, OFF, REST, WAIT, WALK
 from tests.opsim.kpi.made_logs import found, made, row, work
 

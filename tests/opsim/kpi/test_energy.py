@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.kpi.energy import sentences
-from opsim.kpi.names import ENERGY, REST
+from opsim.kpi.catalogue import ENERGY, REST
+from opsim.kpi.strain import energy_sentences as sentences
 from opsim.log import BREAK, OFF, WALK
-from opsim.plan.worker import Body
+from opsim.plan.workers import Body
 from tests.opsim.ergonomics.made_work import BEND, Bending, made_plan
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.kpi.test_lifting import figures_of, plan_with

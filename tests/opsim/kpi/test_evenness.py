@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.kpi.evenness import gini
+from opsim.kpi.exposure import gini
 
 SHARES = st.lists(st.floats(0, 1e6), min_size=1, max_size=30)
 

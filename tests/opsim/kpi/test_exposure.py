@@ -8,12 +8,11 @@ from plans import loaded, ran
 
 from opsim.engine.floor import run_plan
 from opsim.ergonomics.options import Options
-from opsim.ergonomics.shift.booking import Booking
-from opsim.ergonomics.shift.ledger import AT_MOST
+from opsim.ergonomics.shift.ledger import AT_MOST, Booking
 from opsim.kpi import exposure, figures
-from opsim.kpi.exposure_levels import exposure_levels, measured_share
-from opsim.kpi.levels import LEVELS
-from opsim.kpi.names import EXPOSURE, POSTURE, SCORED, headline, needs_postures
+from opsim.kpi.catalogue import EXPOSURE, POSTURE, SCORED, headline, needs_postures
+from opsim.kpi.exposure import LEVEL_KPIS as LEVELS
+from opsim.kpi.exposure import exposure_levels, measured_share
 from opsim.log import OFF, WAIT, WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios

@@ -4,8 +4,8 @@ from human_plans import LINE, planned
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import figures
-from opsim.kpi.names import KPIS
-from opsim.report.words import NAMES
+from opsim.kpi.catalogue import KPIS
+from opsim.report.numbers import NAMES
 
 ONE = """
 opsim: 1

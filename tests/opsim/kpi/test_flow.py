@@ -7,7 +7,7 @@ import pytest
 from plans import line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.flow import time_in_system, work_in_progress
+from opsim.kpi.throughput import time_in_system, work_in_progress
 from opsim.log import CREATE, FINISH
 from tests.opsim.kpi.made_logs import found, made, row
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from opsim.kpi.holds import sentences
-from opsim.kpi.names import HELD
+from opsim.kpi.catalogue import HELD
+from opsim.kpi.strain import hold_sentences as sentences
 from opsim.log import OFF
 from tests.opsim.ergonomics.made_work import BEND, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import row, work

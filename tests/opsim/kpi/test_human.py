@@ -3,7 +3,7 @@ from human_plans import LINE, planned
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS
-from opsim.kpi.human import learned
+from opsim.kpi.workers import learned
 from tests.opsim.kpi.made_logs import found, made, work
 
 LEARNING = "human: {learning: {model: wright, rate: 0.8}}"

@@ -10,10 +10,10 @@ from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS, figures, samples
-from opsim.kpi.names import USUAL
+from opsim.kpi.catalogue import USUAL
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
-from opsim.plan.handling import Handling
-from opsim.report.words import NAMES
+from opsim.plan.tasks import Handling
+from opsim.report.numbers import NAMES
 from tests.opsim.kpi.made_logs import found, made, row, tiled, work
 from tests.opsim.made_walks import walking
 

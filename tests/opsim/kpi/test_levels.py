@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from opsim.ergonomics.shift.ledger import BINS, Ledger
-from opsim.kpi.levels import LEVELS, bounds_of_level, mean_score, minutes, quantile
+from opsim.kpi.exposure import LEVEL_KPIS as LEVELS
+from opsim.kpi.exposure import bounds_of_level, mean_score, minutes, quantile
 
 
 def ledger(**seconds):

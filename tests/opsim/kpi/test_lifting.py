@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from opsim.kpi import figures
-from opsim.kpi.lifting import sentences
-from opsim.kpi.names import LIFTED
-from opsim.plan.handling import Handling
-from opsim.plan.tools import Moment
+from opsim.kpi.catalogue import LIFTED
+from opsim.kpi.strain import lifting_sentences as sentences
+from opsim.plan.tasks import Handling, Moment
 from tests.opsim.ergonomics.made_work import BEND, made_plan
 from tests.opsim.kpi.made_logs import found, made, work
 

@@ -4,7 +4,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.locked import Locked, locked
+from opsim.kpi.deadlock import Locked, locked
 from opsim.log import BLOCKED, HELD, IDLE, JOB_BLOCKED, NO_WORKER, QUEUE, WAIT, WORK
 from tests.opsim.kpi.made_logs import made, row
 

@@ -6,11 +6,10 @@ import pytest
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.locked import locked
+from opsim.kpi.deadlock import locked
 from opsim.laws import audit
 from opsim.log import BATCH, HELD, NO_PARTS, QUEUE, SETUP, WORK
-from opsim.plan.orders import OrderPlan
-from opsim.plan.release import SCHEDULE
+from opsim.plan.sources import SCHEDULE, OrderPlan
 from tests.opsim.kpi.locking import ALL, CARDS, STORE
 
 CIRCLES = {

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.kpi.open_hours import duty_hours, elapsed_s, is_in, open_hours, station_hours
+from opsim.kpi.window import duty_hours, elapsed_s, is_in, open_hours, station_hours
 from opsim.log import BREAKDOWN, CREATE, DOWN, FINISH, HELD, OFF, QUEUE
-from opsim.plan.hours.scheduled import has_hours, scheduled
+from opsim.plan.hours import has_hours, scheduled
 from tests.opsim.kpi.made_logs import found, made, row, work
 
 H = 3600.0

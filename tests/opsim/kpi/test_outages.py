@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.kpi.outages import Stretches
+from opsim.kpi.resources import Stretches
 from opsim.log import BREAKDOWN, CREATE, DOWN, MAINTENANCE, REPAIR, SCRAP, SETUP
 from tests.opsim.kpi.made_logs import found, made, row, work
 

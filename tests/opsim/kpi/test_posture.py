@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from opsim.kpi import figures
-from opsim.kpi.names import EXPOSURE, KPIS, POSTURE, USUAL, headline, needs_postures
+from opsim.kpi.catalogue import EXPOSURE, KPIS, POSTURE, USUAL, headline, needs_postures
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, made_plan
 from tests.opsim.kpi.made_logs import made, work
 

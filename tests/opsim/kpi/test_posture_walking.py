@@ -8,7 +8,7 @@ from plans import plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import figures
-from opsim.kpi.names import POSTURE, WALKING, headline
+from opsim.kpi.catalogue import POSTURE, WALKING, headline
 from opsim.log import WALK
 from tests.opsim.ergonomics.made_work import Bending
 from tests.opsim.kpi.made_logs import made, row, work

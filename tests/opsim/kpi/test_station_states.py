@@ -5,7 +5,8 @@ from plans import plan
 
 from opsim import log as kinds
 from opsim.engine.floor import run_plan
-from opsim.kpi.station_states import possible, station_states
+from opsim.kpi.states import possible_states as possible
+from opsim.kpi.states import station_states
 from opsim.log import BLOCKED, HELD, SETUP
 from tests.opsim.kpi.made_logs import made, row, work
 

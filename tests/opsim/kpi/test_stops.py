@@ -4,7 +4,7 @@ import pytest
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.stops import stops
+from opsim.kpi.resources import stops
 
 TEXT = """
 opsim: 1

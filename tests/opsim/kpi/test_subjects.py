@@ -1,5 +1,4 @@
-from opsim.kpi.names import KPIS
-from opsim.kpi.subjects import OF_EACH, subject_of
+from opsim.kpi.catalogue import KPIS, OF_EACH, subject_of
 
 
 def test_every_figure_that_is_of_one_thing_each_exists_and_is_of_one_kind():

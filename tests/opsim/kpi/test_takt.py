@@ -7,7 +7,7 @@ import pytest
 from plans import line, plan, queue
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.takt import _takt_s, takt
+from opsim.kpi.throughput import _takt_s, takt
 from opsim.log import CREATE, FINISH
 from tests.opsim.kpi.made_logs import made, row
 

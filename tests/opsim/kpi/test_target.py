@@ -2,7 +2,7 @@
 
 import pytest
 
-from opsim.kpi.target import read_target
+from opsim.kpi.targets import read_target
 
 
 @pytest.mark.parametrize(("text", "kpi", "bound", "at_least"), [

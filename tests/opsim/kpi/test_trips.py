@@ -6,7 +6,7 @@ from plans import plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import figures
-from opsim.kpi.trips import ends_of_trip, subject_of_trip
+from opsim.kpi.workers import ends_of_trip, subject_of_trip
 from opsim.log import TRANSPORT, WALK
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.study.layout.made_floor import FLOOR

@@ -4,7 +4,7 @@ import pytest
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.vehicles import transporters
+from opsim.kpi.resources import transporters
 
 TRUCK = """
 opsim: 1

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from opsim import Worker, WorkerLog, exposure_of, read_events, run_plan, write_events
 from opsim.ergonomics import Handling, Options
+from opsim.kpi.catalogue import EXPOSURE, SCORED
 from opsim.kpi.exposure import exposure
-from opsim.kpi.names import EXPOSURE, SCORED
 from opsim.tasks import Fixed
 from tests.opsim.ergonomics.made_work import Bending, Bends, BendsApart
 from tests.plans import plan

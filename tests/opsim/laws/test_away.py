@@ -2,8 +2,8 @@
 
 from plans import plan
 
-from opsim.laws.away import away
-from opsim.laws.stays import Stays
+from opsim.laws.capacity import away
+from opsim.laws.jobs import Stays
 from opsim.log import AWAY, BREAK, HELD, WAIT, WALK
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.laws.test_progress import FLOOR

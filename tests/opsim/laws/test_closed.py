@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.laws.closed import closed
-from opsim.laws.stays import Stays
+from opsim.laws.hours import closed
+from opsim.laws.jobs import Stays
 from opsim.log import CLOSED, HELD, IS_DOWN, OFF, REPAIR, SETUP
 from tests.opsim.kpi.made_logs import made, row, work
 

@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.laws.duty import duty
-from opsim.laws.stays import Stays
+from opsim.laws.hours import duty
+from opsim.laws.jobs import Stays
 from opsim.log import ABSENT, BREAK, IDLE, OFF, WAIT, WALK
 from tests.opsim.kpi.made_logs import made, row, work
 

@@ -5,7 +5,7 @@ import pytest
 from human_plans import LINE, planned
 
 from opsim.engine.floor import run_plan
-from opsim.laws.fatigue import rests, shifts
+from opsim.laws.effects import rests, shifts
 from opsim.log import BREAK, REST, WORK
 
 FATIGUE = "fatigue: {model: lffrm, tires_half_in: 10 min, recovers_half_in: 5 min, slows: 0.5}"

@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.laws.outages import outages
-from opsim.laws.stays import Stays
+from opsim.laws.capacity import outages
+from opsim.laws.jobs import Stays
 from opsim.log import BLOCKED, BREAKDOWN, DOWN, MAINTENANCE, REPAIR, SETUP
 from tests.opsim.kpi.made_logs import made, row, work
 

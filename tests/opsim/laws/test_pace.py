@@ -9,8 +9,8 @@ from human_plans import LINE, planned, shipped, without_effects
 from opsim.engine.floor import run_plan
 from opsim.human.catalogue import made
 from opsim.laws import audit
-from opsim.laws.pace import pace
-from opsim.laws.stays import Stays
+from opsim.laws.effects import pace
+from opsim.laws.jobs import Stays
 from opsim.log import WORK, EventLog
 
 ALL = """

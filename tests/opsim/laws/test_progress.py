@@ -3,8 +3,7 @@
 import pytest
 from plans import plan, ran
 
-from opsim.laws.progress import progress
-from opsim.laws.stays import Stays
+from opsim.laws.jobs import Stays, progress
 from opsim.log import CREATE, FINISH, SETUP
 from tests.opsim.kpi.made_logs import made, row, work
 

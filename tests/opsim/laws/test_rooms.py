@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.laws.rooms import rooms
-from opsim.laws.stays import Stays
+from opsim.laws.capacity import rooms
+from opsim.laws.jobs import Stays
 from opsim.log import AFTER, BATCH, BLOCKED, CREATE, HELD, PICKUP, QUEUE, STOCK, TRANSPORT
 from tests.opsim.kpi.made_logs import made, row, work
 

@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.laws.shared import shared
-from opsim.laws.stays import Stays
+from opsim.laws.capacity import shared
+from opsim.laws.jobs import Stays
 from opsim.log import CREATE, QUEUE, REPAIR, TOOL, TRANSPORT
 from tests.opsim.kpi.made_logs import made, row, work
 

@@ -4,8 +4,8 @@ from math import inf
 
 from plans import plan
 
-from opsim.plan.assembly import jobs_on_a_server
-from opsim.plan.release import INSIDE
+from opsim.plan.sources import INSIDE
+from opsim.plan.stores import jobs_on_a_server
 
 TEXT = """
 opsim: 1

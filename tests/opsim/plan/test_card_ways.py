@@ -3,7 +3,7 @@
 import pytest
 from plans import plan
 
-from opsim.plan.card_ways import has_card
+from opsim.plan.compile import has_card
 
 FLOOR = """
 opsim: 1

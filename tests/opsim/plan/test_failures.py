@@ -2,9 +2,9 @@
 
 from plans import plan
 
-from opsim.plan.failures import NO_TEAM
+from opsim.plan.resources import NO_TEAM
 from opsim.tasks import Exponential, Fixed, Geometric
-from opsim.tasks.counts import UniformCount
+from opsim.tasks.model import UniformCount
 
 SHOP = """
 opsim: 1

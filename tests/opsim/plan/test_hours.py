@@ -6,8 +6,8 @@ import pytest
 from plans import plan, ran
 
 from opsim.log import BREAK, OFF
-from opsim.plan.hours.people import Hours, chance_of
-from opsim.plan.hours.spans import at_least, both, either, together, total_s, without
+from opsim.plan.calendar import at_least, both, either, together, total_s, without
+from opsim.plan.hours import Hours, chance_of
 from opsim.plan.loads import crew_load, overloads, skill_loads, station_loads
 
 DAY = """

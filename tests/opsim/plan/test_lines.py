@@ -6,7 +6,7 @@ import pytest
 from plans import loaded, plan
 
 from opsim.plan import compile_plan, station_loads
-from opsim.plan.risks import hour_risks
+from opsim.plan.warnings import hour_risks
 
 TEXT = """
 opsim: 1

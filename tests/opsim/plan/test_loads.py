@@ -4,8 +4,8 @@ import pytest
 from plans import plan
 
 from opsim.plan.loads import bottleneck, crew_load, overloads, shared_loads, skill_loads, station_loads
-from opsim.plan.loads.sharing import best_share
-from opsim.plan.loads.visits import visits_of
+from opsim.plan.loads.flows import visits_of
+from opsim.plan.loads.people import best_share
 
 BASE = """
 opsim: 1

@@ -5,9 +5,8 @@ import pytest
 
 from opsim.ergonomics.options import USUAL, Thresholds
 from opsim.human.catalogue import entry
-from opsim.plan.handling import NOT_SAID, Handling
-from opsim.plan.human import NO_EFFECTS
-from opsim.plan.tools import Moment
+from opsim.plan.tasks import NOT_SAID, Handling, Moment
+from opsim.plan.workers import NO_EFFECTS
 
 CELL = """
 opsim: 1

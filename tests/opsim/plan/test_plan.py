@@ -5,7 +5,7 @@ import pytest
 from plans import CELL, plan
 
 from opsim.engine.floor import run_plan
-from opsim.ergonomics.pieces import drawn_again, pieces_in_window
+from opsim.ergonomics.redraw import drawn_again, pieces_in_window
 from opsim.plan import Plan
 
 

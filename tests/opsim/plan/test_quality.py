@@ -5,8 +5,8 @@ from math import inf
 import pytest
 from plans import plan
 
-from opsim.plan.quality import NOWHERE
-from opsim.plan.tools import Moment
+from opsim.plan.products import NOWHERE
+from opsim.plan.tasks import Moment
 
 LINE = """
 opsim: 1

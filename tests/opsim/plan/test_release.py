@@ -4,8 +4,7 @@ import pytest
 from plans import plan
 
 from opsim.engine.rules import source_in_turn, stock_wanted
-from opsim.plan.orders import OrderPlan, due_of, late_orders, order_of
-from opsim.plan.release import SATURATED, SCHEDULE, SourcePlan
+from opsim.plan.sources import SATURATED, SCHEDULE, OrderPlan, SourcePlan, due_of, late_orders, order_of
 
 TEXT = """
 opsim: 1

@@ -4,7 +4,7 @@ import pytest
 from plans import CELL, plan
 
 from opsim.plan.sequence import work_ahead
-from opsim.plan.setup import NO_SETUP
+from opsim.plan.tasks import NO_SETUP
 
 HEAD = """
 opsim: 1

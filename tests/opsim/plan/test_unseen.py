@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import plans
 import pytest
 
-from opsim.ergonomics.joints import CANONICAL
-from opsim.plan.unseen import lacking, unseen
+from opsim.ergonomics.angles import CANONICAL
+from opsim.plan.model_warnings import lacking, unseen
 
 CELL = """
 opsim: 1

@@ -6,7 +6,7 @@ from plans import HERE, loaded, plan
 from opsim.engine.floor import run_plan
 from opsim.log import WORK
 from opsim.plan import compile_plan
-from opsim.plan.unread import unread
+from opsim.plan.model_warnings import unread
 from opsim.scenario.read import scenarios_in
 
 CELL = """

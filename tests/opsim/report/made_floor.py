@@ -10,7 +10,7 @@ from opsim.kpi import figures
 from opsim.kpi.table import samples
 from opsim.plan import compile_plan
 from opsim.report.material import Material
-from opsim.study.replicated import Replicated
+from opsim.study.replication import Replicated
 from opsim.study.summary import summary_of
 from tests.opsim.kpi.made_logs import made
 

@@ -38,7 +38,7 @@ def hostile(plan, name):
 
 def texts(section):
     """Everything that a section writes, as one text."""
-    from opsim.report.section import flat
+    from opsim.report.page import flat
 
     found = []
     for block in flat(section.blocks):

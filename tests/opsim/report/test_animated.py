@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from opsim.report.animated import animated_html, write_animated
-from opsim.report.staged import Card
+from opsim.report.plot.animation import animated_html, write_animated
+from opsim.report.sections.motions import Card
 from tests.made_cards import SKELETON, cards
 
 NOTES = [("Fitted to", "recordings of <i>nobody</i>")]

@@ -1,4 +1,4 @@
-from opsim.report.bars import Bar, Look, bar_traces, in_hover
+from opsim.report.sections.yamazumi import Bar, Look, bar_traces, in_hover
 from tests.made_result import SCRIPT
 
 

@@ -5,13 +5,12 @@ import numpy as np
 import pytest
 from plans import ran
 
-from opsim.ergonomics.shift.regions import Regions
-from opsim.ergonomics.shift.timeline import timeline
+from opsim.ergonomics.shift.ledger import Regions, timeline
 from opsim.ergonomics.shift.worst import worst_frames
 from opsim.log import BREAK, NAMED, WAIT, event_log
-from opsim.report.bodies import bodies_of, day_of, pauses, regions_said, write_postures
-from opsim.report.day_picture import Strip, draw_day, legend
-from opsim.report.worst_picture import pair, posture_cards
+from opsim.report.sections.exposure import bodies_of, day_of, pauses, regions_said, write_postures
+from opsim.report.sections.postures import pair, posture_cards
+from opsim.report.sections.worker_timeline import Strip, draw_day, legend
 from tests.opsim.ergonomics.shift.test_regions import CELL
 from tests.opsim.kpi.made_logs import row
 

@@ -1,4 +1,4 @@
-from opsim.report.body import COLOURS, body
+from opsim.report.plot.body import COLOURS, body
 from tests.opsim.report.test_strips import NAMES, PARENTS, Skeleton
 
 

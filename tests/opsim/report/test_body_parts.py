@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.report.body import body
-from opsim.report.body_parts import TORSO, body_parts, outer_tangents
+from opsim.report.plot.body import TORSO_PART as TORSO
+from opsim.report.plot.body import body, body_parts, outer_tangents
 from tests.opsim.ergonomics.bodies import standing
 from tests.opsim.report.test_posture_picture import SKELETON
 

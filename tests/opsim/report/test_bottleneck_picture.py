@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from plans import CELL, line
 
-from opsim.report.bottleneck_picture import CELLS, _bars, moments, section
-from opsim.report.bottleneck_words import bottleneck_rows
-from opsim.report.time_axis import at_ms
+from opsim.report.plot.plotly import at_ms
+from opsim.report.sections.bottleneck import CELLS, _bars, bottleneck_rows, moments
+from opsim.report.sections.bottleneck import bottleneck_section as section
 from tests.made_result import SCRIPT
 from tests.opsim.kpi.made_logs import work
 from tests.opsim.report.made_floor import bars, charts, floor, renamed, strings, words

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from plans import HERE
 
-from opsim.report import budget
-from opsim.report.budget import budget_of
 from opsim.report.material import Material
-from opsim.report.section import Grid, Panels
+from opsim.report.page import Grid, Panels
+from opsim.report.sections import variability as budget
+from opsim.report.sections.variability import budget_of
 from opsim.scenario.read import scenarios_in
 from opsim.study import run_scenario
-from opsim.study.reopened import opened
+from opsim.study.run import opened
 from tests.opsim.report.made_material import texts
 
 KEY = ("throughput_per_h", "", "", "1/h")
@@ -52,7 +52,7 @@ def runs(tmp_path_factory):
 
 
 def test_each_switch_is_told_with_its_interval_and_a_waterfall_is_drawn(runs):
-    section = budget.section(runs["base"])
+    section = budget.variance_budget_section(runs["base"])
     said = texts(section)
     assert "People alike: " in " ".join(section.blocks[0].items) and "other people and other days" in said
     assert "both off is the variant neither" in said and "quicker" not in said
@@ -63,10 +63,10 @@ def test_each_switch_is_told_with_its_interval_and_a_waterfall_is_drawn(runs):
 
 
 def test_all_who_differ_by_a_switch_say_the_same_and_others_nothing(runs):
-    assert texts(budget.section(runs["neither"])) == texts(budget.section(runs["base"]))
-    assert budget.section(runs["quicker"]) is None
+    assert texts(budget.variance_budget_section(runs["neither"])) == texts(budget.variance_budget_section(runs["base"]))
+    assert budget.variance_budget_section(runs["quicker"]) is None
 
 
 def test_one_variant_has_no_budget(runs):
     base = runs["base"]
-    assert budget.section(Material(base.run, {"base": base.result})) is None
+    assert budget.variance_budget_section(Material(base.run, {"base": base.result})) is None

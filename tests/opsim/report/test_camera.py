@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.report.camera import FLOOR_M, LIFT_RAD, Camera, camera_of
+from opsim.report.plot.body import FLOOR_M, LIFT_RAD, Camera, camera_of
 from tests.made_cards import SKELETON, cards
 
 FRONT = Camera(0, False, (0.0, 0.0), 1.0, 2.0)

@@ -6,10 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from opsim.report.cleaned import VERDICTS, CleanedView, Finding, Mended, TakeCard
-from opsim.report.cleaned_beside import _liveliest, _moments
-from opsim.report.cleaned_overview import MOST_ROWS, ink_on, rows_of, shade
-from opsim.report.cleaned_picture import cleaned_bytes, write_cleaned
+from opsim.report.motion.cleaning import VERDICTS, CleanedView, Finding, Mended, TakeCard, _liveliest, _moments
+from opsim.report.motion.cleaning_charts import MOST_ROWS, cleaned_bytes, ink_on, rows_of, shade, write_cleaned
 
 SKELETON = SimpleNamespace(names=("pelvis", "left_hip", "right_hip", "head", "right_knee"), parents=(-1, 0, 0, 0, 2))
 STANDING = np.array([[0, 0, 1.0], [0, 0.1, 0.9], [0, -0.1, 0.9], [0, 0, 1.6], [0.1, -0.1, 0.5]])

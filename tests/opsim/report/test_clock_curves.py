@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from opsim.report.clock_curves import Curve, curves_figure, curves_legend, thinned, ticks_s
+from opsim.report.sections.learning_fatigue import Curve, curves_figure, curves_legend, thinned, ticks_s
 
 
 def test_thinning_keeps_the_ends_and_the_peak():

@@ -4,9 +4,9 @@ import re
 import numpy as np
 
 from opsim.report.comparison import comparison_cells, comparison_html
-from opsim.report.interval_picture import intervals_svg
+from opsim.report.plot.svg_chart import intervals_svg
 from opsim.study.compare import Comparison, Difference, paired
-from opsim.study.interval import Interval
+from opsim.study.intervals import Interval
 
 HARM = '<script>alert("x")</script>'
 

@@ -3,11 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.report.comparison import MOST_ROWS, comparison_html
-from opsim.report.comparison_table import screen_table
-from opsim.report.comparison_words import amount, answer, best_of, signed, spoken_name
+from opsim.report.comparison import MOST_ROWS, comparison_html, screen_table
+from opsim.report.comparison_sentences import amount, answer, best_of, signed, spoken_name
 from opsim.study.compare import Comparison, Difference
-from opsim.study.interval import Interval
+from opsim.study.intervals import Interval
 
 OUT, STAY, STATE = ("throughput_per_h", "", "", "1/h"), ("time_in_system_s", "", "", "s"), ("walked_m", "ana", "", "m")
 

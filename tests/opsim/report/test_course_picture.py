@@ -4,9 +4,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN
 from opsim.ergonomics.shift.movement import scored_movements
-from opsim.report.course_picture import LEVELS, MOST_ROWS, SLIM_IN, WIDE_IN, course_svg, level_colour
+from opsim.report.motion.scoring import LEVELS, MOST_ROWS, SLIM_IN, WIDE_IN, course_svg, level_colour
 from tests.opsim.ergonomics.shift.test_movement import movement
 
 

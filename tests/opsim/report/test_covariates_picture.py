@@ -3,7 +3,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from opsim.report.covariates_picture import draw_agreement
+from opsim.report.motion.segmentation import draw_agreement
 
 
 def validation():

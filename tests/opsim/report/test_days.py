@@ -8,9 +8,8 @@ import pytest
 from plans import plan
 
 from opsim.log import ABSENT, BREAK, MEETING, OFF, WAIT, WALK
-from opsim.report.day_picture import Strip, draw_day, legend
-from opsim.report.days import cell_s, day_of, in_cells, strips_of
-from opsim.report.palette import STATES
+from opsim.report.plot.plotly import STATE_COLOURS as STATES
+from opsim.report.sections.worker_timeline import Strip, cell_s, day_of, draw_day, in_cells, legend, strips_of
 from tests.made_result import BOLD, SCRIPT
 from tests.opsim.kpi.made_logs import made, row, work
 

@@ -1,7 +1,7 @@
 import pytest
 from plans import line, queue
 
-from opsim.report.demand import keeps_up
+from opsim.report.sections.summary import keeps_up
 from tests.opsim.report.made_floor import floor
 
 

@@ -1,6 +1,7 @@
-from opsim.report.exposure import MOST, exposure_blocks
-from opsim.report.exposure_bars import FIVE, PERHAPS, SEVEN
-from opsim.report.section import Legend, Section
+from opsim.report.page import Legend, Section
+from opsim.report.sections.exposure import MOST_WORKERS as MOST
+from opsim.report.sections.exposure import exposure_blocks
+from opsim.report.sections.exposure_summary import FIVE, PERHAPS, SEVEN
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_exposure import ROWS, by, levels
 

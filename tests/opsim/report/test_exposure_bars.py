@@ -1,5 +1,5 @@
-from opsim.report.exposure_bars import FIVE, PERHAPS, SEVEN, legend, level_bars
-from opsim.report.exposure_rows import Bar, bars_of_workers
+from opsim.report.sections.exposure_summary import FIVE, PERHAPS, SEVEN, Bar, bars_of_workers, level_bars
+from opsim.report.sections.exposure_summary import bar_legend as legend
 from tests.opsim.report.made_exposure import ROWS
 
 

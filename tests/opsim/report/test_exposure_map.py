@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import pytest
 from plans import loaded, plan
 
-from opsim.report import exposure_map
-from opsim.report.exposure_circles import circles_of, said_of
-from opsim.report.exposure_rows import bars_by
-from opsim.report.floor_map import floor_map
-from opsim.report.section import Svg, Words
+from opsim.report.page import Svg, Words
+from opsim.report.plot.floor_plan import floor_map
+from opsim.report.sections import exposure_map
+from opsim.report.sections.exposure_map import circles_of, said_of
+from opsim.report.sections.exposure_summary import bars_by
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_exposure import by
 from tests.opsim.report.made_material import hostile, of_log
@@ -42,7 +42,7 @@ def circles(rows=ROWS):
 def test_areas_are_as_the_minutes():
     found = circles()
     assert found["saw"].radius ** 2 / found["drill"].radius ** 2 == pytest.approx(8.0 / 4.0)
-    drawn = next(block for block in exposure_map.section(made()).blocks if isinstance(block, Svg)).text
+    drawn = next(block for block in exposure_map.exposure_map_section(made()).blocks if isinstance(block, Svg)).text
     of_saw = re.search(r"<g><title>saw:.*?</g>", drawn).group()
     areas = [pi * float(r) ** 2 for r in re.findall(r'r="([\d.]+)"', of_saw)]
     assert areas[1] / areas[0] == pytest.approx(2.0 / 8.0, rel=0.03)
@@ -52,7 +52,7 @@ def test_what_is_not_known_is_said_and_is_no_zero():
     found = circles()
     assert found["pack"].bar is None and found["drill"].open_tasks == ("t",)
     assert said_of(found["pack"]) == "pack: nothing known of the postures"
-    section = exposure_map.section(made())
+    section = exposure_map.exposure_map_section(made())
     words = [block.text for block in section.blocks if isinstance(block, Words)]
     assert words == [
         "Of all minutes at RULA 5 or more are 80 % at saw and 20 % at drill.",
@@ -73,11 +73,11 @@ def test_stations_at_one_place_stand_beside_each_other():
 
 
 def test_where_nobody_is_exposed_there_is_no_section():
-    assert exposure_map.section(made([*by(KPI, "saw", 0.0, 0.0, 0.0)])) is None
-    assert exposure_map.section(made([{"kpi": "walked_m", "subject": "", "part": ""}])) is None
+    assert exposure_map.exposure_map_section(made([*by(KPI, "saw", 0.0, 0.0, 0.0)])) is None
+    assert exposure_map.exposure_map_section(made([{"kpi": "walked_m", "subject": "", "part": ""}])) is None
 
 
 def test_hostile_names_do_no_harm():
     of = of_log(SimpleNamespace(), hostile(plan(TEXT), SCRIPT), loaded(TEXT), by(KPI, f"{SCRIPT}saw", 2.0, 8.0, 8.0))
-    svg = next(block for block in exposure_map.section(of).blocks if isinstance(block, Svg))
+    svg = next(block for block in exposure_map.exposure_map_section(of).blocks if isinstance(block, Svg))
     assert "<script" not in svg.text and "&lt;script" in svg.text

@@ -1,6 +1,6 @@
 import math
 
-from opsim.report.exposure_rows import Bar, bar_of_all, bars_by, bars_of_regions, bars_of_workers
+from opsim.report.sections.exposure_summary import Bar, bar_of_all, bars_by, bars_of_regions, bars_of_workers
 from tests.opsim.report.made_exposure import ROWS, by, levels
 
 

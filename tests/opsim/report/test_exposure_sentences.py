@@ -1,4 +1,4 @@
-from opsim.report.exposure_sentences import exposure_sentences
+from opsim.report.sections.exposure_summary import exposure_sentences
 from tests.opsim.report.made_exposure import ROWS, by, levels, row
 
 

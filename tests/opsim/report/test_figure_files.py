@@ -2,10 +2,9 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from opsim.report import figures
-from opsim.report.contents import Contents, Part
-from opsim.report.figure_files import figures_of, safe, write_figures
-from opsim.report.section import Card, Chart, Folded, Panels, Picture, Section, Svg
+from opsim.report.page import Card, Chart, Folded, Panels, Picture, Section, Svg
+from opsim.report.plot import plotly as figures
+from opsim.report.render import Contents, Part, figures_of, safe, write_figures
 from tests.made_result import NAMES, states
 
 pytest.importorskip("matplotlib")

@@ -1,7 +1,7 @@
 import pytest
 
-from opsim.report.figures import label, legend, states, wrong_sums
-from opsim.report.palette import STATES, in_order
+from opsim.report.plot.plotly import STATE_COLOURS as STATES
+from opsim.report.plot.plotly import in_order, label, legend, states, wrong_sums
 from tests.made_result import SCRIPT
 from tests.made_result import states as state_rows
 

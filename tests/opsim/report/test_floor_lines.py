@@ -5,7 +5,7 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.report.floor_lines import Laid, rounded
+from opsim.report.plot.floor_plan_lines import Laid, rounded
 
 POINTS = st.tuples(st.integers(0, 60).map(lambda n: 10.0 * n), st.integers(0, 40).map(lambda n: 10.0 * n))
 

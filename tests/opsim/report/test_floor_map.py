@@ -8,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plans import loaded, plan
 
-from opsim.report.floor_drawn import picture, round_below
-from opsim.report.floor_map import CROWDED, SMALL, FloorMap, floor_map, names_of
-from opsim.report.floor_spots import Spot
-from opsim.report.labels import shared
+from opsim.report.plot.floor_plan import CROWDED, SMALL, FloorMap, floor_map, names_of, picture, round_below
+from opsim.report.plot.floor_plan_lines import Spot
+from opsim.report.plot.svg_chart import shared
 from opsim.scenario.read import read_scenarios
 from opsim.shipped import shipped_folder
 from tests.made_result import IMAGE, SCRIPT

@@ -6,7 +6,7 @@ from math import hypot
 import pytest
 from plans import loaded, plan
 
-from opsim.report.floor_ways import FloorWays
+from opsim.report.plot.floor_plan import FloorWays
 from tests.opsim.study.layout.made_floor import FLOOR
 
 PATHS = FLOOR.replace("layout:\n", "layout:\n  distance: paths\n  paths: [[p1, p2, p3, p4, p5], [door, p1]]\n")

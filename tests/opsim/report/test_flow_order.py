@@ -1,6 +1,6 @@
 from plans import CELL, plan
 
-from opsim.report.flow_order import flow_order, worked_on
+from opsim.report.sections.common import flow_order, worked_on
 
 LINE = """
 opsim: 1

@@ -1,7 +1,8 @@
 import pytest
 
-from opsim.report.forest import MOST_VARIANTS, section
-from opsim.report.section import Folded
+from opsim.report.page import Folded
+from opsim.report.sections.scenarios import MOST_VARIANTS
+from opsim.report.sections.scenarios import scenarios_section as section
 from tests.made_result import SCRIPT, kpi, material, summary
 from tests.opsim.report.made_floor import beside, charts, strings, words
 

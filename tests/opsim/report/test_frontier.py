@@ -4,10 +4,9 @@ import re
 import numpy as np
 
 from opsim.report.comparison import comparison_html
-from opsim.report.frontier import frontier_section, frontier_svg
-from opsim.report.frontier_words import frontier_sentences
+from opsim.report.sections.pareto import frontier_section, frontier_sentences, frontier_svg
 from opsim.study.compare import Comparison
-from opsim.study.frontier import Frontier, placed
+from opsim.study.pareto import Frontier, placed
 
 HARM = '<script>alert("x")</script>'
 KEYS = ("throughput_per_h", "", "", "1/h"), ("walked_m", "ana", "", "m")

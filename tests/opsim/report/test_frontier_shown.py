@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from opsim.report import frontier_shown
-from opsim.report.frontier_shown import usual_pair
-from opsim.report.section import Svg
+from opsim.report.page import Svg
+from opsim.report.sections import pareto as frontier_shown
+from opsim.report.sections.pareto import usual_pair
 from opsim.results import Result
 from tests.made_result import SCRIPT, material
 from tests.opsim.report.made_material import texts
@@ -38,7 +38,7 @@ def variants(tmp_path):
 
 
 def section_of(variants, name, **more):
-    return frontier_shown.section(
+    return frontier_shown.pareto_section(
         material({**variants[name].summary, "tasks": [], **more}, siblings=tuple(variants.items()))
     )
 

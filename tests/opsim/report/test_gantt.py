@@ -1,9 +1,10 @@
 import pytest
 from plans import CELL, line
 
-from opsim.report.gantt import MOST_BARS, section, shown_s
-from opsim.report.gantt_rows import of_workers, on_servers, typical_hour_s
-from opsim.report.time_axis import at_ms
+from opsim.report.plot.plotly import at_ms
+from opsim.report.sections.gantt import MOST_BARS, shown_s
+from opsim.report.sections.gantt import gantt_section as section
+from opsim.report.sections.gantt_rows import of_workers, on_servers, typical_hour_s
 from tests.made_result import BOLD, SCRIPT
 from tests.opsim.report.made_floor import bars, charts, floor, renamed, strings, words
 

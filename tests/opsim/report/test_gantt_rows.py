@@ -5,10 +5,10 @@ import pytest
 from plans import CELL, line, plan, ran
 
 from opsim.kpi.states import STATES, states_of_rows
-from opsim.laws.rooms import ON_SERVER
+from opsim.laws.capacity import ON_SERVER
 from opsim.log import BLOCKED, DOWN, HELD, IDLE, NO_WORKER, WAIT, WALK
-from opsim.plan.assembly import jobs_on_a_server
-from opsim.report.gantt_rows import NOT_DRAWN, of_workers, on_servers, standing, typical_hour_s
+from opsim.plan.stores import jobs_on_a_server
+from opsim.report.sections.gantt_rows import NOT_DRAWN, of_workers, on_servers, standing, typical_hour_s
 from tests.opsim.kpi.made_logs import made, row, work
 
 TWO = line(2, 0, horizon="100 s", warm_up="0 s")

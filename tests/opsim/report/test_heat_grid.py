@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.report.heat_grid import Grid, spread
+from opsim.report.sections.occupancy import HeatGrid as Grid
+from opsim.report.sections.occupancy import spread
 
 GRID = Grid(0.0, 5.0, 0.1, (50, 80))
 POINTS = st.tuples(st.floats(0, 8), st.floats(0, 5))

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from plans import loaded, ran
 
-from opsim.report import heat_map
-from opsim.report.floor_map import floor_map
-from opsim.report.floor_ways import FloorWays
-from opsim.report.heat_map import COLOURS, density_of, levels_of
-from opsim.report.presence import presence
-from opsim.report.section import Svg
+from opsim.report.page import Svg
+from opsim.report.plot.floor_plan import FloorWays, floor_map
+from opsim.report.sections import occupancy as heat_map
+from opsim.report.sections.common import presence
+from opsim.report.sections.occupancy import COLOURS, density_of, levels_of
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_material import hostile, of_log, texts
 from tests.opsim.study.layout.made_floor import FLOOR
@@ -49,7 +48,7 @@ def test_levels_lie_three_times_above_each_other_and_the_last_below_the_most(mos
 
 
 def test_the_section_says_where_and_shows_a_legend_in_words(made):
-    section = heat_map.section(made)
+    section = heat_map.occupancy_section(made)
     svg = next(block for block in section.blocks if isinstance(block, Svg))
     assert "most is spent at" in section.blocks[0].text and "goes into walking" in section.blocks[0].text
     assert len(svg.legend) == len(COLOURS) and svg.legend[-1][1].endswith("min an hour on a m²")
@@ -60,10 +59,10 @@ def test_the_section_says_where_and_shows_a_legend_in_words(made):
 
 
 def test_without_rows_there_is_no_section(made):
-    assert heat_map.section(of_log(None, made.plan, made.loaded, rows=[{"kpi": "x"}])) is None
+    assert heat_map.occupancy_section(of_log(None, made.plan, made.loaded, rows=[{"kpi": "x"}])) is None
 
 
 def test_hostile_names_do_no_harm(made):
-    section = heat_map.section(of_log(made.log, hostile(made.plan, SCRIPT), made.loaded, [{"kpi": "x"}]))
+    section = heat_map.occupancy_section(of_log(made.log, hostile(made.plan, SCRIPT), made.loaded, [{"kpi": "x"}]))
     svg = next(block for block in section.blocks if isinstance(block, Svg))
     assert "<script" not in svg.text and "&lt;script" in svg.text and SCRIPT[:8] in texts(section)

@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 
 from opsim.engine.floor import run_plan
-from opsim.practice import practice
-from opsim.report.human_curves import curves_of
-from opsim.tiredness import tiredness
+from opsim.history import practice, tiredness
+from opsim.report.sections.learning_fatigue import curves_of
 from tests.human_plans import LINE, planned
 
 BOTH = "human: {fatigue: {model: lffrm}, learning: {model: wright, rate: 0.85}}"

@@ -1,4 +1,4 @@
-from opsim.report.human_words import learned_over_all, tired_over_all
+from opsim.report.sections.learning_fatigue import learned_over_all, tired_over_all
 
 
 def row(subject, mean, half=0.01, part="", n=8):

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from opsim.report.import_picture import Shown, _apart, _clear_frames, draw_import, drawable
+from opsim.report.motion.importing import Shown, _apart, _clear_frames, draw_import, drawable
 from tests.emulator.recordings.body import body
 
 

@@ -1,7 +1,6 @@
 """Figures sorted by what they are of."""
 
-from opsim.kpi.names import EXPOSURE, KPIS, POSTURE
-from opsim.report.kinds import _OF, BODIES, FLOW, KINDS, MATERIAL, PEOPLE, STATIONS, kind_of
+from opsim.kpi.catalogue import _OF, BODIES, EXPOSURE, FLOW, KINDS, KPIS, MATERIAL, PEOPLE, POSTURE, STATIONS, kind_of
 
 
 def test_every_figure_is_of_one_kind():

@@ -1,5 +1,6 @@
-from opsim.report.kpi_tables import MOST, in_front, section
-from opsim.report.section import Grid, flat
+from opsim.report.page import Grid, flat
+from opsim.report.sections.summary import MOST, in_front
+from opsim.report.sections.summary import kpi_section as section
 from tests.made_result import kpi, material, summary
 
 

@@ -1,4 +1,4 @@
-from opsim.report.labels import LONGEST, places, shortened
+from opsim.report.plot.svg_chart import LONGEST, places, shortened
 
 
 def box(place, name):

@@ -6,23 +6,17 @@ from types import SimpleNamespace as Made
 import numpy as np
 import pytest
 
-from opsim.kpi.target import read_target
-from opsim.report.labour_curves import bought_svg, day_svg
-from opsim.report.labour_numbers import figure_name
-from opsim.report.labour_page import labour_page
-from opsim.report.labour_pictures import budget_svg, parts_svg
-from opsim.report.labour_tables import bought_table
-from opsim.report.labour_words import answer, reading
-from opsim.report.study_page import study_html
-from opsim.report.words import ABSENT
-from opsim.study.interval import Interval
-from opsim.study.labour.budget import FigureBudget
-from opsim.study.labour.buy_back import BoughtBack, Curve, Step
-from opsim.study.labour.day_asked import DayAsked, day_found
-from opsim.study.labour.parts import variance_parts
-from opsim.study.labour.refused import too_few_days
-from opsim.study.labour.sources import VariabilitySource
-from opsim.study.labour.study import LabourFound
+from opsim.kpi.targets import read_target
+from opsim.report.numbers import ABSENT
+from opsim.report.page import study_html
+from opsim.report.studies.labour import answer, bought_table, labour_page, reading
+from opsim.report.studies.labour_charts import bought_svg, budget_svg, day_svg, figure_name, parts_svg
+from opsim.study.intervals import Interval
+from opsim.study.labour.budget import FigureBudget, VariabilitySource
+from opsim.study.labour.daily_output import DayAsked, day_found
+from opsim.study.labour.interventions import BoughtBack, Curve, Step
+from opsim.study.labour.study import LabourFound, too_few_days
+from opsim.study.labour.variance_components import variance_parts
 
 KEY = ("throughput_per_h", "", "", "1/h")
 RNG = np.random.default_rng(7)

@@ -5,8 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from opsim.report.layout_lanes import Lanes
-from opsim.report.layout_picture import Drawing, Line, layout_pictures
+from opsim.report.studies.layout_chart import Drawing, Lanes, Line, layout_pictures
 
 PLACES = {"a": (0.0, 0.0), "b": (10.0, 0.0), "c": (10.0, 6.0), "d": (0.0, 6.0)}
 NAMES = {"a": "saw", "b": "drill <1>", "d": "pack"}

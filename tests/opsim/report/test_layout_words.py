@@ -4,12 +4,12 @@ from types import SimpleNamespace as Made
 
 import numpy as np
 
-from opsim.kpi.better import read_asked
-from opsim.report.layout_words import answer
+from opsim.kpi.catalogue import read_asked
+from opsim.report.studies.layout_sentences import answer
 from opsim.study.compare import paired
-from opsim.study.interval import t_interval
-from opsim.study.layout.choose import gains, losses
-from opsim.study.layout.judge import BEST, EACH, EXPOSURE, SHARE, WALKED, Against
+from opsim.study.intervals import t_interval
+from opsim.study.layout.evaluate import BEST, EACH, EXPOSURE, SHARE, WALKED, Against
+from opsim.study.layout.study import gains, losses
 
 RNG = np.random.default_rng(3)
 NOW, LUCK = np.linspace(98, 102, 10), RNG.standard_normal(10)

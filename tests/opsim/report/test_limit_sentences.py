@@ -1,4 +1,4 @@
-from opsim.report.limit_sentences import MOST, limit_sentences
+from opsim.report.sections.exposure_summary import MOST, limit_sentences
 
 
 def row(kpi, subject, part, mean):

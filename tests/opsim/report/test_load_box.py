@@ -3,7 +3,7 @@ import re
 import numpy as np
 import pytest
 
-from opsim.report.load_box import load_box
+from opsim.report.plot.posture import load_box
 from tests.opsim.ergonomics.bodies import standing
 from tests.opsim.report.test_posture_picture import SKELETON, without
 

@@ -3,13 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.report.long_run_answer import answer
-from opsim.report.long_run_page import long_run_page
-from opsim.report.long_run_words import time_words
-from opsim.report.study_page import study_html
+from opsim.report.numbers import time_words
+from opsim.report.page import study_html
+from opsim.report.studies.steady_state import answer, long_run_page
 from opsim.study.long_run import batch_means, correlogram, flags, welch
-from opsim.study.long_run.flags import Flag
-from opsim.study.long_run.looked import LongRun, LongSeries
+from opsim.study.long_run.diagnostics import Flag
+from opsim.study.long_run.steady_state import LongRun, LongSeries
 
 H = 3600.0
 

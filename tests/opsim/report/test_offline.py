@@ -4,7 +4,7 @@ import hashlib
 import jinja2
 import pytest
 
-from opsim.report.offline import asset, policy, template
+from opsim.report.page import asset, policy, template
 
 
 def test_only_the_scripts_as_they_stand_may_run():

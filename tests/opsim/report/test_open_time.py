@@ -1,7 +1,7 @@
 import pytest
 from plans import CELL, plan
 
-from opsim.report.open_time import of_open, open_share, staffed_h, with_closed
+from opsim.report.sections.common import of_open, open_share, staffed_h, with_closed
 from tests.opsim.study.layout.made_floor import FLOOR
 
 KEPT = "shifts: {s: {from: '00:10', to: '00:50'}}\nworkers: {ana: {shift: s, "

@@ -1,6 +1,6 @@
 """Parts of figures in words, and which are shown."""
 
-from opsim.report.parts import is_shown, part_name, without_again
+from opsim.report.sections.common import is_shown, part_name, without_again
 from tests.made_result import kpi, page, summary
 
 FATES = {"resumed": 0.5, "by_another": 0.0, "handed_over": 0.0}

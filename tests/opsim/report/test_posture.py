@@ -1,7 +1,7 @@
 import pytest
 
-from opsim.report.posture import section
-from opsim.report.section import Words
+from opsim.report.page import Words
+from opsim.report.sections.postures import posture_section as section
 from tests import made_result
 from tests.made_result import SCRIPT, kpi, material, summary
 

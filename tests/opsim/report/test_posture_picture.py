@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from emulator.skeleton import standard_skeleton
-from opsim.report.body import COLOURS
-from opsim.report.posture_picture import VIEWS, posture_svg, room_of, warm
+from opsim.report.plot.body import COLOURS
+from opsim.report.plot.posture import VIEWS, posture_svg, room_of, warm
 from tests.opsim.ergonomics.bodies import bent, standing, turn
 
 SKELETON = standard_skeleton()

@@ -5,8 +5,7 @@ import pytest
 from plans import plan, ran
 
 from opsim.log import ABSENT, OFF, REPAIR
-from opsim.report.open_time import staffed_h
-from opsim.report.presence import presence
+from opsim.report.sections.common import presence, staffed_h
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.study.layout.made_floor import FLOOR
 

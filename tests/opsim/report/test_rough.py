@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.report.rough import percent, rough, three_digits
+from opsim.report.numbers import percent, rough, three_digits
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-from opsim.report.same import Same
+from opsim.report.material import Same
 
 
 def test_only_the_very_same_is_the_same():

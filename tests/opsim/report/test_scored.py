@@ -5,11 +5,10 @@ import pytest
 
 from emulator.skeleton import standard_skeleton
 from opsim.ergonomics.options import USUAL
-from opsim.ergonomics.scores.bounds import bounds_of
+from opsim.ergonomics.scores.scoring import bounds_of
 from opsim.ergonomics.shift.movement import scored_movements
-from opsim.plan.handling import Handling
-from opsim.report.course_picture import LEVELS
-from opsim.report.scored import Said, _badge, page, write_scored
+from opsim.plan.tasks import Handling
+from opsim.report.motion.scoring import LEVELS, Said, _badge, page, write_scored
 from tests.opsim.ergonomics.shift.test_movement import movement
 
 HANDLING = Handling(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from emulator.skeleton import Skeleton
-from opsim.report.segment_picture import CutTake, apart, draw_cuts, spread
+from opsim.report.motion.segmentation import CutTake, apart, draw_cuts, spread
 from tests.emulator.segmenting.made_movements import walking
 
 

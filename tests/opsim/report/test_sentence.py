@@ -1,4 +1,4 @@
-from opsim.report.sentence import sentences
+from opsim.report.sections.summary import sentences
 from tests.made_result import kpi, summary
 
 

@@ -1,6 +1,7 @@
 import re
 
-from opsim.report.small_chart import HEIGHT, WIDTH, SmallChart, around, panels
+from opsim.report.plot.svg_chart import HEIGHT, SmallChart, around, panels
+from opsim.report.plot.svg_chart import SMALL_WIDTH as WIDTH
 
 
 def chart(**how):

@@ -5,8 +5,8 @@ import re
 import pytest
 from plans import loaded, ran
 
-from opsim.report import spaghetti
-from opsim.report.section import Panels, Svg, flat
+from opsim.report.page import Panels, Svg, flat
+from opsim.report.sections import spaghetti
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_material import hostile, of_log, texts
 from tests.opsim.study.layout.made_floor import FLOOR
@@ -21,7 +21,7 @@ def material(text=FLOOR):
 
 @pytest.fixture(scope="module")
 def found():
-    return spaghetti.section(material())
+    return spaghetti.spaghetti_section(material())
 
 
 def test_who_walks_most_and_which_way_is_said(found):
@@ -46,7 +46,7 @@ def test_each_worker_has_a_picture_and_the_table_has_all_ways(found):
 
 def test_along_paths_trips_add_up_on_every_stretch():
     made = material(PATHS)
-    found = spaghetti.section(made)
+    found = spaghetti.spaghetti_section(made)
     drawn = next(block for block in found.blocks if isinstance(block, Svg)).text
     stretches = {
         title: float(trips) for title, trips in re.findall(r"<title>([^<:]*): ([\d.,]+) trips an hour</title>", drawn)
@@ -58,18 +58,18 @@ def test_along_paths_trips_add_up_on_every_stretch():
 def test_without_rows_or_walks_there_is_no_section():
     made = material()
     made.log = None
-    assert spaghetti.section(made) is None
+    assert spaghetti.spaghetti_section(made) is None
     alone = (
         FLOOR.replace("carried: true", "carried: false")
         .replace("home: door, ", "")
         .replace("ben: {like: ana, ", "ben: {like: ana, walk: 1 m/s, ")
     )
     one_place = alone.replace("at: p5", "at: p1").replace("at: p3", "at: p1")
-    assert spaghetti.section(material(one_place)) is None
+    assert spaghetti.spaghetti_section(material(one_place)) is None
 
 
 def test_hostile_names_do_no_harm():
     log, plan = ran(FLOOR)
-    section = spaghetti.section(of_log(log, hostile(plan, SCRIPT), loaded(FLOOR)))
+    section = spaghetti.spaghetti_section(of_log(log, hostile(plan, SCRIPT), loaded(FLOOR)))
     svgs = [block.text for block in flat(section.blocks) if isinstance(block, Svg)]
     assert len(svgs) == 3 and not any("<script" in svg for svg in svgs) and SCRIPT[:8] in texts(section)

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.report.staged import RATE_HZ, Card, resampled, staged
+from opsim.report.sections.motions import CARD_RATE_HZ as RATE_HZ
+from opsim.report.sections.motions import Card, resampled, staged
 from tests.opsim.report.test_strips import NAMES, STANDING, Skeleton
 
 SKELETON = Skeleton()

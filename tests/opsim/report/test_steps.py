@@ -3,7 +3,7 @@ import pytest
 from plans import CELL, ran
 
 from opsim.log import CREATE, JOB_KINDS, LEAVING_KINDS
-from opsim.report.steps import Steps, jobs_at, jobs_inside, share_full, steps_of, thinned
+from opsim.report.sections.wip import Steps, jobs_at, jobs_inside, share_full, steps_of, thinned
 
 
 @pytest.fixture(scope="module")

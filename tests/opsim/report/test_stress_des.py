@@ -1,8 +1,9 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from opsim.report.stress_des import items_of, section
-from opsim.report.stress_item import BOTH, RUN, YOURS
+from opsim.report.sections.provenance import BOTH, RUN, YOURS
+from opsim.report.sections.provenance import stress_des_section as section
+from opsim.report.sections.provenance import stress_items as items_of
 from tests.made_result import MadeResult, material, summary
 
 NUMBERS = [

@@ -3,9 +3,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from opsim.report.person import chains
-from opsim.report.strips import MOST_LINES, _figure, _words, draw_strips, strips_of
-from opsim.report.view import Strip, stage_of, view_axes
+from opsim.report.plot.body import Strip, chains, stage_of, view_axes
+from opsim.report.sections.motions import MOST_LINES, _figure, _words, draw_strips, strips_of
 
 NAMES = (
     *("pelvis", "spine", "chest", "neck", "head"),

@@ -1,4 +1,5 @@
-from opsim.report.study_page import Section, StudyPage, Table, study_html
+from opsim.report.page import StudyPage, Table, study_html
+from opsim.report.page import StudySection as Section
 
 
 def test_long_text_has_room_on_a_narrow_screen_and_short_text_and_numbers_take_none():

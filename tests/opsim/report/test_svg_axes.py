@@ -3,7 +3,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from opsim.report.svg_axes import SvgFigure, figure_of
+from opsim.report.plot.svg_canvas import SvgFigure, figure_of
 from tests.made_result import SCRIPT
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -57,7 +57,7 @@ def test_columns_are_lines_of_their_own():
 
 
 def test_a_png_needs_matplotlib_and_says_so(monkeypatch):
-    monkeypatch.setattr("opsim.report.extras.find_spec", lambda name: None)
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
     with pytest.raises(ValueError, match=r"pip install opsim\[matplotlib\]"):
         figure_of("png", (2.0, 1.0))
     assert isinstance(figure_of("svg", (2.0, 1.0)), SvgFigure)

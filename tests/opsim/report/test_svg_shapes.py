@@ -3,7 +3,7 @@ import re
 import numpy as np
 import pytest
 
-from opsim.report.svg_shapes import disc, path_of, polygon, taper
+from opsim.report.plot.svg_canvas import disc, path_of, polygon, taper
 
 
 def numbers(path):

@@ -3,16 +3,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from opsim.report.study_page import study_html
-from opsim.report.sweep_fit_words import fit_sentences
-from opsim.report.sweep_map import colour
-from opsim.report.sweep_notes import beside_answer
-from opsim.report.sweep_page import MOST_ROWS, sweep_page
-from opsim.report.sweep_tornado import tornado_svg
-from opsim.report.sweep_words import sentences_of
-from opsim.scenario.schema.studies.sweep import Sweep
-from opsim.study.sweep.found import found_of
-from opsim.study.sweep.points import points_of
+from opsim.report.page import study_html
+from opsim.report.studies.response_surface import colour
+from opsim.report.studies.sweep import MOST_ROWS, beside_answer, sweep_page
+from opsim.report.studies.sweep_charts import tornado_svg
+from opsim.report.studies.sweep_sentences import fit_sentences, sentences_of
+from opsim.scenario.schema.sweep import Sweep
+from opsim.study.sweep.factors import points_of
+from opsim.study.sweep.study import found_of
 
 KEY = ("throughput_per_h", "", "", "1/h")
 VARY = {"release.every": {"from": "40 s", "to": "60 s", "levels": 3}, "stations.<b>.buffer": [1, 2, 4]}

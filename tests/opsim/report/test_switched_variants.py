@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from opsim.report.switched_variants import switched_variants
-from opsim.study.resolved import resolved_text
+from opsim.report.sections.variability import switched_variants
+from opsim.study.resolved_scenario import resolved_text
 
 RUN = {"start": "Mon 06:00", "horizon": "12 h", "replications": 3, "seed": 11}
 

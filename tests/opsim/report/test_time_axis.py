@@ -1,6 +1,6 @@
 from datetime import UTC, datetime
 
-from opsim.report.time_axis import at_ms, clock_axis
+from opsim.report.plot.plotly import at_ms, clock_axis
 
 
 def test_the_clock_of_a_run_reads_as_that_of_its_weekday():

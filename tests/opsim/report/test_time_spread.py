@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from plans import loaded, plan
 
-from opsim.report import time_spread
-from opsim.report.section import Svg
-from opsim.report.time_spread import Spread, spreads
+from opsim.report.page import Svg
+from opsim.report.sections import variability as time_spread
+from opsim.report.sections.variability import Spread, spreads
 from opsim.streams import stream
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_material import hostile, of_log
@@ -54,14 +54,16 @@ def test_what_the_run_switches_off_is_left_out(switch, found):
 
 
 def test_who_differs_most_is_said_and_where_nobody_differs_nothing_is():
-    section = time_spread.section(made())
+    section = time_spread.time_spread_section(made())
     assert section.blocks[0].text.startswith(
         "The times of u differ most between people: their means lie about 31 % (standard deviation) around that of all"
     )
-    assert time_spread.section(made(FLOOR)) is None
+    assert time_spread.time_spread_section(made(FLOOR)) is None
 
 
 def test_hostile_names_do_no_harm():
-    section = time_spread.section(of_log(SimpleNamespace(), hostile(plan(TEXT), SCRIPT), loaded(TEXT), [{"kpi": ""}]))
+    section = time_spread.time_spread_section(
+        of_log(SimpleNamespace(), hostile(plan(TEXT), SCRIPT), loaded(TEXT), [{"kpi": ""}])
+    )
     svg = next(block for block in section.blocks if isinstance(block, Svg))
     assert "<script" not in svg.text and "&lt;script" in svg.text

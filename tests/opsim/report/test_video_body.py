@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from PIL import ImageColor
 
-from opsim.report.body import COLOURS
-from opsim.report.camera import camera_of
-from opsim.report.video_body import BodyPainter
+from opsim.report.plot.body import COLOURS, camera_of
+from opsim.report.plot.video import BodyPainter
 from tests.made_cards import SKELETON, cards
 from tests.opsim.report.test_strips import NAMES
 

@@ -3,9 +3,9 @@ import re
 
 import pytest
 
-from opsim.report.staged import Card
-from opsim.report.video import Video
-from opsim.report.video_files import video_html, write_video
+from opsim.report.plot.animation import Video
+from opsim.report.plot.video import video_html, write_video
+from opsim.report.sections.motions import Card
 from tests.made_cards import SKELETON, cards, video
 
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.report.staged import RATE_HZ
-from opsim.report.video_frames import Film, posture
+from opsim.report.plot.video import Film, posture
+from opsim.report.sections.motions import CARD_RATE_HZ as RATE_HZ
 from tests.made_cards import video
 
 

@@ -2,11 +2,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from opsim.report.animated import HOLD_S
-from opsim.report.body import COLOURS
-from opsim.report.video_files import write_video
-from opsim.report.video_frames import Film
-from opsim.report.video_gif import MOST_BYTES, _share
+from opsim.report.plot.animation import HOLD_S
+from opsim.report.plot.body import COLOURS
+from opsim.report.plot.video import MOST_BYTES, Film, _share, write_video
 from tests.made_cards import video
 
 

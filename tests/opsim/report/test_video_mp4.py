@@ -5,9 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from opsim.report.video_files import write_video
-from opsim.report.video_frames import Film
-from opsim.report.video_mp4 import missing_encoder
+from opsim.report.plot.video import Film, missing_encoder, write_video
 from tests.made_cards import video
 
 COUNTS = "import sys; n = len(sys.stdin.buffer.read()); open(sys.argv[-1], 'w').write(f'{n} ' + ' '.join(sys.argv[1:]))"

@@ -1,7 +1,16 @@
 import numpy as np
 import pytest
 
-from opsim.report.video_sheet import NARROWEST_PX, WIDTH_PX, body_width_px, clipped, columns_of, font, sheet_of, wrapped
+from opsim.report.plot.animation import (
+    NARROWEST_PX,
+    WIDTH_PX,
+    body_width_px,
+    clipped,
+    columns_of,
+    font,
+    sheet_of,
+    wrapped,
+)
 from tests.made_cards import video
 
 

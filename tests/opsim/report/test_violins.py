@@ -2,9 +2,10 @@ import numpy as np
 import pytest
 from plans import CELL, queue
 
-from opsim.report.section import Folded, Words
-from opsim.report.steps import jobs_inside
-from opsim.report.violins import samples, section
+from opsim.report.page import Folded, Words
+from opsim.report.sections.cycle_times import cycle_times_section as section
+from opsim.report.sections.cycle_times import samples
+from opsim.report.sections.wip import jobs_inside
 from tests.made_result import SCRIPT, distribution, material, summary
 from tests.opsim.report.made_floor import charts, floor, renamed, strings, words
 

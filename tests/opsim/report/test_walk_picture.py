@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.report.walk_picture import LONGEST_M, Walk, draw_walk
-from opsim.report.walked import words
+from opsim.report.sections.walking import LONGEST_M, draw_walk, words
+from opsim.report.sections.walking import FootWalk as Walk
 from tests.made_result import SCRIPT
 from tests.opsim.made_walks import SKELETON
 from tests.opsim.made_walks import Walk as Model

@@ -1,8 +1,8 @@
 from plans import plan
 
 from opsim.log import WALK
-from opsim.report.walk_words import walk_sentences
-from opsim.report.walked_ways import walked_ways
+from opsim.report.sections.common import walked_ways
+from opsim.report.sections.walking import walk_sentences
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.study.layout.made_floor import FLOOR
 

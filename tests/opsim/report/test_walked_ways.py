@@ -6,7 +6,7 @@ from plans import plan, ran
 
 from opsim.kpi import figures
 from opsim.log import WALK
-from opsim.report.walked_ways import walked_ways
+from opsim.report.sections.common import walked_ways
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.study.layout.made_floor import FLOOR
 

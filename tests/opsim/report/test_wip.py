@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 from plans import CELL, line
 
-from opsim.report.steps import Steps, jobs_inside
-from opsim.report.wip import section
-from opsim.report.wip_words import _grows
+from opsim.report.sections.wip import Steps, _grows, jobs_inside
+from opsim.report.sections.wip import wip_section as section
 from tests.made_result import SCRIPT
 from tests.opsim.report.made_floor import charts, floor, renamed, strings, words
 

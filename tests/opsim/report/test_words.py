@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.report.words import clock, digits, interval_cells, kpi_name, listing, plus_minus, quantity
+from opsim.report.numbers import clock, digits, interval_cells, kpi_name, listing, plus_minus, quantity
 from tests.made_result import kpi
 
 

@@ -5,10 +5,12 @@ from html.parser import HTMLParser
 
 import pytest
 
-from opsim.report import contents, days, forest
-from opsim.report.offline import HERE
-from opsim.report.origin import plotly_version
-from opsim.report.write import report_html, write_report
+from opsim.report import render as contents
+from opsim.report.page import HERE
+from opsim.report.render import report_html, write_report
+from opsim.report.sections import scenarios as forest
+from opsim.report.sections import worker_timeline as days
+from opsim.report.sections.provenance import plotly_version
 from tests import made_result
 from tests.made_result import IMAGE, NAMES, SCRIPT, hostile, kpi, material, summary
 
@@ -158,7 +160,7 @@ DAY |= {"cut": False, "shifts": True, "more": 3}
 
 
 def with_day(monkeypatch, **other):
-    monkeypatch.setattr(days, "section", lambda material: days.section_of({**DAY, **other}))
+    monkeypatch.setattr(days, "worker_timeline_section", lambda material: days.section_of({**DAY, **other}))
     return page()
 
 
@@ -180,24 +182,24 @@ def broken(material):
 
 
 def test_a_section_that_cannot_be_made_is_named_with_the_reason_and_costs_nothing_else(monkeypatch, tmp_path):
-    monkeypatch.setattr(forest, "section", broken)
-    monkeypatch.setattr(days, "section", broken)
+    monkeypatch.setattr(forest, "scenarios_section", broken)
+    monkeypatch.setattr(days, "worker_timeline_section", broken)
     written = write_report(material(summary()), tmp_path / "report.html")
-    assert written.contents.missing == [("the rows are gone", "forest, days")]
+    assert written.contents.missing == [("the rows are gone", "scenarios, worker timeline")]
     found = Page(written.path.read_text(encoding="utf-8"))
-    assert "This report lacks forest, days, which could not be made: the rows are gone" in found.text
+    assert "This report lacks scenarios, worker timeline, which could not be made: the rows are gone" in found.text
     assert "provenance" in found.ids
 
 
 def test_who_looks_for_the_mistake_sees_where_it_is(monkeypatch):
-    monkeypatch.setattr(forest, "section", broken)
+    monkeypatch.setattr(forest, "scenarios_section", broken)
     monkeypatch.setenv("OPSIM_TRACEBACK", "1")
     with pytest.raises(OSError, match="rows are gone"):
         report_html(material(summary()))
 
 
 def test_a_mistake_of_ours_is_no_missing_section(monkeypatch):
-    monkeypatch.setattr(forest, "section", lambda material: material.no_such_thing)
+    monkeypatch.setattr(forest, "scenarios_section", lambda material: material.no_such_thing)
     with pytest.raises(AttributeError):
         report_html(material(summary()))
 

@@ -1,9 +1,9 @@
 import pytest
 from plans import CELL
 
-from opsim.kpi.cycle import cycle_times
-from opsim.report.yamazumi import section
-from opsim.report.yamazumi_stacks import LINE, PACE, TAKT, WALKING, station_stacks, worker_stacks
+from opsim.kpi.cycle_times import cycle_times
+from opsim.report.sections.yamazumi import yamazumi_section as section
+from opsim.report.sections.yamazumi_stacks import LINE, PACE, TAKT, WALKING, station_stacks, worker_stacks
 from tests.made_result import BOLD, SCRIPT
 from tests.opsim.report.made_floor import charts, floor, renamed, strings, words
 

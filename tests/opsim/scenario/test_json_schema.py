@@ -15,7 +15,7 @@ from opsim.problems import ScenarioError
 from opsim.scenario.fields import NAME_PATTERN, is_name
 from opsim.scenario.json_schema import FILE_NAME, json_schema, schema_text
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.yaml_nodes import read_tree
+from opsim.scenario.yaml import read_tree
 from opsim.shipped import shipped_folder
 from tests.json_schema import complaints
 

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from opsim.scenario.known_paths import step, top, words
+from opsim.scenario.paths import step, top, words
 from opsim.scenario.read import variant_trees
 from opsim.shipped import shipped_folder
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from opsim.scenario.layout_moves import EXAMPLES, read_any_moved, read_moved, split_names
+from opsim.scenario.fields import EXAMPLES, read_any_moved, read_moved, split_names
 
 names = some.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 

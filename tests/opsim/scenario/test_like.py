@@ -1,8 +1,8 @@
 import pytest
 
 from opsim.problems import ScenarioError
-from opsim.scenario.like import without_likes
-from opsim.scenario.yaml_nodes import read_tree
+from opsim.scenario.templates import without_likes
+from opsim.scenario.yaml import read_tree
 
 
 def resolved(text):

@@ -11,8 +11,8 @@ from opsim.human.catalogue import catalogue
 from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
-from opsim.study.assumed.assumptions import assumptions_of
+from opsim.scenario.warnings import risks_of
+from opsim.study.assumptions.sheet import assumptions_of
 
 HERE = Path(__file__).parent
 EVERYTHING, GOOD = (

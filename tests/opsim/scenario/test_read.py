@@ -13,7 +13,7 @@ from opsim.plan import compile_plan, station_loads
 from opsim.problems import ScenarioError
 from opsim.scenario import Scenario, read_scenarios
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.scenario.warnings import risks_of
 from opsim.tasks import Erlang, Lognormal, Recorded, task_model, time_model
 
 HERE = Path(__file__).parent

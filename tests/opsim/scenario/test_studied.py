@@ -7,13 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from opsim.problems import ScenarioError
-from opsim.scenario.changes_checked import change_problems
-from opsim.scenario.known_paths import keys_of
+from opsim.scenario.paths import keys_of
 from opsim.scenario.read import read_scenarios
 from opsim.scenario.schema.studies import Studies
-from opsim.scenario.studied import check_study, study_problems
-from opsim.scenario.varied import Varied
-from opsim.study.resolved import decides_figures, decides_rows
+from opsim.scenario.study_checks import Varied, change_problems, check_study, study_problems
+from opsim.study.resolved_scenario import decides_figures, decides_rows
 
 GOOD = (Path(__file__).parent / "good.yaml").read_text(encoding="utf-8")
 VARIED = Varied.read(Path(__file__).parent / "good.yaml")

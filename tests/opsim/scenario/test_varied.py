@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from opsim.problems import ScenarioError
-from opsim.scenario.nearest_path import nearest_path
-from opsim.scenario.varied import Varied
+from opsim.scenario.paths import nearest_path
+from opsim.scenario.study_checks import Varied
 
 HERE = Path(__file__).parent
 GOOD = Varied.read(HERE / "good.yaml")

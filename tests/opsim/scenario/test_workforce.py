@@ -10,7 +10,7 @@ from opsim.engine.draws import Draws
 from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.study.resolved import resolved_text
+from opsim.study.resolved_scenario import resolved_text
 
 GOOD = (Path(__file__).parent / "good.yaml").read_text(encoding="utf-8")
 CELL = """

@@ -4,7 +4,7 @@ import pytest
 
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.scenario.warnings import risks_of
 
 TEXT = """
 opsim: 1

@@ -4,9 +4,9 @@ from pathlib import Path
 import pytest
 
 from opsim.problems import ScenarioError
-from opsim.scenario.positions import child
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.yaml_nodes import read_tree, scalar
+from opsim.scenario.tree import child
+from opsim.scenario.yaml import read_tree, scalar
 
 
 def answer(raw):

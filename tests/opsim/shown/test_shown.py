@@ -8,11 +8,11 @@ import pytest
 import simpy
 
 from opsim import Worker
-from opsim.ergonomics.again import performance_again
+from opsim.ergonomics.redraw import performance_again
 from opsim.log import WORK
 from opsim.results import Result
 from opsim.study.compare import compare
-from opsim.study.reopened import reopened
+from opsim.study.run import reopened
 from tests.made_result import NAMES, hostile
 from tests.opsim.export import hostile as harmful
 from tests.opsim.export.made_export import ran

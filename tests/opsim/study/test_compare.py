@@ -8,7 +8,7 @@ from plans import line, loaded
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
 from opsim.study.compare import NotComparable, compare, holm, paired
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from plans import answer, loaded
 from opsim.results import Result
 from opsim.study import run_scenario
 from opsim.study.compare import compare
-from opsim.study.precision import NoSuchFigure, Precision
+from opsim.study.intervals import NoSuchFigure, Precision
 
 CELL = """
 opsim: 1

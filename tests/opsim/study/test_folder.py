@@ -8,7 +8,7 @@ from plans import CELL, loaded
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder
 from opsim.study import run_scenario
-from opsim.study.folder import OtherRun, other_run
+from opsim.study.results_folder import OtherRun, other_run
 
 SHORT = CELL.replace("horizon: 2 h", "horizon: 20 min")
 

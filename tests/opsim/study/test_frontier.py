@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.kpi.better import read_asked
+from opsim.kpi.catalogue import read_asked
 from opsim.results import Result
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder
 from opsim.study import run_scenario
 from opsim.study.compare import NotComparable
-from opsim.study.frontier import dominates, frontier_of, non_dominated, placed
+from opsim.study.pareto import dominates, frontier_of, non_dominated, placed
 
 NUMBERS = st.one_of(st.integers(-3, 3).map(float), st.just(math.nan))
 ROWS = st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=8)

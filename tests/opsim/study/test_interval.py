@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from opsim.study.interval import quantile_interval, t_interval
+from opsim.study.intervals import quantile_interval, t_interval
 
 
 def test_the_textbook_interval():

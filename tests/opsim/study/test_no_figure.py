@@ -1,7 +1,7 @@
 import pytest
 
-from opsim.kpi.names import KPIS
-from opsim.study.no_figure import ONLY_WHERE, remedy
+from opsim.kpi.catalogue import KPIS
+from opsim.study.compare import ONLY_WHERE, remedy
 
 
 def test_nobody_is_sent_to_the_name_he_wrote():

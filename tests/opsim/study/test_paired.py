@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.study.paired import holm, paired, paired_with_each
+from opsim.study.intervals import holm, paired, paired_with_each
 
 
 def made(seed):

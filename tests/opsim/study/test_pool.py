@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from opsim.study.pool import ProcessLost, pooled
+from opsim.pool import ProcessLost, pooled
 
 POWER_OF_TWO = partial(partial, pow, 2)
 """Made in each process; what spawned processes are given must be found by name, so all of it is from the library."""
@@ -37,8 +37,8 @@ def test_a_killed_process_is_said_in_words():
 ENDED_FIRST = """
 import signal
 from functools import partial
-from opsim.forking import can_fork
-from opsim.study import pool
+from opsim.threads import can_fork
+from opsim import pool
 
 begin = pool._begin
 
@@ -81,7 +81,7 @@ def test_an_iteration_that_is_left_while_a_large_result_is_sent_ends_too(tmp_pat
 LEFT = """
 import time
 from functools import partial
-from opsim.study.pool import pooled
+from opsim.pool import pooled
 
 if __name__ == "__main__":
     results = pooled(partial(partial, bytes), [60_000_000] * 8, 2)
@@ -102,8 +102,8 @@ def test_processes_that_kept_a_database_end_without_a_word(tmp_path):
 
 QUERY = """
 import threading
-from opsim.log_store import connect
-from opsim.study.pool import pooled
+from opsim.log_parquet import connect
+from opsim.pool import pooled
 
 def work(item):
     with connect() as database:

@@ -11,13 +11,13 @@ import pytest
 BEGIN = """
 import math, multiprocessing, os, signal, sys, threading, time
 from functools import partial
-from opsim.one_thread import lean
+from opsim.threads import lean
 lean()
-from opsim import forking
-from opsim.forking import Ticking, can_fork
-from opsim.study.pool import Pool, ProcessLost, pooled
+from opsim import threads
+from opsim.threads import Ticking, can_fork
+from opsim.pool import Pool, ProcessLost, pooled
 
-forking.ENDING_S = 60.0  # on a busy machine a thread that was joined ends when it comes to its turn
+threads.ENDING_S = 60.0  # on a busy machine a thread that was joined ends when it comes to its turn
 assert can_fork()
 """
 

@@ -4,9 +4,8 @@ from plans import CELL, loaded
 
 from opsim.kpi import Figure
 from opsim.study import run_scenario
-from opsim.study.interval import t_interval
-from opsim.study.precision import NoSuchFigure, Precision, read_precision, replicate_until
-from opsim.study.replicate import Replicated
+from opsim.study.intervals import NoSuchFigure, Precision, read_precision, replicate_until, t_interval
+from opsim.study.replication import Replicated
 
 WANTED = Precision("throughput_per_h", "", "", 0.05)
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from recordings import reference
 
-from opsim.study.interval import t_interval
-from opsim.study.warm_up import mser
+from opsim.study.intervals import t_interval
+from opsim.study.long_run.warm_up import mser
 
 
 def case(name: str) -> dict:

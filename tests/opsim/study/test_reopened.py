@@ -4,11 +4,11 @@ from shutil import copy, copytree
 import numpy as np
 import pytest
 
-from opsim.log_store import read_events
+from opsim.log_parquet import read_events
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder
 from opsim.study import run_scenario
-from opsim.study.reopened import reopened
+from opsim.study.run import reopened
 
 LIBRARY = "libraries/bench_work.npz"
 TEXT = f"""

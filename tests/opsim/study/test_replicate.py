@@ -2,7 +2,7 @@
 
 import pytest
 
-from opsim.study import replicate as replicating
+from opsim.study import replication as replicating
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from opsim.kpi import Figure
-from opsim.study.replicated import MOST_SAMPLES, Figures, Replicated, Together, thinned, together
+from opsim.study.replication import MOST_SAMPLES, Figures, Replicated, Together, thinned, together
 
 KEYS = [("worker_states", f"worker {n}", part, "share") for n in range(20) for part in ("work", "walk", "idle")]
 

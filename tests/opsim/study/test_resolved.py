@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.scenario.yaml_nodes import read_tree
-from opsim.study.resolved import decides_figures, differences, read_resolved, resolved_text, with_run
+from opsim.scenario.yaml import read_tree
+from opsim.study.resolved_scenario import decides_figures, differences, read_resolved, resolved_text, with_run
 
 TEXTS = st.one_of(
     st.text(st.characters(exclude_categories=("Cs", "Cc", "Cf", "Co", "Cn", "Zl", "Zp")), max_size=40),

@@ -5,11 +5,10 @@ import numpy as np
 import pytest
 from plans import CELL, loaded
 
-from opsim.log_store import connect, read_events
-from opsim.study import replicate as replicating
+from opsim.log_parquet import connect, read_events
+from opsim.study import replication as replicating
 from opsim.study import run_scenario
-from opsim.study.folder import LOCK
-from opsim.study.lock import Busy, locked
+from opsim.study.results_folder import LOCK, Busy, locked
 from opsim.study.summary import _distribution
 
 

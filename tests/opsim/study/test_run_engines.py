@@ -8,10 +8,9 @@ from stand_in_engine import stand_in
 
 from opsim.problems import ScenarioError
 from opsim.study import engine_choice, run_scenario
-from opsim.study import replicate as replicating
-from opsim.study.folder import engine_said
-from opsim.study.manifest import digest
-from opsim.study.precision import read_precision
+from opsim.study import replication as replicating
+from opsim.study.intervals import read_precision
+from opsim.study.results_folder import digest, engine_said
 
 KEPT = ("summary.json", "kpis.parquet", "scenario.resolved.yaml", "finished.json")
 

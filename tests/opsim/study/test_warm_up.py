@@ -4,7 +4,7 @@ from plans import line, loaded, queue
 
 from opsim.log import CREATE, FINISH, JOIN, SCRAP, event_log, row
 from opsim.study import run_scenario
-from opsim.study.warm_up import finished_per_h, jobs_inside, mser, suggested_warm_up
+from opsim.study.long_run.warm_up import finished_per_h, jobs_inside, mser, suggested_warm_up
 
 
 def naive_mser(series, batch=5):

@@ -5,7 +5,7 @@ import pytest
 
 from opsim.scenario.schema import GeometricCycles, UniformCycles
 from opsim.tasks import Fixed, Geometric
-from opsim.tasks.counts import UniformCount, count_model
+from opsim.tasks.model import UniformCount, count_model
 
 
 def test_a_number_of_cycles_gets_the_model_it_says():

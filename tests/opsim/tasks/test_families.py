@@ -5,8 +5,7 @@ import pytest
 from scipy import stats
 
 from opsim.tasks import Beta, Empirical, Erlang, Gamma, Geometric, Hyperexponential, Normal, Triangular, Weibull
-from opsim.tasks.bounded import normal_cut
-from opsim.tasks.shared import balanced_probability, weibull_shape
+from opsim.tasks.distributions import balanced_probability, normal_cut, weibull_shape
 
 
 @pytest.mark.parametrize("cv", [1e-3, 0.05, 0.3, 1.0, 3.0, 10.0])

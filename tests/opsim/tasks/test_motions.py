@@ -5,21 +5,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from opsim.effects import worker_effect
 from opsim.engine.floor import run_plan
-from opsim.ergonomics.exposure import trunk_exposure
+from opsim.ergonomics.trunk import trunk_exposure
 from opsim.laws import CHECKS, audit
 from opsim.plan import compile_plan
-from opsim.plan.joins import wide_joins
-from opsim.plan.unread import unread
+from opsim.plan.model_warnings import unread, wide_joins
 from opsim.problems import ScenarioError
 from opsim.scenario import read_scenarios
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.scenario.warnings import risks_of
 from opsim.streams import stream
-from opsim.study.assumed.assumptions import assumptions_of
-from opsim.study.assumed.sources import task_sources
-from opsim.tasks.motions import emulators_of, same_task
+from opsim.study.assumptions.sheet import assumptions_of, task_sources
+from opsim.tasks.from_scenario import emulators_of, same_task
+from opsim.worker_effects import worker_effect
 
 KIT = """
 opsim: 1
@@ -160,7 +158,7 @@ def test_a_walk_inside_a_task_takes_its_length_over_the_worker_s_own_speed():
 
 
 def test_who_walks_inside_a_kit_is_who_walks_between_stations():
-    from opsim.ergonomics.walks import walker
+    from opsim.ergonomics.walking import walker
 
     plan = compile_plan(read_scenarios("kitting")["base"])
     rosa = plan.workers[0]

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from opsim.external_worker import library_model
 from opsim.performance import Drawn
-from opsim.task_models import library_model
 from opsim.tasks import Fixed
-from opsim.tasks.retimed import retimed
+from opsim.tasks.variability import retimed
 
 LIFT = library_model("bench_work/lift")
 BODY = LIFT.sample(4, np.random.default_rng(1))

@@ -7,10 +7,10 @@ import pytest
 import simpy
 
 from opsim import Worker
-from opsim.effects import worker_effect
+from opsim.external_worker import library_model
 from opsim.streams import stream
-from opsim.task_models import library_model
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, Recorded, switched
+from opsim.worker_effects import worker_effect
 
 SWITCHES = ("within_only", "between_only", "none", "shuffled")
 TRACE = Recorded((1.0, 2.0, 6.0), by_index=True)

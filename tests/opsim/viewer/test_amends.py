@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.viewer.amends import STEP, amends, corners
+from opsim.viewer.frame_corrections import STEP, amends, corners
 
 BONE_M = np.array([0.5, 0.2])
 

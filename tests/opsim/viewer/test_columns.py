@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from opsim.viewer.columns import DTYPES, Columns, unpacked_column, unpacked_columns
+from opsim.viewer.skeletons import DTYPES, Columns, unpacked_column, unpacked_columns
 
 
 def column_of(dtype):

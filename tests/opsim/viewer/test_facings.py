@@ -1,7 +1,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.viewer.facings import NEAR_M, Site, facings, kept
+from opsim.viewer.floor import NEAR_M, Site, facings, kept
 
 PLACES = st.lists(
     st.tuples(st.integers(0, 30), st.integers(0, 30)).map(lambda p: (float(p[0]), float(p[1]))), min_size=1, max_size=8

@@ -6,8 +6,8 @@ from made_scene import opened_text, run_of, scene
 from plans import loaded
 
 from opsim.plan import compile_plan
+from opsim.viewer.build import scene_of
 from opsim.viewer.floor import AHEAD_M, DEPTH_M, drawn_as, floor_of
-from opsim.viewer.stage import scene_of
 
 CORNER = """
 opsim: 1

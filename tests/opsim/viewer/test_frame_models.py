@@ -8,18 +8,10 @@ from hypothesis.extra.numpy import arrays
 
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
-from opsim.viewer.columns import Columns, unpacked_columns
-from opsim.viewer.frame_models import (
-    between,
-    chosen,
-    control_points,
-    folded,
-    frames_of,
-    pack_frames,
-    second_differences,
-)
-from opsim.viewer.played import rows_of
+from opsim.viewer.frame_codec import between, chosen, control_points, folded, frames_of, pack_frames, second_differences
+from opsim.viewer.playback import rows_of
 from opsim.viewer.scene import Drawn
+from opsim.viewer.skeletons import Columns, unpacked_columns
 
 
 class Nodding:

@@ -1,7 +1,7 @@
 import numpy as np
 from made_scene import run_of, scene
 
-from opsim.viewer.posed import joints_m
+from opsim.viewer.pose import joints_m
 
 
 def test_who_works_on_a_moving_line_goes_with_it():

@@ -2,7 +2,7 @@ import numpy as np
 from made_scene import run_of, scene
 
 from opsim.log import TRANSPORT
-from opsim.viewer.moves import IN_HANDS, ON_VEHICLE
+from opsim.viewer.segments import IN_HANDS, ON_VEHICLE
 
 
 def test_a_vehicle_is_always_somewhere():

@@ -1,4 +1,4 @@
-from opsim.viewer.notes import notes_of
+from opsim.viewer.build import notes_of
 
 MADE = {"source": "synthetic reach", "licence": "MIT", "n_sequences": 10, "n_workers": 4, "library": "b.npz"}
 

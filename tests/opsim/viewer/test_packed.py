@@ -7,11 +7,10 @@ from made_scene import SHOWN, packed_scene, run_of, scene
 from page_twin import Twin
 
 from opsim.log import WORKER_KINDS
-from opsim.viewer.columns import unpacked_columns
-from opsim.viewer.packed import packed
-from opsim.viewer.posed import joints_m
-from opsim.viewer.stage import scene_of
-from opsim.viewer.write import LEVEL
+from opsim.viewer.build import scene_of
+from opsim.viewer.pose import joints_m
+from opsim.viewer.skeletons import unpacked_columns
+from opsim.viewer.write import LEVEL, packed
 
 QUICK = ("walking_cell",)
 """The scene that ``make test`` looks at; the others take long."""

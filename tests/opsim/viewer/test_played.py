@@ -3,7 +3,7 @@ import pytest
 
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
-from opsim.viewer.played import Collected, is_of_coefficients, travels_m
+from opsim.viewer.playback import Collected, is_of_coefficients, travels_m
 
 
 def drawn(library, task, **condition):

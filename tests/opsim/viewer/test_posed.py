@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from made_scene import SHOWN, run_of, scene
 
-from opsim.ergonomics.again import performance_again
+from opsim.ergonomics.redraw import performance_again
 from opsim.log import SETUP, WORK
-from opsim.viewer.posed import body_at, joints_m
+from opsim.viewer.pose import body_at, joints_m
 from opsim.viewer.segments import is_gone
 from opsim.viewer.skeletons import turned
 

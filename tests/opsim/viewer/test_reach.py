@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from made_scene import scene
 
-from opsim.viewer.posed import joints_m
+from opsim.viewer.pose import joints_m
 
 
 @pytest.mark.parametrize(

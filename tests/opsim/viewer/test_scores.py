@@ -2,7 +2,7 @@ import numpy as np
 from made_scene import run_of
 
 from opsim.ergonomics.scores.scoring import Scores
-from opsim.ergonomics.shift.fold import fold
+from opsim.ergonomics.shift.day import fold
 from opsim.viewer.scores import rula
 
 

@@ -3,7 +3,7 @@ import pytest
 from made_scene import run_of, scene
 
 from opsim.log import QUEUE, STOCK, WORK
-from opsim.plan.station import STATION, STORE
+from opsim.plan.stations import STATION, STORE
 
 
 def level(courses, subject, name, time_s):

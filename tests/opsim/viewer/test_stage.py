@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from made_scene import SHOWN, opened_text, run_of, scene
 
-from opsim.viewer.posed import joints_m
-from opsim.viewer.stage import scene_of
+from opsim.viewer.build import scene_of
+from opsim.viewer.pose import joints_m
 
 
 @pytest.mark.parametrize("name", SHOWN)

@@ -1,9 +1,9 @@
 import numpy as np
 from plans import CELL, plan
 
+from opsim.viewer.playback import with_walking
+from opsim.viewer.pose import standing
 from opsim.viewer.skeletons import tree_of
-from opsim.viewer.standing import standing
-from opsim.viewer.walked import with_walking
 
 ALONE = """
 opsim: 1

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.viewer.travels import Doing, placed
+from opsim.viewer.routes import Doing, placed
 
 
 def doing(performances, far_m):

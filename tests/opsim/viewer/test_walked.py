@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from made_scene import scene
 
-from opsim.viewer.walked import DRAWN_S, stand_ins
+from opsim.viewer.playback import DRAWN_S, stand_ins
 
 WALKS = st.lists(st.tuples(st.integers(0, 2), st.sampled_from([1.0, 2.0, 2.001, 7.5, 30.0])), max_size=60)
 

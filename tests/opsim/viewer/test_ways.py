@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from opsim.layout import ways
 from opsim.scenario.schema import Layout
-from opsim.viewer.ways import CORNER_M, Routes, at_m, eased_heading, length_m, smooth, without_doubles, wrapped
+from opsim.viewer.routes import CORNER_M, Routes, at_m, eased_heading, length_m, smooth, without_doubles, wrapped
 
 POINTS = st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=2, max_size=5).map(
     lambda points: without_doubles([(float(x), float(y)) for x, y in points])

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from opsim.report.offline import policy
+from opsim.report.page import policy
 from opsim.viewer.write import page_script, write_replay
 
 META = {"name": "base", "title": "A cell", "notes": [["Walking", "made up"]], "columns": {}}

@@ -17,7 +17,7 @@ import numpy as np
 from numba import config
 
 from opsim.engine.fast_engine.streams.generators import ManyBlocks
-from opsim.plan.tools import HoldPlan, Moment
+from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, _generator, _hashed, _key
 
 _LOOKED_AT = (*range(10), 1500, 99_999)
@@ -132,8 +132,8 @@ class HeldAtShares:
 
 def of_model(model: Any, effect: Any) -> Drawn:
     """Times of a model of this package that makes each of the luck of its own place, for a worker of this effect."""
+    from opsim.tasks.distributions import Fixed
     from opsim.tasks.model import ByNumbers, SharedTime
-    from opsim.tasks.simple import Fixed
 
     if isinstance(model, Fixed):
         return NoLuck(OfAKind(id(model), lambda n, rng: model.sample(n, rng).duration_s))
@@ -237,7 +237,7 @@ def _seconds(duration_s: Any) -> np.ndarray:
 @cache
 def _singly() -> frozenset[type]:
     from opsim import tasks
-    from opsim.tasks.counts import UniformCount
+    from opsim.tasks.model import UniformCount
 
     simple = (tasks.Fixed, tasks.Exponential, tasks.Geometric, tasks.Erlang, tasks.Uniform, tasks.Triangular)
     shared = (tasks.Lognormal, tasks.Gamma, tasks.Weibull, tasks.Hyperexponential, tasks.Normal, tasks.Beta)
@@ -246,7 +246,7 @@ def _singly() -> frozenset[type]:
 
 @cache
 def _switches() -> frozenset[type]:
-    from opsim.tasks.switched import BetweenOnly, NoSpread, Shuffled, WithinOnly
+    from opsim.tasks.variability import BetweenOnly, NoSpread, Shuffled, WithinOnly
 
     return frozenset((WithinOnly, BetweenOnly, NoSpread, Shuffled))
 

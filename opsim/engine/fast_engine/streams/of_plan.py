@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from opsim.effects import worker_effect
 from opsim.engine.fast_engine.streams.blocks import (
     Drawn,
     DrawnHeld,
@@ -27,10 +26,11 @@ from opsim.engine.fast_engine.streams.blocks import (
     uniforms,
 )
 from opsim.plan import BreakdownPlan, MaintenancePlan, Plan
-from opsim.plan.orders import ANY
-from opsim.plan.tools import HoldPlan
+from opsim.plan.sources import ANY
+from opsim.plan.tasks import HoldPlan
 from opsim.streams import _hashed, _words
-from opsim.task import TaskModel
+from opsim.task_model import TaskModel
+from opsim.worker_effects import worker_effect
 
 _KEPT = 4
 _last: list[LuckOfPlan] = []
@@ -137,7 +137,7 @@ def _products(source: Any) -> Drawn:
 
 
 def _ordered(orders: tuple) -> Callable[[np.ndarray], np.ndarray]:
-    """As ``opsim.plan.orders.order_of``, of many jobs: the last order that begins at a job or before, or the first."""
+    """As ``opsim.plan.sources.order_of``, of many jobs: the last order that begins at a job or before, or the first."""
     firsts = np.array([order.first for order in orders], np.int64)
     products = np.array([order.product for order in orders], np.int64)
     return lambda k: products[np.maximum(np.searchsorted(firsts, k, side="right") - 1, 0)]

@@ -22,7 +22,7 @@ from made_pool import POOL
 from twins import of_both, twins
 
 from opsim.engine.fast_engine import run_plan
-from opsim.ergonomics.shift.dose_rates import DoseRates
+from opsim.ergonomics.shift.worst import DoseRates
 from opsim.human.catalogue import models_of
 from opsim.log import BAD, BREAK, FINISH, HELD, OFF, REST, REWORK, WORK
 

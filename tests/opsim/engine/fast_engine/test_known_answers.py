@@ -30,7 +30,7 @@ from opsim.engine.floor import run_plan as run_simpy
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 
 ASKED = [*CASES, *staffing.CASES]
 VARIANTS = sorted({(case.file, case.variant) for case in ASKED} | {("bucket_brigade", name) for name in VELOCITIES})

@@ -4,7 +4,7 @@ Rows of tools: one for each piece, and waits that name the task whose tools were
 
 Crews in the compiled engine: each floor has something in it that goes from hand to hand, or waits behind another.
 
-Posts given out by compiled steps against ``opsim.posts``.
+Posts given out by compiled steps against ``opsim.layout``.
 
 Attended runs: the station's time and a worker who stays, also where somebody else does the rest of it.
 
@@ -26,8 +26,8 @@ from twins import twins
 
 from opsim.engine.fast_engine.machine import cast, complete, needed, step_of
 from opsim.engine.rules import ALLOCATION_RULES
+from opsim.layout import _one_each
 from opsim.log import BEHIND, BREAK, FINISH, HELD, NO_TOOL, TEAM, TOOL, TRANSPORT, WAIT, WALK, WORK
-from opsim.posts import _one_each
 
 CELL = """
 opsim: 1

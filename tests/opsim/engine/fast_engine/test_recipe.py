@@ -18,7 +18,7 @@ from opsim.engine.fast_engine.streams.blocks import (
     held,
     uniforms,
 )
-from opsim.plan.tools import HoldPlan, Moment
+from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, _hashed, _key
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, TimePerformances
 

@@ -12,8 +12,7 @@ from stand_in_engine import install_rule
 
 from opsim.engine.difference import difference
 from opsim.engine.floor import FloorOfPlan, allocation, run_plan
-from opsim.human.lffrm import Lffrm
-from opsim.human.state_pace import Schultz
+from opsim.human.fatigue import Lffrm, Schultz
 from opsim.log import WORK
 from opsim.plan import Plan, compile_plan
 from opsim.scenario import read_scenarios

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.kernels.arctan import arctan2_deg
+from opsim.ergonomics.kernels.postures import arctan2_deg
 
 PART = st.floats(-1e6, 1e6).filter(lambda part: abs(part) > 1e-12 or part == 0)
 

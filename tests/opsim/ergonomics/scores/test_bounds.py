@@ -2,8 +2,8 @@ from dataclasses import fields
 
 import pytest
 
-from opsim.ergonomics.scores.bounds import EITHER, NOTHING_OPEN, WALKING, bounds_of
-from opsim.plan.handling import Handling
+from opsim.ergonomics.scores.scoring import EITHER, NOTHING_OPEN, WALKING, bounds_of
+from opsim.plan.tasks import Handling
 
 SAID = Handling(8.0, "fair", "repeated", "end", True, True, "unbalanced", True)
 

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, Bounds, bounds_of
-from opsim.ergonomics.scores.explained import explain
-from opsim.ergonomics.scores.scoring import score
+from opsim.ergonomics.scores.explain import explain
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, Bounds, bounds_of, score
 from tests.opsim.ergonomics.made_measures import frames, said, upright
 
 STOOP = upright(trunk_flexion=70.0, neck_flexion=-10.0, left_arm_flexion=70.0, right_arm_flexion=70.0)

@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.ergonomics.scores.force import owas_load, reba_load, rula_force
+from opsim.ergonomics.scores.tables import owas_load, reba_load, rula_force
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 import pytest
 
-from opsim.ergonomics.scores.levels import owas_level, reba_level, rula_level
+from opsim.ergonomics.scores.tables import owas_level, reba_level, rula_level
 
 
 def test_every_score_has_the_level_of_its_paper():

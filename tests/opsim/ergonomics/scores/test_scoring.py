@@ -7,11 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.ergonomics.columns import AT, COLUMNS
+from opsim.ergonomics.angles import AT, COLUMNS
 from opsim.ergonomics.options import USUAL, Options, Thresholds
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, WALKING, Bounds, bounds_of
-from opsim.ergonomics.scores.scoring import ASKED, score
-from opsim.plan.handling import Handling
+from opsim.ergonomics.scores.scoring import ASKED, NOTHING_OPEN, WALKING, Bounds, bounds_of, score
+from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.made_measures import frames, said, upright
 from tests.opsim.ergonomics.naive_scores import naive_scores
 

@@ -8,10 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.shift.booking import Booking
-from opsim.ergonomics.shift.ledger import BINS, KEY
-from opsim.ergonomics.shift.stretch import WAITING, Frames
+from opsim.ergonomics.angles import AT, COLUMNS
+from opsim.ergonomics.shift.frames import WAITING, Frames
+from opsim.ergonomics.shift.ledger import BINS, KEY, Booking
 
 HOUR_S = 3600.0
 

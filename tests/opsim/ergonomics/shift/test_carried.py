@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from plans import plan, run_plan
 
-from opsim.ergonomics.scores.bounds import WALKING
-from opsim.ergonomics.shift.carried import carried_kg, carries
-from opsim.ergonomics.shift.day import days
-from opsim.ergonomics.shift.scored import said_of
-from opsim.ergonomics.shift.stretch import WALKING as WALKS
+from opsim.ergonomics.scores.scoring import WALKING
+from opsim.ergonomics.shift.day import days, said_of
+from opsim.ergonomics.shift.frames import WALKING as WALKS
+from opsim.ergonomics.shift.walks import carried_kg, carries
+from opsim.history import walk_rows
 from opsim.log import TRANSPORT, WALK
-from opsim.walks import walk_rows
 from tests.opsim.kpi.made_logs import made, row
 from tests.opsim.made_walks import walking
 

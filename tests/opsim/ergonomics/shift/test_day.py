@@ -7,16 +7,14 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.exposure import trunk_exposure
+from opsim.ergonomics.angles import AT, COLUMNS
 from opsim.ergonomics.options import Options
-from opsim.ergonomics.shift import seen
+from opsim.ergonomics.shift import day as seen
 from opsim.ergonomics.shift.day import days, hours_s
-from opsim.ergonomics.shift.standing import STANDING
-from opsim.ergonomics.shift.stretch import WAITING, WALKING
+from opsim.ergonomics.shift.frames import STANDING, WAITING, WALKING
+from opsim.ergonomics.trunk import trunk_exposure
 from opsim.log import BREAK, SETUP, WAIT, WALK, WORK
-from opsim.plan.handling import Handling
-from opsim.plan.tools import Moment
+from opsim.plan.tasks import Handling, Moment
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.made_walks import Walk, walking

@@ -4,8 +4,8 @@ import numpy as np
 import plans
 import pytest
 
-from opsim.ergonomics.shift import dose_rates
-from opsim.ergonomics.shift.dose_rates import DoseRates, dose_rates_of
+from opsim.ergonomics.shift import worst as dose_rates
+from opsim.ergonomics.shift.worst import DoseRates, dose_rates_of
 
 CELL = """
 opsim: 1

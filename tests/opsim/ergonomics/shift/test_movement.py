@@ -3,13 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.columns import COLUMNS
-from opsim.ergonomics.joints import CANONICAL
+from opsim.ergonomics.angles import CANONICAL, COLUMNS
 from opsim.ergonomics.measures import measures_of_joints
 from opsim.ergonomics.options import USUAL
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, bounds_of
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, bounds_of
 from opsim.ergonomics.shift.movement import Movement, alike, scored_movements, worst_postures
-from opsim.plan.handling import Handling
+from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.bodies import bent, standing
 
 

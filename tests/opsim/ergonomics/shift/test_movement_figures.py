@@ -1,10 +1,16 @@
 import numpy as np
 import pytest
 
-from opsim.ergonomics.columns import AT, COLUMNS
+from opsim.ergonomics.angles import AT, COLUMNS
 from opsim.ergonomics.scores.scoring import Scores
-from opsim.ergonomics.shift.movement import Movement, ScoredMovement
-from opsim.ergonomics.shift.movement_figures import Told, higher_arm_deg, movement_figures, unknown_share
+from opsim.ergonomics.shift.movement import (
+    Movement,
+    ScoredMovement,
+    Told,
+    higher_arm_deg,
+    movement_figures,
+    unknown_share,
+)
 
 
 def scored(rula, reba, owas, seconds, trunk=(), arms=()):

@@ -2,10 +2,9 @@ import numpy as np
 import pytest
 from plans import ran
 
-from opsim.ergonomics.scores.explained import explain
-from opsim.ergonomics.shift.fold import fold
-from opsim.ergonomics.shift.regions import REGIONS, Regions, points
-from opsim.ergonomics.shift.scored import said_of
+from opsim.ergonomics.scores.explain import explain
+from opsim.ergonomics.shift.day import fold, said_of
+from opsim.ergonomics.shift.ledger import REGIONS, Regions, points
 from opsim.kpi.exposure import exposure
 
 CELL = """

@@ -2,9 +2,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from opsim.ergonomics.shift.said import handlings
-from opsim.plan.handling import Handling
-from opsim.plan.tools import Moment
+from opsim.ergonomics.shift.frames import handlings
+from opsim.plan.tasks import Handling, Moment
 
 MODELS = {"lift": SimpleNamespace(mark_names=("grasp", "release")), "look": object()}
 

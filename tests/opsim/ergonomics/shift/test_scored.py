@@ -5,15 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.scores.bounds import NOTHING_OPEN, WALKING, bounds_of
-from opsim.ergonomics.scores.scoring import score
-from opsim.ergonomics.shift.fold import fold
-from opsim.ergonomics.shift.scored import said_of, scored
-from opsim.ergonomics.shift.standing import STANDING
-from opsim.ergonomics.shift.stretch import WAITING, Frames
-from opsim.ergonomics.shift.stretch import WALKING as WALKS
-from opsim.plan.handling import Handling
+from opsim.ergonomics.angles import AT, COLUMNS
+from opsim.ergonomics.scores.scoring import NOTHING_OPEN, WALKING, bounds_of, score
+from opsim.ergonomics.shift.day import fold, said_of, scored
+from opsim.ergonomics.shift.frames import STANDING, WAITING, Frames
+from opsim.ergonomics.shift.frames import WALKING as WALKS
+from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 from tests.opsim.kpi.made_logs import made, work
 

@@ -3,7 +3,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.shift.timeline import Minutes, timeline
+from opsim.ergonomics.shift.ledger import Minutes, timeline
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 from tests.opsim.ergonomics.shift.test_booking import frames
 from tests.opsim.kpi.made_logs import made, work

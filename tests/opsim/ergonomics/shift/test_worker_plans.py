@@ -1,9 +1,9 @@
 from types import SimpleNamespace
 
-from opsim.ergonomics.pieces import luck_of
-from opsim.ergonomics.shift.worker_plans import groups, models_of, plan_of
-from opsim.own_luck import OwnLuck
-from opsim.plan.handling import NOT_SAID, Handling
+from opsim.ergonomics.redraw import luck_of
+from opsim.ergonomics.shift.external import groups, models_of, plan_of
+from opsim.external_draws import OwnLuck
+from opsim.plan.tasks import NOT_SAID, Handling
 from opsim.tasks import Fixed
 
 BODY, OTHER = object(), object()

@@ -3,7 +3,7 @@ import pytest
 import simpy
 
 from opsim import Worker, WorkerLog
-from opsim.ergonomics.shift.worker_rows import natural, only, rows_of, whole_days
+from opsim.ergonomics.shift.external import natural, only, rows_of, whole_days
 from opsim.log import COLUMNS, OFF, WAIT, WORK
 from opsim.tasks import Fixed
 

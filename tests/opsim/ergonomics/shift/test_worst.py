@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from plans import ran
 
-from opsim.ergonomics.columns import AT
+from opsim.ergonomics.angles import AT
 from opsim.ergonomics.measures import measures_of_positions
-from opsim.ergonomics.shift.day import days
-from opsim.ergonomics.shift.fold import fold
-from opsim.ergonomics.shift.scored import scored
+from opsim.ergonomics.shift.day import days, fold, scored
 from opsim.ergonomics.shift.worst import WorstSeen, clock_of, worst_frames
-from opsim.plan.handling import Handling
+from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import made, work
 

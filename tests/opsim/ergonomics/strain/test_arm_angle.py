@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.columns import AT
-from opsim.ergonomics.joints import CANONICAL
-from opsim.ergonomics.posture_measures import measures_of_positions
-from opsim.ergonomics.strain.arm_angle import arm_angle_deg
+from opsim.ergonomics.angles import AT, CANONICAL
+from opsim.ergonomics.measures import measures_of_positions
+from opsim.ergonomics.strain.static_holds import arm_angle_deg
 from tests.opsim.ergonomics.bodies import arm, bent, standing, turn
 from tests.opsim.ergonomics.made_frames import made_frames
 

@@ -5,12 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.strain.bends import bending_kcal
-from opsim.ergonomics.strain.energy import Spent, energy, lifting_kcal
-from opsim.ergonomics.strain.garg import moved_kcal
-from opsim.plan.handling import Handling
-from opsim.plan.tools import Moment
-from opsim.plan.worker import Body
+from opsim.ergonomics.strain.energy import Spent, bending_kcal, energy, lifting_kcal, moved_kcal
+from opsim.plan.tasks import Handling, Moment
+from opsim.plan.workers import Body
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT
 from tests.opsim.ergonomics.strain.test_lifting import made_lifts

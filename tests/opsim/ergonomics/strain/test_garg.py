@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain import garg
+from opsim.ergonomics.strain import energy as garg
 
 
 @pytest.mark.parametrize(

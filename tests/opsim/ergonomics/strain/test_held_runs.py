@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.held_runs import RunsOf
+from opsim.ergonomics.strain.static_holds import RunsOf
 from tests.opsim.ergonomics.holding import naive_parts
 
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.hold_shares import hold_share
-from opsim.plan.worker import Body
+from opsim.ergonomics.strain.static_holds import hold_share
+from opsim.plan.workers import Body
 
 BODIES = [None, Body(), Body(mass_kg=60.0, height_m=1.65, sex="f"), Body(mass_kg=95.0, height_m=1.9, sex="m")]
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from opsim.ergonomics.columns import AT
-from opsim.ergonomics.strain.holds import CHANNELS, STATIC, STATIC_WORK, Holding, StaticMarker, marked
+from opsim.ergonomics.angles import AT
+from opsim.ergonomics.strain.static_holds import CHANNELS, STATIC, STATIC_WORK, Holding, StaticMarker, marked
 from tests.opsim.ergonomics.holding import Stretch, frames, naive_held
 
 TRUNK = list(CHANNELS).index("trunk")

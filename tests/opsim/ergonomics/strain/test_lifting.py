@@ -5,10 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.strain.lifting import composite_of, indices, too_often
-from opsim.ergonomics.strain.lifts import Lifts
-from opsim.ergonomics.strain.niosh import Lift, lifting_index
-from opsim.ergonomics.strain.niosh_composite import composite
+from opsim.ergonomics.strain.lifting import Lifts, composite_of, indices, too_often
+from opsim.ergonomics.strain.niosh import Lift, composite, lifting_index
 from opsim.plan.calendar import Duty
 from tests.opsim.ergonomics.made_work import BEND, COUNT
 from tests.opsim.ergonomics.strain.test_lifts import loaded_plan

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.lifting_orders import Kind, composite_range, least_multiplier
-from opsim.ergonomics.strain.niosh_composite import composite_index
+from opsim.ergonomics.strain.lifting_pattern import Kind, composite_range, least_multiplier
+from opsim.ergonomics.strain.niosh import composite_index
 
 
 def kind(low, high, per_min, cm=80.0):

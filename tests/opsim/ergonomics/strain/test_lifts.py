@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.columns import AT
-from opsim.ergonomics.strain.lifts import Lifted
-from opsim.plan.handling import Handling
+from opsim.ergonomics.angles import AT
+from opsim.ergonomics.strain.lifting import Lifted
+from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.limits import (
+from opsim.ergonomics.strain.posture_limits import (
     ACCEPTABLE,
     CONDITIONAL,
     EN_1005_4,

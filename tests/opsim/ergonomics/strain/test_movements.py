@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.movements import Movements, movements
+from opsim.ergonomics.strain.static_holds import Movements, movements
 
 
 def test_a_movement_begins_beyond_the_edge_and_ends_well_below_it():

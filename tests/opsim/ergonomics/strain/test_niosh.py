@@ -9,13 +9,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from opsim.ergonomics.strain.niosh import (
+    CM,
+    FM,
+    HOURS,
+    METRIC,
+    PER_MIN,
+    US,
     Lift,
     frequency_multiplier,
     lifting_index,
     multipliers,
     recommended_weight_limit,
 )
-from opsim.ergonomics.strain.tables_niosh import CM, FM, HOURS, METRIC, PER_MIN, US
 from tests.opsim.ergonomics.reference import reference
 
 WORDS = {"H": "horizontal", "V": "height", "D": "travel", "A": "asymmetry_deg", "F": "per_min", "dur": "hours"}

@@ -7,9 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.niosh import Lift, lifting_index
-from opsim.ergonomics.strain.niosh_composite import composite, composite_index
-from opsim.ergonomics.strain.tables_niosh import CM, US
+from opsim.ergonomics.strain.niosh import CM, US, Lift, composite, composite_index, lifting_index
 
 
 def test_a_composite_by_hand():

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plans import ran
 
-from opsim.ergonomics.strain.repetition import begun, repeated_rows
-from opsim.kpi.holds import repetitions
+from opsim.ergonomics.strain.posture_limits import begun, repeated_rows
+from opsim.kpi.strain import repetitions
 from opsim.log import COLUMNS, SETUP, WAIT
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 from tests.opsim.kpi.made_logs import made, row, work

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.rest_allowance import (
+from opsim.ergonomics.strain.energy import (
     holding_time_min,
     murrell_rest_share,
     of_whole,

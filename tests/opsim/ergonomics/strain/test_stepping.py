@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from opsim.ergonomics.columns import AT, COLUMNS
-from opsim.ergonomics.strain.stepping import stepping
+from opsim.ergonomics.angles import AT, COLUMNS
+from opsim.ergonomics.strain.energy import stepping
 
 
 def walks(left_m, right_m=0.0, every_s=0.1):

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from opsim.ergonomics.strain.holds import REGIONS
-from opsim.ergonomics.strain.still import Still
-from opsim.ergonomics.strain.zones import ZONED
+from opsim.ergonomics.strain.posture_limits import ZONED, Still
+from opsim.ergonomics.strain.static_holds import REGIONS
 from tests.opsim.ergonomics.made_frames import made_frames
 
 TRUNK = list(REGIONS).index("trunk")

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from opsim.ergonomics.strain.limits import CONDITIONAL, NOT_RECOMMENDED
-from opsim.ergonomics.strain.zones import per_minute, verdicts, zoned_angles_deg
+from opsim.ergonomics.strain.posture_limits import CONDITIONAL, NOT_RECOMMENDED, per_minute, verdicts, zoned_angles_deg
 from tests.opsim.ergonomics.made_frames import made_frames
 
 MINUTE_S, NEVER = np.arange(60.0), np.zeros(60, bool)

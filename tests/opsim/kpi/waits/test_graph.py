@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.kpi.waits.graph import Pool, circles, stuck
+from opsim.kpi.wait_graph import Pool, circles, stuck
 
 
 def held_by(*holders, free=0):

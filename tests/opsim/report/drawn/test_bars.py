@@ -2,8 +2,8 @@
 
 import pytest
 
-from opsim.report.drawn.bars import draw_bars
-from opsim.report.drawn.places import Scale
+from opsim.report.plot.matplotlib_axes import Scale
+from opsim.report.plot.matplotlib_marks import draw_bars
 
 matplotlib = pytest.importorskip("matplotlib")
 

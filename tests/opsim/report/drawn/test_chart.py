@@ -4,9 +4,9 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from opsim.report import figures
-from opsim.report.drawn.chart import chart_svg
-from opsim.report.section import Chart
+from opsim.report.page import Chart
+from opsim.report.plot import plotly as figures
+from opsim.report.plot.matplotlib_chart import chart_svg
 from tests.made_result import BOLD, SCRIPT, states
 
 matplotlib = pytest.importorskip("matplotlib")

@@ -1,7 +1,7 @@
 import csv
 
 from emulator.judge.paper import Table
-from opsim.report.paper.write import Picture, Section, cell, write_paper
+from opsim.report.motion.emulator_paper import Picture, Section, cell, write_paper
 
 
 def page(tmp_path, name="squat", words="ten repetitions"):

@@ -1,4 +1,4 @@
-from opsim.report.people.lines import compact, notes, overview, pairs, persons, title, total
+from opsim.report.motion.people import compact, notes, overview, pairs, persons, title, total
 from tests.made_people import NONE, found
 
 NOBODY = [NONE] * 4

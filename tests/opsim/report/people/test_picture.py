@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.report.people import picture
+from opsim.report.motion import people as picture
 from tests.made_people import NONE, found
 
 

@@ -1,7 +1,7 @@
 import csv
 import math
 
-from opsim.report.people.tables import FILES, as_plain, write_tables
+from opsim.report.motion.people import FILES, as_plain, write_tables
 from tests.made_people import found
 
 

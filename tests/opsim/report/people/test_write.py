@@ -1,7 +1,6 @@
 import re
 
-from opsim.report.people.tables import FILES
-from opsim.report.people.write import write_people
+from opsim.report.motion.people import FILES, write_people
 from tests.made_people import NONE, found
 
 

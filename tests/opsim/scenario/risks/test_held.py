@@ -5,9 +5,9 @@ from pathlib import Path
 from plans import plan
 
 from opsim.engine.floor import run_plan
-from opsim.kpi.locked import locked
+from opsim.kpi.deadlock import locked
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.risks import risks_of
+from opsim.scenario.warnings import risks_of
 
 HEAD = """
 opsim: 1

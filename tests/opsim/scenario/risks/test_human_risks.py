@@ -3,8 +3,8 @@
 import plans
 import pytest
 
-from opsim.plan.unmoved import unmoved_bodies
-from opsim.scenario.risks import risks_of
+from opsim.plan.model_warnings import unmoved_bodies
+from opsim.scenario.warnings import risks_of
 
 GOOD = """
 opsim: 1

@@ -2,7 +2,7 @@
 
 from plans import plan
 
-from opsim.study.assumed.assignment import assignment, qualities
+from opsim.study.assumptions.assignment import assignment, qualities
 
 TEXT = """
 opsim: 1

@@ -3,7 +3,7 @@
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.crews import crews
+from opsim.study.assumptions.assignment import crews
 
 TEXT = """
 opsim: 1

@@ -3,10 +3,10 @@
 import plans
 import pytest
 
-from opsim.ergonomics.scores.not_seen import NOT_SEEN, RULES
-from opsim.study.assumed.assumptions import assumptions_of
-from opsim.study.assumed.ergonomics import ergonomics
-from opsim.study.assumed.human import human
+from opsim.ergonomics.options import NOT_SEEN, RULES
+from opsim.study.assumptions.ergonomics import ergonomics
+from opsim.study.assumptions.human import human
+from opsim.study.assumptions.sheet import assumptions_of
 
 CELL = """
 opsim: 1

@@ -3,9 +3,8 @@
 from plans import loaded, plan
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.flow import flow
-from opsim.study.assumed.lines import lines
-from opsim.study.assumed.people import people
+from opsim.study.assumptions.flow import flow, lines
+from opsim.study.assumptions.people import people
 
 TEXT = """
 opsim: 1

@@ -5,9 +5,8 @@ import pytest
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
-from opsim.study.assumed.released import released
-from opsim.study.assumed.station_model import station_model
-from opsim.study.folder import OtherRun
+from opsim.study.assumptions.flow import released, station_model
+from opsim.study.results_folder import OtherRun
 
 TEXT = """
 opsim: 1

@@ -3,7 +3,7 @@
 import pytest
 from plans import plan
 
-from opsim.study.assumed.rotations import rotations
+from opsim.study.assumptions.assignment import rotations
 
 CELL = """
 opsim: 1

@@ -3,7 +3,7 @@
 import pytest
 from plans import plan
 
-from opsim.study.assumed.station_model import station_model
+from opsim.study.assumptions.flow import station_model
 
 LINE = """
 opsim: 1

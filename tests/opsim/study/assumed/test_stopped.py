@@ -4,8 +4,8 @@ import pytest
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.sources import task_sources
-from opsim.study.assumed.stopped import stopped
+from opsim.study.assumptions.flow import stopped
+from opsim.study.assumptions.sheet import task_sources
 
 TEXT = """
 opsim: 1

@@ -4,7 +4,7 @@ import pytest
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.assumptions import assumptions_of
+from opsim.study.assumptions.sheet import assumptions_of
 
 CELL = """
 opsim: 1

@@ -3,7 +3,7 @@
 from plans import loaded
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.flow import flow
+from opsim.study.assumptions.flow import flow
 
 TEXT = """
 opsim: 1

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from opsim.log_store import read_events
+from opsim.log_parquet import read_events
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
 from opsim.study import run_scenario
@@ -92,8 +92,8 @@ def test_the_resolved_scenario_runs_again_from_its_folder_alone(results, tmp_pat
 
 def test_the_report_shows_a_walk_of_the_run(results, tmp_path):
     from opsim.report import materials, write_report
-    from opsim.report.walked import section
-    from opsim.study.reopened import opened
+    from opsim.report.sections.walking import walking_section as section
+    from opsim.study.run import opened
 
     runs = {"on": opened(results["on"], read(CELL, results["on"].folder))}
     runs["off"] = opened(results["off"], read(WITHOUT, results["off"].folder))
@@ -125,6 +125,6 @@ def test_what_the_emulator_cannot_do_is_said_before_the_run(tmp_path, monkeypatc
 
 def test_a_speed_that_nobody_says_is_checked_too(tmp_path, monkeypatch):
     made_library(tmp_path, monkeypatch)
-    monkeypatch.setattr("opsim.scenario.checks.walking_emulator.USUAL_M_PER_S", 2.6)
+    monkeypatch.setattr("opsim.scenario.checks.motions.USUAL_M_PER_S", 2.6)
     with pytest.raises(ScenarioError, match=r"workers.ana.*cannot walk at 2\.6 m/s"):
         read(CELL.replace("walk: 1 m/s, ", ""), tmp_path)

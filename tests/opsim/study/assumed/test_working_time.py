@@ -4,8 +4,8 @@ import pytest
 from plans import loaded, plan
 
 from opsim.plan import compile_plan
-from opsim.study.assumed.assumptions import assumptions_of
-from opsim.study.assumed.working_time import working_time
+from opsim.study.assumptions.people import working_time
+from opsim.study.assumptions.sheet import assumptions_of
 
 TEXT = """
 opsim: 1

@@ -7,10 +7,10 @@ import pytest
 
 from opsim.problems import ScenarioError
 from opsim.study.jobs import Answers, Job, Point, Source
-from opsim.study.jobs import evaluate_here as workers
-from opsim.study.jobs.far_away import AT_A_TIME, OtherWorker
+from opsim.study.jobs import evaluate as workers
+from opsim.study.jobs.executors import AT_A_TIME, OtherWorker
+from opsim.study.jobs.job import Missing, Shard, ShardDone
 from opsim.study.jobs.journal import Journal
-from opsim.study.jobs.shard import Missing, Shard, ShardDone
 from tests.opsim.cli.calls import LINE, line
 
 POINTS = [Point(f"buffer {n}", {"stations.saw.buffer": n}, "base") for n in (1, 2)]
@@ -107,7 +107,7 @@ class Held:
 
 
 def test_an_executor_is_never_handed_all_jobs_at_once(source, monkeypatch):
-    monkeypatch.setattr("opsim.study.jobs.far_away.answer_far_away", lambda *_: workers.Answer.of([]))
+    monkeypatch.setattr("opsim.study.jobs.executors.answer_far_away", lambda *_: workers.Answer.of([]))
     answers = Answers(source, executor=Held())
     answers.ensure([Job(POINTS[0], n) for n in range(10 * AT_A_TIME)])
     assert Held.most == AT_A_TIME
@@ -152,7 +152,7 @@ def test_a_worker_without_what_is_needed_is_said(source, monkeypatch, error, say
     def fails(*_):
         raise error
 
-    monkeypatch.setattr("opsim.study.jobs.far_away.answer_far_away", fails)
+    monkeypatch.setattr("opsim.study.jobs.executors.answer_far_away", fails)
     with ThreadPoolExecutor(1) as threads, pytest.raises(OtherWorker, match=says):
         Answers(source, executor=threads).ensure(JOBS)
 
@@ -167,6 +167,6 @@ def test_a_worker_in_another_folder_reads_the_same_file(source, expected, tmp_pa
         assert os.path.isabs(source.file)
         return here(source, *rest)
 
-    monkeypatch.setattr("opsim.study.jobs.far_away.answer_far_away", elsewhere)
+    monkeypatch.setattr("opsim.study.jobs.executors.answer_far_away", elsewhere)
     assert np.array_equal(everything(answers), expected)
     threads.shutdown()

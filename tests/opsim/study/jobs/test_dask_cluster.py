@@ -12,7 +12,7 @@ def test_what_is_no_address_is_refused_with_what_is_expected(address):
 
 
 def test_somebody_who_is_no_scheduler_is_not_waited_for_for_ever(monkeypatch):
-    monkeypatch.setattr("opsim.study.jobs.dask_cluster.CONNECT_S", 0.2)
+    monkeypatch.setattr("opsim.study.jobs.executors.CONNECT_S", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         address = f"dask:tcp://127.0.0.1:{silent.getsockname()[1]}"
         with pytest.raises(OSError, match="no scheduler answers there"), executor_of(address):
@@ -20,7 +20,7 @@ def test_somebody_who_is_no_scheduler_is_not_waited_for_for_ever(monkeypatch):
 
 
 def test_without_dask_it_is_said_how_to_get_it(monkeypatch):
-    monkeypatch.setattr("opsim.study.jobs.dask_cluster.find_spec", lambda name: None)
+    monkeypatch.setattr("opsim.study.jobs.executors.find_spec", lambda name: None)
     with pytest.raises(ValueError, match=r"pip install opsim\[cluster\]"), executor_of("dask:tcp://127.0.0.1:1"):
         pass
 

@@ -1,8 +1,8 @@
 from dataclasses import replace
 
 from opsim.study.jobs import Point, Source
-from opsim.study.jobs import decides as module
-from opsim.study.jobs.decides import decided_by
+from opsim.study.jobs import evaluate as module
+from opsim.study.jobs.evaluate import decided_by
 from tests.opsim.cli.calls import LINE
 
 POINT = Point("two", {"stations.saw.buffer": 3}, "base")

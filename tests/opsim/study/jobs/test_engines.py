@@ -8,8 +8,9 @@ from stand_in_engine import install_rule, stand_in
 
 from opsim.engine.choice import NotFast
 from opsim.problems import ScenarioError
-from opsim.study.jobs import Answers, Job, Point, Source, engines
-from opsim.study.jobs.engines import Engines, shape_of
+from opsim.study.jobs import Answers, Job, Point, Source
+from opsim.study.jobs import evaluate as engines
+from opsim.study.jobs.evaluate import Engines, shape_of
 from opsim.study.jobs.folder import open_study
 from opsim.study.jobs.header import header_of
 from opsim.study.jobs.journal import Journal

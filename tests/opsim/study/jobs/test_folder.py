@@ -3,12 +3,12 @@ from dataclasses import replace
 
 import pytest
 
-from opsim.scenario.varied import Varied
+from opsim.scenario.study_checks import Varied
 from opsim.study.jobs import Job, Point, Source
 from opsim.study.jobs.folder import OtherStudy, open_study
 from opsim.study.jobs.header import differing, header_of, read_header
-from opsim.study.jobs.shard import Shard
-from opsim.study.lock import Busy
+from opsim.study.jobs.job import Shard
+from opsim.study.results_folder import Busy
 from tests.opsim.cli.calls import LINE, line
 
 POINT = Point("one", {"stations.saw.buffer": 1}, "base")
@@ -74,7 +74,7 @@ def test_a_study_of_another_kind_scenario_or_version_is_refused(tmp_path, source
     with pytest.raises(OtherStudy, match="25 s, now 26 s"), opened(tmp_path / "s", source):
         pass
     line(tmp_path, LINE)
-    monkeypatch.setattr("opsim.study.manifest.__version__", "9.9")
+    monkeypatch.setattr("opsim.study.results_folder.__version__", "9.9")
     clear()
     with pytest.raises(OtherStudy, match=r"opsim 0.*, now 9\.9"), opened(tmp_path / "s", source):
         pass
@@ -82,7 +82,8 @@ def test_a_study_of_another_kind_scenario_or_version_is_refused(tmp_path, source
 
 
 def clear():
-    from opsim.study.jobs import decides, evaluate
+    from opsim.study.jobs import evaluate
+    from opsim.study.jobs import evaluate as decides
 
     decides._made_from.cache_clear()
     evaluate._variant.cache_clear()

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.kpi.figure import Figure
-from opsim.study.jobs.answer import Answer
+from opsim.kpi.catalogue import Figure
+from opsim.study.jobs.job import Answer
 from opsim.study.jobs.journal import Journal
 
 FEW = ("throughput_per_h", "walked_m")

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.study.jobs.shard import Shard
+from opsim.study.jobs.job import Shard
 
 
 @given(st.integers(1, 40), st.integers(0, 200))

@@ -1,11 +1,10 @@
 """A small line of people who differ, with everything on that a budget may switch off; for tests of the study."""
 
 from opsim.plan import compile_plan
-from opsim.scenario.schema.studies.labour import Labour
-from opsim.scenario.varied import Varied
+from opsim.scenario.schema.studies import Labour
+from opsim.scenario.study_checks import Varied
 from opsim.study.jobs import Answers, Source
-from opsim.study.labour.study import labour
-from opsim.study.labour.tables import kept_figures
+from opsim.study.labour.study import kept_figures, labour
 
 LINE = """
 opsim: 1

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from opsim.study.labour.buy_back import curve_of
+from opsim.study.labour.interventions import curve_of
 
 RNG = np.random.default_rng(21)
 FULL = 60 + RNG.normal(size=(20, 4))

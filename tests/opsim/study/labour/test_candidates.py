@@ -3,7 +3,7 @@
 import pytest
 
 from opsim.plan import compile_plan
-from opsim.study.labour.candidates import more_skills, more_workers
+from opsim.study.labour.interventions import more_skills, more_workers
 from tests.opsim.study.labour.made import LINE, loaded, varied
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import bdtr, ndtr, ndtri
 
-from opsim.study.labour.day import chance, clopper_pearson, counts_as, quantile
+from opsim.study.labour.daily_output import chance, clopper_pearson, counts_as, quantile
 from tests.opsim.study.labour.test_parts import made
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from opsim.plan import compile_plan
-from opsim.study.labour.day_asked import day_asked, hours_and_days
+from opsim.study.labour.daily_output import day_asked, hours_and_days
 from tests.opsim.study.labour.made import LINE, loaded
 
 ALWAYS_OPEN = LINE.replace(", shift: early", "").replace(", absence: 0.1", "")

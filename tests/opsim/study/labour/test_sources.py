@@ -3,7 +3,7 @@
 import pytest
 
 from opsim.plan import compile_plan
-from opsim.study.labour.sources import changes_off, sources_on
+from opsim.study.labour.budget import changes_off, sources_on
 from tests.opsim.study.labour.made import LINE, loaded, varied
 
 ALL = [

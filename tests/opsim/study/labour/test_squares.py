@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 from scipy.special import fdtri
 
-from opsim.study.interval import t_interval
-from opsim.study.labour.squares import MeanSquare, difference_interval, mean_interval, squares_of, sum_interval
+from opsim.study.intervals import t_interval
+from opsim.study.labour.variance_components import (
+    MeanSquare,
+    difference_interval,
+    mean_interval,
+    squares_of,
+    sum_interval,
+)
 from tests.opsim.study.labour.test_parts import made
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from opsim.scenario.schema.studies.labour import Labour
+from opsim.scenario.schema.studies import Labour
 from opsim.study.labour.budget import figure_budget
-from opsim.study.labour.summary import labour_summary
+from opsim.study.labour.study import labour_summary
 from tests.opsim.study.labour.made import FEWER, found
 
 PEOPLE_ALIKE = FEWER.replace(", between_share: 0.5", "")

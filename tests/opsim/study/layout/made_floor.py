@@ -1,7 +1,7 @@
 """A small floor for tests of layouts: three stations in a row, two free places, one who carries every part."""
 
-from opsim.scenario.schema.studies.layout import LayoutStudy
-from opsim.scenario.varied import Varied
+from opsim.scenario.schema.studies import LayoutStudy
+from opsim.scenario.study_checks import Varied
 from opsim.study.jobs import Answers, Source
 from opsim.study.layout.study import asked_of
 

@@ -5,8 +5,8 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from opsim.study.layout import assign
-from opsim.study.layout.assign import Assignment, assigned, changes_step_by_step, costs
+from opsim.study.layout import quadratic_assignment as assign
+from opsim.study.layout.quadratic_assignment import Assignment, assigned, changes_step_by_step, costs
 
 NUG12_FLOW = np.array(
     [[int(x) for x in row.split()] for row in """

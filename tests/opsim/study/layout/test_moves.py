@@ -3,12 +3,12 @@
 import pytest
 import yaml
 
-from opsim.scenario.layout_moves import read_any_moved
+from opsim.scenario.fields import read_any_moved
 from opsim.scenario.read import read_scenarios
-from opsim.scenario.varied import Varied
+from opsim.scenario.study_checks import Varied
 from opsim.study.layout.floor import NoLayout, movable
 from opsim.study.layout.moves import Candidate, candidate, override_text
-from opsim.study.layout.words import said
+from opsim.study.layout.study import said
 from tests.opsim.study.layout.made_floor import FLOOR, asked, written
 
 

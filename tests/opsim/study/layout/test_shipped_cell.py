@@ -8,7 +8,7 @@ import pytest
 from study_evidence.layout import EACH, FILE, asked_for, drawn, shipped
 
 from opsim.study.jobs import Answers, Source
-from opsim.study.layout.judge import BEST, WALKED
+from opsim.study.layout.evaluate import BEST, WALKED
 from opsim.study.layout.study import study_layout
 
 NUMBER = 67

@@ -5,16 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from opsim.kpi.better import read_asked
-from opsim.report.layout_json import summary
-from opsim.report.layout_page import layout_page
-from opsim.report.study_page import study_html
+from opsim.kpi.catalogue import read_asked
+from opsim.report.page import study_html
+from opsim.report.studies.layout import layout_page
 from opsim.study.jobs import Job, Point
-from opsim.study.layout.choose import chosen
+from opsim.study.layout.evaluate import BEST, EXPOSURE, WALKED, _worst, against, exposure_asked, flows_of
 from opsim.study.layout.floor import NoLayout
-from opsim.study.layout.flows import flows_of
-from opsim.study.layout.judge import BEST, EXPOSURE, WALKED, _worst, against, exposure_asked
-from opsim.study.layout.study import NOW, study_layout
+from opsim.study.layout.study import NOW, chosen, study_layout, summary
 from tests.opsim.study.layout.made_floor import FLOOR, answers, asked, written
 
 

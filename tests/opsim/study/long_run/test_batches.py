@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 from opsim.study.long_run import batch_means
-from opsim.study.long_run.pieces import overlapping_half_width, pieces
+from opsim.study.long_run.batching import overlapping_half_width, pieces
 from tests.opsim.study.long_run.waits import autoregressions, mm1_waits, naive_waits, variance_of_mean
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.study.long_run.growing import beyond_luck, growth
+from opsim.study.long_run.diagnostics import beyond_luck, growth
 from tests.opsim.study.long_run.waits import mm1_waits
 
 

@@ -5,8 +5,17 @@ from plans import loaded, queue
 from opsim.log import CREATE, FINISH, QUEUE, STOCK, WORK, event_log, row
 from opsim.results import Result
 from opsim.study import run_scenario
-from opsim.study.long_run.looked import look
-from opsim.study.long_run.slices import DAY_S, FINE, WEEK_S, edges_of, jobs_in_a_row, people_at_work, sliced, waiting
+from opsim.study.long_run.steady_state import (
+    DAY_S,
+    FINE,
+    WEEK_S,
+    edges_of,
+    jobs_in_a_row,
+    look,
+    people_at_work,
+    sliced,
+    waiting,
+)
 
 NAMES = dict.fromkeys(("worker", "station", "source", "product", "operation", "task"), ("a",))
 

@@ -1,4 +1,4 @@
-from opsim.study.long_run.never_free import full_stations, nobody_free
+from opsim.study.long_run.diagnostics import full_stations, nobody_free
 
 
 def summary(*rows):

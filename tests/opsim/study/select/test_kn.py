@@ -5,7 +5,7 @@ import pytest
 from made_systems import normal_systems, slippage
 
 from opsim.study.select import Limit, Out, each, kn
-from opsim.study.select.rooms import UNMOVED
+from opsim.study.select.kn import UNMOVED
 
 TEN = [f"s{i}" for i in range(10)]
 FOUR = TEN[:4]

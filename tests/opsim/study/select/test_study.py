@@ -9,20 +9,16 @@ from pydantic import ValidationError
 from scipy import stats
 
 from opsim.problems import ScenarioError
-from opsim.report.select_page import select_page
-from opsim.report.select_rows import rows_of, welch_half_width
-from opsim.report.select_words import _flattered
-from opsim.report.study_page import study_html
-from opsim.scenario.schema.studies.select import Select
-from opsim.study.interval import Interval
+from opsim.report.page import study_html
+from opsim.report.studies.selection import select_page
+from opsim.report.studies.selection_charts import rows_of, welch_half_width
+from opsim.report.studies.selection_sentences import _flattered
+from opsim.scenario.schema.studies import Select
+from opsim.study.intervals import Interval
 from opsim.study.jobs import Job, Point
-from opsim.study.select.asking import Limit
-from opsim.study.select.candidates import candidates_of
-from opsim.study.select.observing import Replications
-from opsim.study.select.optuna_search import OptunaSearch
-from opsim.study.select.search import Trial, best_trials
-from opsim.study.select.study import _trial, choose, kept_of
-from opsim.study.select.summary import summary_of
+from opsim.study.select.search import OptunaSearch, Trial, best_trials, candidates_of
+from opsim.study.select.selection import Limit, Replications
+from opsim.study.select.study import _trial, choose, kept_of, summary_of
 
 KEYS = [("throughput_per_h", "", "", "1/h"), ("rula_mean", "", "worst", "1"), ("time_in_system_s", "", "", "s")]
 MEANS = {"base": (50, 5.0, 900), "three": (55, 4.0, 800), "five": (60, 4.5, 700), "nine": (62, 6.0, 650)}

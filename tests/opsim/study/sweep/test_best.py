@@ -1,7 +1,7 @@
 import numpy as np
 
-from opsim.study.interval import t_interval
-from opsim.study.sweep.best import best_of
+from opsim.study.intervals import t_interval
+from opsim.study.sweep.effects import best_of
 
 NAN = float("nan")
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from opsim.study.sweep.by_fit import effects_by_fit
 from opsim.study.sweep.designs import latin_hypercube
+from opsim.study.sweep.effects import effects_by_fit
 from opsim.study.sweep.factors import Factor
-from opsim.study.sweep.response import fit_response
+from opsim.study.sweep.response_surface import fit_response
 
 FACTORS = (Factor("a.b", (-1.0, 1.0), is_range=True), Factor("c.d", (-1.0, 1.0), is_range=True))
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from opsim.study.interval import t_interval
+from opsim.study.intervals import t_interval
 from opsim.study.sweep import grid, main_effects, tornado
 from opsim.study.sweep.effects import swing
 

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from opsim.scenario.schema.studies.between import NotARange, between, check_range, number_of, steps
+from opsim.scenario.schema.sweep import NotARange, between, check_range, number_of, steps
 from opsim.study.sweep.factors import UNCHANGED, Factor, factors_of_points
 
 SHARES = st.floats(0, 1, exclude_max=True)

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from opsim.scenario.schema.studies.sweep import Sweep
-from opsim.study.sweep.points import MOST_POINTS, points_of
+from opsim.scenario.schema.sweep import Sweep
+from opsim.study.sweep.factors import MOST_POINTS, points_of
 
 VARY = {"release.every": {"from": "40 s", "to": "60 s"}, "stations.saw.buffer": [1, 2, 4]}
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from opsim.study.sweep import fit_response, grid
-from opsim.study.sweep.terms import columns
+from opsim.study.sweep.response_surface import columns
 
 # Montgomery, Design and Analysis of Experiments, 8th ed., table 11.6: a central composite design and its yields
 CODED = [(-1, -1), (-1, 1), (1, -1), (1, 1), *[(0, 0)] * 5, (1.414, 0), (-1.414, 0), (0, 1.414), (0, -1.414)]

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from opsim.scenario.schema.studies.sweep import Sweep
-from opsim.study.interval import t_interval
-from opsim.study.sweep.designs import morris, saltelli
-from opsim.study.sweep.found import _sensitivity
-from opsim.study.sweep.points import points_of
-from opsim.study.sweep.sensitivity import morris_effects, sobol_indices
+from opsim.scenario.schema.sweep import Sweep
+from opsim.study.intervals import t_interval
+from opsim.study.sweep.designs import morris, morris_effects, saltelli, sobol_indices
+from opsim.study.sweep.factors import points_of
+from opsim.study.sweep.study import _sensitivity
 
 ALONE, TOTAL = (0.3139, 0.4424, 0.0), (0.5576, 0.4424, 0.2437)
 """Analytic, with a = 7 and b = 0.1. Source: Saltelli et al. 2008, Global Sensitivity Analysis, section 4.6."""

@@ -20,9 +20,9 @@ from opsim.engine.fast_engine.streams import generators, of_plan
 from opsim.engine.fast_engine.streams.of_plan import BlockDraws, Whole
 from opsim.engine.fast_engine.streams.seeds import product_high
 from opsim.plan import compile_plan
-from opsim.plan.failures import BreakdownPlan
-from opsim.plan.orders import ANY, OrderPlan
-from opsim.plan.tools import HoldPlan, Moment
+from opsim.plan.resources import BreakdownPlan
+from opsim.plan.sources import ANY, OrderPlan
+from opsim.plan.tasks import HoldPlan, Moment
 from opsim.scenario.read import read_scenarios
 from opsim.shipped import shipped_folder
 from opsim.streams import BLOCK

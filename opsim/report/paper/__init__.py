@@ -1,1 +1,0 @@
-"""The folder that ``opsim motion judge --paper`` writes: tables as CSV, figures as SVG, and an index page."""

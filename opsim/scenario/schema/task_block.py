@@ -1,0 +1,152 @@
+"""Tasks: how long a piece of work takes, said in exactly one way."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
+
+from opsim.scenario.fields import Load, Seconds, Whole, plain_error
+from opsim.scenario.schema.run import RULES
+from opsim.scenario.schema.tools import ATTENDED, Automatic, Handling, Hold, Loaded, Needs
+from opsim.scenario.tree import Block
+
+
+class TaskBlock(Block):
+    """What every task may say."""
+
+    load_kg: Load | None = Field(
+        None,
+        alias="load",
+        description="mass in both hands together; 0 kg: nothing heavy; absent: scores are intervals",
+        examples=["6 kg"],
+    )
+    loaded: Loaded | None = Field(
+        None,
+        description="when the load is in the hands; absent: all the time",
+        examples=["{from: grasp, to: release}"],
+    )
+    handling: Handling | None = Field(
+        None,
+        description="what no posture tells: grip, force, forearm, support",
+        examples=["{grip: fair, force: repeated}"],
+    )
+    repeat: Whole = Field(
+        1, ge=1, le=10_000, description="how often it is done, each with a draw of its own", examples=[3]
+    )
+    automatic: Automatic = Field(
+        False,
+        description="true: the station does it alone, no worker; attended: the station's time, and a worker stays",
+        examples=[True],
+    )
+    team: Whole = Field(
+        1,
+        ge=1,
+        le=100,
+        description="workers at once; none is sent before so many are free, the slowest ends it",
+        examples=[2],
+    )
+    needs: Needs = Field({}, description="so many of each tool, from when its worker sets out until the task is done")
+    hold: Hold | None = Field(
+        None,
+        description="a tool in the hands from one moment of each performance to another",
+        examples=["{tool: torque_gun, from: grasp, to: release}"],
+    )
+    interruption: RULES | None = Field(
+        None,
+        description="how it is left at breaks and at the end of the shift, whatever the shift says (at_break, at_end)",
+        examples=["finish"],
+    )
+    per: Literal["unit", "lot"] = Field("unit", description="done for each unit of a lot, or once for the lot")
+
+    @property
+    def words(self) -> str:
+        """Where the time comes from, in a few words, e.g. ``lognormal, mean 20 s, cv 0.25``."""
+        raise NotImplementedError
+
+    @model_validator(mode="after")
+    def _hands(self) -> TaskBlock:
+        """Who works, and with what in his hands."""
+        if self.team > 1 and self.automatic is True:
+            raise plain_error(
+                "nobody is needed where the station works alone", "write 'automatic: attended'", on="team"
+            )
+        if self.team > 1 and self.hold is not None:
+            hint = "take 'needs' for what the team works with, or make it a task of its own"
+            raise plain_error("a tool is held by one worker, and this task is done by a team", hint, on="hold")
+        if self.interruption is not None and self.automatic is True:
+            found = "no worker leaves what the station does alone"
+            raise plain_error(found, "remove 'interruption'", on="interruption")
+        if self.hold is not None and self.automatic is True:
+            hint = "take 'needs' for what the run takes as a whole"
+            raise plain_error("nobody holds a tool where the station works alone", hint, on="hold")
+        if self.automatic == ATTENDED and any(hasattr(self, kind) for kind in ("emulator", "motions", "plugin")):
+            hint = "give the station's time, such as 'fixed: 40 s'"
+            raise plain_error("a movement takes its worker's time, not the station's", hint, on="automatic")
+        return self
+
+
+class Emulated(TaskBlock):
+    """Duration and posture from a motion emulator: ``emulator: library/task``."""
+
+    emulator: str = Field(description="library/task", examples=["moves/deep_squat"])
+
+    @property
+    def library(self) -> str:
+        return self.emulator.partition("/")[0]
+
+    @property
+    def library_task(self) -> str:
+        return self.emulator.partition("/")[2]
+
+    @property
+    def words(self) -> str:
+        return f"emulator {self.emulator}"
+
+
+class Plugged(TaskBlock):
+    """Duration from an emulator that a plug-in brings: ``plugin: NAME`` and what is said to it, ``with: {...}``."""
+
+    plugin: str = Field(description="an installed emulator", examples=["mtm1_get_and_place"])
+    said: dict[str, Any] = Field(
+        {},
+        alias="with",
+        description="the emulator's parameters, quantities with their units",
+        examples=["{reach: 40 cm}"],
+    )
+
+    @property
+    def words(self) -> str:
+        said = ", ".join(f"{key} {value}" for key, value in self.said.items())
+        return f"plug-in {self.plugin}" + (f" with {said}" if said else "")
+
+
+class Fixed(TaskBlock):
+    """Always this long."""
+
+    fixed_s: Seconds = Field(alias="fixed", description="always this long", examples=["20 s"])
+
+    @property
+    def mean_s(self) -> float:
+        return self.fixed_s
+
+    @property
+    def words(self) -> str:
+        return f"fixed, {self.fixed_s:g} s"
+
+
+class Recorded(TaskBlock):
+    """Durations in seconds from a column of a CSV file.
+
+    resample: drawn again; trace: replayed in order; smooth: from their smoothed distribution.
+    """
+
+    recorded: str = Field(description="a CSV file in the scenario's folder", examples=["times.csv"])
+    column: str | None = Field(None, description="needed where the file has several columns", examples=["seconds"])
+    by: Literal["resample", "trace", "smooth"] = Field(
+        "resample", description="drawn again; in the file's order; or drawn from the smoothed distribution"
+    )
+
+    @property
+    def words(self) -> str:
+        return f"recorded, {self.recorded} ({self.by})"

@@ -1,0 +1,279 @@
+"""Batches that may never fill: too little room, or too few cards, for the jobs of every kind that wait for others.
+
+Products that are never made, never finished, or pile up.
+
+What is said and means nothing: figures without postures, patrols and paths without use, points nobody comes by.
+
+Distances that are likely slips: centimetres for metres, two names for one point, ways shorter than straight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from math import dist, inf
+from statistics import median
+
+from opsim.kpi.catalogue import EXPOSURE, POSTURE, WALKING
+from opsim.problems import natural_key
+from opsim.scenario.schema import Product, Release, Scenario, Station
+from opsim.scenario.warnings.routes import between, first_of, last_of, listed, points_of, way_of, ways
+
+
+def batch_risks(scenario: Scenario) -> Iterator[str]:
+    """Stations where jobs of each kind may all be one short of a batch, or that those on a server come back to."""
+    yield from _back_at_once(scenario)
+    for name in sorted(scenario.stations, key=natural_key):
+        station = scenario.stations[name]
+        if station.batch is None or station.batch.most_wait_s is not None:
+            continue
+        most = _kinds(name, station, scenario) * (station.batch.size - 1)
+        remedy = "give the batch a 'most_wait'"
+        if station.buffer is not None and station.buffer <= most and most >= station.batch.size:
+            yield (
+                f"{name} may fill up with jobs of different kinds, up to {most} of them, none of which is a batch of "
+                f"{station.batch.size}: then nothing moves any more; {remedy}, or more room"
+            )
+        for card in sorted(scenario.cards, key=natural_key):
+            if scenario.cards[card].n <= most and _inside(name, card, scenario):
+                yield (
+                    f"{scenario.cards[card].n} cards of {card} may all wait at {name} for a batch of "
+                    f"{station.batch.size} that never fills; {remedy}, or more cards"
+                )
+
+
+def _back_at_once(scenario: Scenario) -> Iterator[str]:
+    """Who shares a server cannot keep its place for the next visit: it needs one in the buffer."""
+    onward = ways(scenario)
+    for name in sorted(scenario.stations, key=natural_key):
+        station = scenario.stations[name]
+        shared = station.batch is not None or any(name in made.split for made in scenario.products.values())
+        if shared and station.buffer is not None and name in onward.get(name, ()):
+            yield (
+                f"jobs that share a server of {name} come back to it at once: when its buffer is full, nothing moves "
+                "any more; give it 'buffer: unlimited'"
+            )
+
+
+def _kinds(name: str, station: Station, scenario: Scenario) -> int:
+    """How many kinds of jobs come by that do not go together in a batch."""
+    assert station.batch is not None
+    passing = {product for product, made in scenario.products.items() if name in points_of(made)}
+    if station.batch.of == "family":
+        return len({scenario.products[product].family or product for product in passing})
+    return len(passing) if station.batch.of == "product" else 1
+
+
+def _inside(name: str, card: str, scenario: Scenario) -> bool:
+    """Whether every job that comes to a station holds a card of a loop."""
+    loop = scenario.cards[card]
+    passing = [product for product, made in scenario.products.items() if name in points_of(made)]
+    for product in passing:
+        made = scenario.products[product]
+        if loop.products is not None and product not in loop.products:
+            return False
+        if name not in between(way_of(made, scenario), loop.begin or first_of(made), loop.end or last_of(made)):
+            return False
+    return bool(passing)
+
+
+def unfinished_risks(scenario: Scenario) -> Iterator[str]:
+    """What no source makes, what waits for parts that do not come, what ends where nobody takes it."""
+    made = _made(scenario)
+    for name in sorted(scenario.products, key=natural_key):
+        product = scenario.products[name]
+        if made is not None and name not in made:
+            yield f"{name} is never made: no source makes it, and nothing is split into it"
+        for part, station in sorted((part, station) for station, parts in product.parts.items() for part in parts):
+            if made is not None and part not in made and name in made:
+                yield f"{name} cannot be finished: at {station} it waits for {part}, which is never made"
+            yield from _too_many(name, station, part, product.parts[station][part], scenario)
+        yield from _piles_up(name, product, scenario)
+
+
+def _made(scenario: Scenario) -> set[str] | None:
+    """The products that some source makes, or that something is split into; None where a file of orders says it."""
+    sources = [scenario.release] if scenario.release is not None else list(scenario.sources.values())
+    found: set[str] = set()
+    for source in sources:
+        some = _of_source(source, scenario)
+        if some is None:
+            return None
+        found |= some
+    todo = list(found)
+    while todo:
+        for pieces in scenario.products[todo.pop()].split.values():
+            new = set(pieces) - found
+            found |= new
+            todo += new
+    return found
+
+
+def _of_source(source: Release, scenario: Scenario) -> set[str] | None:
+    if source.products is not None:
+        return set(source.products)
+    if source.sequence is not None:
+        return None if isinstance(source.sequence, str) else set(source.sequence)
+    if source.kind == "base_stock":
+        return {name for name, product in scenario.products.items() if source.store in last_of(product)}
+    return None if source.kind == "schedule" else set(scenario.products)
+
+
+def _too_many(name: str, station: str, part: str, pieces: int, scenario: Scenario) -> Iterator[str]:
+    """More pieces at once than fit in the stores where they wait."""
+    stores = [scenario.stores[point] for point in last_of(scenario.products[part]) if point in scenario.stores]
+    room = sum(store.capacity or 0 for store in stores) * scenario.products[part].lot
+    pieces *= scenario.products[name].lot
+    if not stores or any(store.capacity is None for store in stores):
+        return
+    batch = scenario.stations[station].batch if station in scenario.stations else None
+    if room < pieces:
+        yield f"{name} cannot be finished: at {station} it takes {pieces} {part} at once, and {room} fit in store"
+    elif batch is not None and room < pieces * batch.size:
+        yield (
+            f"{batch.size} {name} in one batch at {station} take {pieces * batch.size} {part} at once, and {room} fit "
+            "in store: such a batch waits for ever; make room for more, or smaller batches"
+        )
+
+
+def _piles_up(name: str, product: Product, scenario: Scenario) -> Iterator[str]:
+    """A product that ends in a store and is part of nothing stays there."""
+    stores = [point for point in last_of(product) if point in scenario.stores]
+    taken = any(name in parts for other in scenario.products.values() for parts in other.parts.values())
+    if stores and not taken:
+        yield f"{name} ends in {stores[0]}, from which nothing takes it: it piles up there and is never finished"
+
+
+def unused_risks(scenario: Scenario) -> Iterator[str]:
+    """Every key that changes nothing."""
+    for part in (_points, _resources, _legs, _patrols, _paths, _no_bodies, _no_walking):
+        yield from part(scenario)
+
+
+def _points(scenario: Scenario) -> Iterator[str]:
+    """Stations, stores and conveyors that no product comes by."""
+    come_by = {name for made in scenario.products.values() for name in points_of(made)}
+    come_by |= {s.inspect.rework for s in scenario.stations.values() if s.inspect is not None and s.inspect.rework}
+    sections = (scenario.stations, scenario.stores, scenario.conveyors)
+    idle = sorted({name for section in sections for name in section} - come_by, key=natural_key)
+    if idle:
+        yield f"no product comes to {listed(idle)}: nothing will happen there"
+
+
+def _resources(scenario: Scenario) -> Iterator[str]:
+    """Tools and repair teams that nobody asks for."""
+    tools = {name for block in (*scenario.stations.values(), *scenario.tasks.values()) for name in block.needs}
+    tools |= {task.hold.tool for task in scenario.tasks.values() if task.hold is not None}
+    teams = {stop.team for station in scenario.stations.values() for stop in station.breakdowns.values()}
+    teams |= {stop.team for station in scenario.stations.values() for stop in station.maintenance.values()}
+    for what, there, used in (
+        ("tool", scenario.tools, tools),
+        ("repair team", scenario.repair_teams, teams),
+    ):
+        idle = sorted(set(there) - used, key=natural_key)
+        if idle:
+            yield f"{what} {listed(idle)}: nothing needs {'it' if len(idle) == 1 else 'them'}"
+
+
+def _legs(scenario: Scenario) -> Iterator[str]:
+    """Legs of transporters that no job goes: a job from outside, or taken from a store, is not brought."""
+    onward = ways(scenario)
+    for name in sorted(scenario.transporters, key=natural_key):
+        legs = scenario.transporters[name].legs
+        idle = [f"from {before} to {after}" for before, after in legs if after not in onward.get(before, ())]
+        if idle:
+            yield f"no product goes {listed(idle)}: {name} has nothing to bring there"
+
+
+def _patrols(scenario: Scenario) -> Iterator[str]:
+    walkers = [name for name, worker in scenario.workers.items() if worker.patrol is not None]
+    if walkers and scenario.allocation.idle != "patrol":
+        who = f"{walkers[0]} has a patrol" if len(walkers) == 1 else f"{listed(walkers)} have patrols"
+        yield f"{who}, which means nothing while idle workers {scenario.allocation.idle}"
+
+
+def _paths(scenario: Scenario) -> Iterator[str]:
+    if scenario.layout.paths is not None and scenario.layout.distance != "paths":
+        yield f"the paths of the layout mean nothing with distance: {scenario.layout.distance}"
+
+
+def _no_bodies(scenario: Scenario) -> Iterator[str]:
+    """Postures are asked for, and every task is a time without a body; what a plug-in gives is not known here."""
+    asked = [name for name in scenario.outputs if name in (*POSTURE, *EXPOSURE) and name not in WALKING]
+    kinds = ("emulator", "motions", "plugin")
+    may_have = [task for task in scenario.tasks.values() if any(hasattr(task, kind) for kind in kinds)]
+    if asked and not may_have and scenario.walking is None:
+        yield f"outputs: {listed(asked)} made from postures, and no task has an emulator: nothing will be measured"
+
+
+def _no_walking(scenario: Scenario) -> Iterator[str]:
+    """Figures of walking are asked for, and nothing says how people walk."""
+    asked = [name for name in scenario.outputs if name in WALKING]
+    if asked and scenario.walking is None:
+        yield (
+            f"outputs: {listed(asked)} made from postures of walking, and nothing says how people walk: add "
+            "'libraries: {walking: libraries/walking.npz}' and 'walking: {emulator: walking/walk}'"
+        )
+
+
+FAR = 20
+"""Times as far from everything as places usually are from each other."""
+FAR_M, NEAR_M = 50.0, 1.0
+MOST_PLACES = 300
+"""For which each is compared with every other one."""
+STRAIGHT = 0.99
+"""Of the straight line: what is shorter cannot be walked."""
+LONG = 10
+Places = Mapping[str, tuple[float, float]]
+
+
+def distance_risks(scenario: Scenario) -> Iterator[str]:
+    """Places far away or in one point, a layout the size of a table, ways of an impossible length."""
+    places = scenario.layout.places
+    if len(places) <= MOST_PLACES:
+        yield from _far(places)
+        yield from _one_point(places)
+        yield from _tiny(places)
+    yield from _lengths(scenario)
+
+
+def _far(places: Places) -> Iterator[str]:
+    nearest = {
+        name: min((dist(at, places[o]) for o in places if o != name), default=0.0) for name, at in places.items()
+    }
+    usual = median(nearest.values()) if nearest else 0.0
+    for name in sorted(places, key=natural_key):
+        if nearest[name] > max(FAR * usual, FAR_M) and usual > 0:
+            yield f"{name} is {nearest[name]:g} m from the nearest other place, others {usual:g} m: is it in metres?"
+
+
+def _one_point(places: Places) -> Iterator[str]:
+    names_at: dict[tuple[float, float], list[str]] = {}
+    for name in sorted(places, key=natural_key):
+        x, y = places[name]
+        names_at.setdefault((x, y), []).append(name)
+    for names in names_at.values():
+        if len(names) > 1:
+            yield f"{listed(names)} are in one and the same point: no way between them"
+
+
+def _tiny(places: Places) -> Iterator[str]:
+    widest = max((dist(a, b) for a, b in combinations(places.values(), 2)), default=inf)
+    if len(places) > 2 and 0 < widest < NEAR_M:
+        yield f"all places lie within {widest:g} m: are they in metres?"
+
+
+def _lengths(scenario: Scenario) -> Iterator[str]:
+    """Lengths that are given, against the straight line between the ends."""
+    places = scenario.layout.places
+    given = [("the path", way.start, way.end, way.length_m) for way in scenario.layout.path_steps]
+    given += [(f"conveyor {name},", belt.start, belt.end, belt.length_m) for name, belt in scenario.conveyors.items()]
+    for what, start, end, length_m in given:
+        if length_m is None:
+            continue
+        straight_m = dist(places[start], places[end])
+        said = f"{what} from {start} to {end} is {length_m:g} m long, the straight line {straight_m:g} m"
+        if length_m < STRAIGHT * straight_m:
+            yield f"{said}: nothing is shorter than straight"
+        elif length_m > LONG * straight_m > 0:
+            yield f"{said}: is it in metres?"
