@@ -17,6 +17,18 @@ MAY_MEET_THE_EMULATOR = ("opsim/cli/", "opsim/libraries.py")
 COMPILED = ("opsim/ergonomics/kernels/", "opsim/engine/fast_engine/")
 """Imported inside functions only, so numba may stand at the top there."""
 
+LAYERS = (
+    "units problems clock streams files log log_parquet shipped libraries results csv_input threads pool checkup "
+    "task_model performance worker_effects engine.rules kpi.catalogue",
+    "plugins",
+    "scenario plan tasks human ergonomics kpi laws layout history external_draws external_log external_worker",
+    "engine export fitting",
+    "floor study",
+    "report",
+    "viewer notebook cli",
+)
+"""Modules and packages of opsim: what stands lower knows nothing of what stands above it; the foot first."""
+
 
 def modules(package: str) -> dict[str, Path]:
     def name(path: Path) -> str:
@@ -83,6 +95,25 @@ def test_no_import_cycles(package):
     done: set[str] = set()
     for start in graph:
         _visit(start, graph, [], done)
+
+
+def layer_of(module: str) -> int:
+    """The place in LAYERS of the longest beginning that is named there."""
+    places = {name: place for place, names in enumerate(LAYERS) for name in names.split()}
+    parts = module.split(".")[1:]
+    return next(places[name] for n in range(len(parts), 0, -1) if (name := ".".join(parts[:n])) in places)
+
+
+def test_imports_of_opsim_go_down_only():
+    """Within a layer as well as below it; inside functions they are free."""
+    known = {name: path for name, path in modules("opsim").items() if name not in ("opsim", "opsim.__main__")}
+    up = [
+        f"{name} imports {other}"
+        for name, path in known.items()
+        for other in needed(path, known)
+        if layer_of(other) > layer_of(name)
+    ]
+    assert not up, up
 
 
 def needed(path: Path, known: Collection[str]) -> set[str]:
