@@ -45,7 +45,7 @@ def say(name: str, what: str, error: BaseException) -> None:
 ENGINE = Path(__file__).parents[1]
 OPSIM = ENGINE.parents[1]
 COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
-SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "log", "one_thread", "posts", "streams"))
+SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "layout", "log", "streams", "threads"))
 """Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
 SEEN_FROM_PYTHON = ("arena.py", "calling.py", "code_cache.py", "table.py", "__init__.py")
 """Nothing of these is compiled."""
