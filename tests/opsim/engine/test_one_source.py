@@ -5,7 +5,7 @@ from engine_evidence.mutants import make_sound_code
 from engine_evidence.one_source import FAULTS, FLOORS, caught
 
 CAUGHT_BY = {
-    "wrong_tie": {"golden"},
+    "wrong_tie": {"twins", "golden"},
     "stale_timeout": {"twins", "golden"},
     "lost_interruption": {"twins", "audit", "sanitizer"},
     "begun_twice": {"twins", "audit", "sanitizer"},
