@@ -3,10 +3,10 @@
 | group | an entry point names |
 |---|---|
 | ``opsim.emulators`` | a callable that takes parameters by name and gives a TaskModel (``opsim/task_model.py``) |
-| ``opsim.dispatch`` | a rule: a callable with the arguments of those in ``engine/rules/allocation.py``, giving a key |
-| ``opsim.sequencing`` | which waiting job is next, by ``flow.dispatch``: as those in ``engine/rules/sequencing.py`` |
-| ``opsim.routing`` | which of several stations it goes to, by ``flow.routing``: those in ``engine/rules/routing.py`` |
-| ``opsim.rotation`` | who takes a post, by the ``rule`` of a rotation: as those in ``engine/rules/rotation.py`` |
+| ``opsim.dispatch`` | a rule: a callable with the arguments of those in ``engine/rules.py``, giving a key |
+| ``opsim.sequencing`` | which waiting job is next, by ``flow.dispatch``: as those in ``engine/rules.py`` |
+| ``opsim.routing`` | which of several stations it goes to, by ``flow.routing``: those in ``engine/rules.py`` |
+| ``opsim.rotation`` | who takes a post, by the ``rule`` of a rotation: as those in ``engine/rules.py`` |
 | ``opsim.stations`` | a callable that takes parameters by name and gives the block of a station as a scenario has it |
 | ``opsim.human`` | nothing yet; the name is kept free |
 
