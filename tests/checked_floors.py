@@ -6,7 +6,7 @@ import re
 from random import Random
 
 import numpy as np
-from made_floors import FOLDER, text_of
+from made.floors import FOLDER, text_of
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import figures

@@ -8,7 +8,7 @@ from copy import deepcopy
 import numpy as np
 from checked_floors import differ, plan_of
 from contests import stays_on
-from made_floors import text_of
+from made.floors import text_of
 
 from opsim import log as kinds
 from opsim.engine.floor import run_plan

@@ -4,7 +4,7 @@ import pytest
 
 from opsim.report.plot.animation import write_animated
 from tests.browser.chromium import Watched, browser
-from tests.made_cards import SKELETON, cards
+from tests.made.cards import SKELETON, cards
 
 pytestmark = pytest.mark.browser
 PAPER = """(letter => {

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_scene import packed_scene, run_of, scene
+from made.scene import packed_scene, run_of, scene
 
 from opsim.ergonomics.angles import elbow_bend_rad, knee_bend_rad, trunk_angles, upper_arm_angles
 from opsim.log import WORKER_KINDS

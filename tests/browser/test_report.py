@@ -24,7 +24,7 @@ from opsim.report.sections import worker_timeline as days
 from opsim.report.sections.worker_timeline import Strip, draw_day, legend
 from tests.browser.axe import serious
 from tests.browser.chromium import Watched, browser
-from tests.made_result import NAMES, SCRIPT, hostile, material, summary
+from tests.made.result import NAMES, SCRIPT, hostile, material, summary
 
 pytestmark = pytest.mark.browser
 STRIP = b'<svg xmlns="http://www.w3.org/2000/svg" width="900" height="300"><circle cx="40" cy="40" r="9"/></svg>'

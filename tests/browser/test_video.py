@@ -7,7 +7,7 @@ from PIL import Image
 from opsim.report.plot.video import Film, posture, write_video
 from tests.browser.chromium import Watched, browser
 from tests.browser.test_animated import ink, seek
-from tests.made_cards import video
+from tests.made.cards import video
 
 pytestmark = pytest.mark.browser
 

@@ -9,8 +9,8 @@ from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import Footing, Legs, bend, on_its_feet, prints, standing, stood
 from emulator.motion import turn
 from emulator.skeleton import Skeleton
-from tests import naive_footing
 from tests.emulator.fitted import made, recorded
+from tests.naive import footing as naive_footing
 
 RATE_HZ = 60.0
 

@@ -24,12 +24,12 @@ from engine_evidence.more_stations import STATIONS_MORE
 from engine_evidence.more_times import TIMES, Values
 from engine_evidence.targets import TARGETS
 from engine_evidence.ties import contested_ties
-from made_blocks import BLOCKS, floor_with
-from made_brigades import scenario as brigade_text
-from made_crews import CREWS
-from made_floors import text_of
-from made_lines import line_scenario
-from made_people_blocks import ALWAYS, PEOPLE, people_floor_with
+from made.blocks import BLOCKS, floor_with
+from made.brigades import scenario as brigade_text
+from made.crews import CREWS
+from made.floors import text_of
+from made.lines import line_scenario
+from made.people_blocks import ALWAYS, PEOPLE, people_floor_with
 
 from opsim.engine.floor import run_plan
 from opsim.log import FINISH

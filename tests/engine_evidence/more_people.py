@@ -7,7 +7,7 @@ from typing import Any
 
 from engine_evidence.more_material import plain_stations
 from engine_evidence.more_times import Values, emulated
-from made_troubles import held_tools, preempted_setups, round_runs
+from made.troubles import held_tools, preempted_setups, round_runs
 
 LEARNING: tuple[Values, ...] = (
     {"model": "wright", "rate": 0.85},

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import simpy
-from made_shops import begun, ran
+from made.shops import begun, ran
 
 from opsim import Worker
 from opsim.engine.rules import ALLOCATION_RULES

@@ -22,7 +22,7 @@ from emulator.motion import turn
 from emulator.recordings.npz import read_recording
 from emulator.recordings.take import Take
 from emulator.skeleton import Skeleton, standard_skeleton
-from tests.made_rowing import RATE_HZ, made_rowing
+from tests.made.rowing import RATE_HZ, made_rowing
 from tests.take_evidence import cyclic_figures as figures
 
 STYLES = ("active", "elderly", "exhausted", "feminine", "masculine", "normal", "youthful")

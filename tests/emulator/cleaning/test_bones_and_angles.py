@@ -18,7 +18,7 @@ from emulator.cleaning.bones_and_angles import (
 from emulator.cleaning.marker_errors import without_offsets
 from emulator.cleaning.settings import LIMITS, limits_for
 from emulator.skeleton import Skeleton
-from tests.made_takes import clean, error_m, spoilt
+from tests.made.takes import clean, error_m, spoilt
 
 
 def breathing(share=0.1):

@@ -6,7 +6,7 @@ import pytest
 from emulator.cleaning import CleaningSettings
 from emulator.cleaning.gaps import without_gaps
 from emulator.cleaning.smoothing import coordinate_noise_m, filtered, highest_hz, residual_analysis, smoothed
-from tests.made_takes import clean, error_m, spoilt
+from tests.made.takes import clean, error_m, spoilt
 
 
 def unseen(joint, first, last):

@@ -6,7 +6,7 @@ import pytest
 from emulator.cleaning import CleaningSettings
 from emulator.cleaning.bones_and_angles import median_lengths_m
 from emulator.cleaning.marker_errors import mirrored, without_slips, without_swaps
-from tests.made_takes import clean, error_m, spoilt
+from tests.made.takes import clean, error_m, spoilt
 
 
 def slipped(first, last, share=0.3):

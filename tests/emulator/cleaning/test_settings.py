@@ -5,7 +5,7 @@ import pytest
 
 from emulator.cleaning import POLICIES, CleaningSettings, cleaned, settings_of
 from emulator.cleaning.settings import beyond_rate, mistakes, size_m
-from tests.made_takes import clean
+from tests.made.takes import clean
 
 
 def test_the_first_policy_is_what_is_done_unless_asked():

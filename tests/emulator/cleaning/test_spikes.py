@@ -6,7 +6,7 @@ import pytest
 from emulator.cleaning import CleaningSettings, cleaned
 from emulator.cleaning.spikes import largest_beside, surprise_m, surprise_vectors_m, violent_steps, without_jumps
 from emulator.skeleton import Skeleton
-from tests.made_takes import clean, error_m, spoilt
+from tests.made.takes import clean, error_m, spoilt
 
 
 def away(joint, first, long, by_m):

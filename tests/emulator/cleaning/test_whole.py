@@ -16,7 +16,7 @@ from emulator.motion import turn
 from emulator.recordings.npz import read_recording
 from emulator.recordings.take import Recording
 from emulator.synthetic.choreography import TASKS
-from tests.made_takes import clean, error_m, same, spoilt
+from tests.made.takes import clean, error_m, same, spoilt
 from tests.recordings import recording
 
 EVERYTHING = CleaningSettings(bones="mend", offsets="mend", angles="mend")

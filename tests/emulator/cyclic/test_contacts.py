@@ -27,7 +27,7 @@ from emulator.motion import stretches
 from emulator.recordings.npz import read_recording
 from emulator.skeleton import standard_skeleton
 from emulator.synthetic.walking import make_walks
-from tests.made_rowing import RATE_HZ, made_rowing
+from tests.made.rowing import RATE_HZ, made_rowing
 from tests.naive import naive_chain
 from tests.recordings import recording
 

@@ -5,7 +5,7 @@ import pytest
 
 from emulator.cyclic.latent import PoseLatent, leg_length_m, path_of, poses_of, positions_of
 from emulator.skeleton import standard_skeleton
-from tests.made_rowing import RATE_HZ, made_rowing
+from tests.made.rowing import RATE_HZ, made_rowing
 
 SKELETON = standard_skeleton()
 

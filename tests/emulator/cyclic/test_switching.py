@@ -9,7 +9,7 @@ from emulator.cyclic.latent import PoseLatent, poses_of
 from emulator.cyclic.switching_dynamics import TRIES, Support, SwitchingDynamics, distance, held_out_distances
 from emulator.skeleton import standard_skeleton
 from tests.emulator.cyclic.formulas import X, Y
-from tests.made_rowing import RATE_HZ, made_rowing
+from tests.made.rowing import RATE_HZ, made_rowing
 from tests.naive import naive_steps
 
 

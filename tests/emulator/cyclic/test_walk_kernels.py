@@ -16,7 +16,7 @@ from emulator.kernels.switching import beat, fading, made_whole, squared
 from emulator.kernels.warping import monotone
 from emulator.model.library import MotionLibrary
 from emulator.motion import stretches
-from tests.naive_walk import (
+from tests.naive.walk import (
     naive_beat,
     naive_gaps,
     naive_hung,

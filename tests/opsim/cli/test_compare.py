@@ -2,6 +2,12 @@ import json
 
 import pytest
 
+from opsim.cli.compare import check_asked, frontier_texts
+from opsim.human.catalogue import EFFECTS, catalogue
+from opsim.plan import compile_plan
+from opsim.plan.workers import NO_EFFECTS
+from opsim.scenario.read import scenarios_in
+from tests.human_plans import LINE as LINE_of_compare_asked
 from tests.opsim.cli.calls import LINE, line, opsim
 
 TWO = LINE.replace("replications: 2", "replications: 3") + (
@@ -149,3 +155,77 @@ def test_damaged_figures_are_named(results, tmp_path):
     (tmp_path / "copy" / "wider" / "kpis.parquet").write_bytes(b"PAR1")
     code, _, complaint = opsim("compare", tmp_path / "copy")
     assert code == 2 and "wider/kpis.parquet" in complaint
+
+
+HUMAN = """
+human: {fatigue: {model: lffrm}}
+overrides: {off: {human: null}}
+scenarios: {base: [], plain: [off]}
+"""
+
+
+@pytest.fixture(scope="module")
+def variants(tmp_path_factory):
+    return scenarios_in((LINE_of_compare_asked + HUMAN).encode(), tmp_path_factory.mktemp("asked") / "line.yaml")
+
+
+def refused(variants, *words):
+    with pytest.raises(ValueError) as error:
+        check_asked(variants, *words)
+    return str(error.value).splitlines()
+
+
+def test_all_that_is_wrong_is_said_at_once(variants):
+    said = refused(variants, "bass", ["walked"], "queue_length/d,worker_states/ana/wait")
+    assert said[0].startswith("no variant 'bass' to compare with; did you mean 'base'")
+    assert said[1].startswith("no figure 'walked'") and said[2].startswith("queue_length/d: no station 'd'")
+    assert said[3].startswith("worker_states/ana/wait: which way is better depends on who asks") and len(said) == 4
+
+
+def test_what_can_be_had_is_not_refused(variants):
+    check_asked(variants, "base", ["walked_m"], "throughput_per_h,fatigue_mean")
+    check_asked(variants, "base", [], "throughput_per_h,queue_length/a")
+    check_asked(variants, "base", [], None)
+
+
+def test_figures_of_postures_that_no_run_makes_and_one_figure_twice_are_refused(variants):
+    assert "'outputs' list it" in refused(variants, "base", ["rula_mean"], None)[0]
+    assert "two different figures" in refused(variants, "base", [], "walked_m/ana, walked_m/ana")[0]
+    assert frontier_texts("a , b") == ["a", "b"] and frontier_texts(None) is None
+
+
+def test_human_null_in_an_override_switches_all_effects_off(variants):
+    assert compile_plan(variants["plain"]).human is NO_EFFECTS
+    assert compile_plan(variants["base"]).human.fatigue is not None
+
+
+def test_every_effect_is_listed_with_its_source():
+    code, shown, _ = opsim("effects")
+    assert code == 0
+    assert all(one.model in shown and one.source[:20] in shown for one in catalogue())
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_every_parameter_of_an_effect_is_listed(effect):
+    code, shown, _ = opsim("effects", effect)
+    assert code == 0
+    names = [one.name.removesuffix("_s") for found in catalogue() if found.effect == effect for one in found.parameters]
+    assert all(name in shown for name in names)
+
+
+def test_machines_get_defaults_and_neutral_values():
+    code, shown, _ = opsim("effects", "circadian", "--json")
+    (one,) = json.loads(shown)["effects"]
+    amplitude = {"name": "amplitude", "unit": "", "default": 0.05, "neutral": 0.0}
+    assert code == 0 and one["model"] == "cosine" and amplitude.items() <= one["parameters"][0].items()
+
+
+def test_an_unknown_effect_is_a_mistake_with_the_nearest_word():
+    assert opsim("effects", "fatige" if "fatigue" in EFFECTS else "learnin")[0] == 2
+    code, _, complaint = opsim("effects", "learnin")
+    assert code == 2 and complaint == "no effect 'learnin'; did you mean 'learning'?\n"
+
+
+def test_keys_of_all_effects_are_told_below_the_table():
+    _, shown, _ = opsim("effects")
+    assert "acts_on: posture" in shown and "absence: 0.05" in shown

@@ -1,10 +1,21 @@
+"""What is asked of ``opsim motion show`` and does not go together: every mistake at once, and nothing is written.
+
+``opsim motion sample -o x.bvh``: drawn performances for programs of animation.
+
+No verb of ``opsim motion`` writes over what it reads, nor a library over a recording or the other way round.
+"""
+
 import csv
 import json
+import shutil
 
 import numpy as np
 import pytest
 
+import emulator
 from emulator import MotionLibrary, read_motions
+from emulator.recordings.bvh import read_bvh
+from emulator.recordings.npz import read_recording
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 from tests.recordings import recording
@@ -160,3 +171,190 @@ def test_show_as_json_is_json(tmp_path):
 def test_show_refuses_another_ending(tmp_path):
     code, _, complaint = opsim("motion", "show", BENCH, "reach", "-o", tmp_path / "x.gif")
     assert code == 2 and ".png or .svg" in complaint
+
+
+MOTION_ASKED_BENCH = shipped_folder() / "libraries" / "bench_work.npz"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def complaint_on(*words):
+    code, said, complaint = opsim("motion", "show", MOTION_ASKED_BENCH, "reach", *words)
+    assert code == 2 and said == ""
+    return complaint.strip()
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        (["--video", "--beside", "x.npz"], "--video: found together with --beside, expected one of them"),
+        (["--video", "--where", "all"], "--where: found without --beside, expected --beside RECORDING.npz"),
+        (["--people", "new"], "--people: found without --video or --beside, expected one of them"),
+        (["--person", "w1"], "--person: found without --video, expected --video"),
+        (
+            ["--video", "--people", "new", "--person", "w1"],
+            "--person: found together with --people, expected one of them",
+        ),
+        (["--video", "-n", "0"], "-n: found 0, expected 1 to 20"),
+        (["-n", "21"], "-n: found 21, expected 1 to 20"),
+        (["--video", "-o", "x.avi"], "x.avi: found the ending '.avi', expected .html or .gif or .mp4 with --video"),
+        (["--video", "-o", "x"], "x: found the ending '', expected .html or .gif or .mp4 with --video"),
+        (["-o", "x.pdf"], "x.pdf: found the ending '.pdf', expected .png or .svg"),
+        (["-o", "x.gif"], "x.gif: found the ending '.gif', expected .png or .svg, or --video: it is for what moves"),
+        (["--video", "--person", "w1x"], "--person: reach: no worker 'w1x'; did you mean 'w1'?"),
+    ],
+)
+def test_a_mistake_is_said_with_what_was_found_and_expected(folder, words, said):
+    assert complaint_on(*words).splitlines() == [said]
+    assert list(folder.iterdir()) == []
+
+
+def test_all_mistakes_are_said_at_once(folder):
+    words = ("--video", "-n", 99, "-o", "x.avi", "--where", "all")
+    code, _, complaint = opsim("motion", "show", MOTION_ASKED_BENCH, "raech", *words)
+    said = complaint.strip().splitlines()
+    assert code == 2 and [line.partition(":")[0] for line in said[:3]] == ["--where", "-n", "x.avi"]
+    assert len(said) == 4 and "did you mean 'reach'?" in said[3]
+
+
+def test_a_folder_that_is_none_is_said_together_with_the_rest(folder):
+    (folder / "file").write_text("")
+    said = complaint_on("--video", "-n", 0, "-o", "file/x.gif").splitlines()
+    assert said[0].startswith("-n: found 0") and "file/x.gif: cannot be written" in said[1]
+
+
+def test_without_an_encoder_mp4_is_refused_before_anything_is_drawn(folder, monkeypatch):
+    monkeypatch.setenv("PATH", str(folder))
+    said = complaint_on("--video", "-o", "x.mp4")
+    assert "found no program ffmpeg" in said and ".html or .gif" in said and list(folder.iterdir()) == []
+
+
+def test_a_library_that_is_not_there_is_said_with_those_that_are(folder):
+    code, _, complaint = opsim("motion", "show", "bench_wrok", "reach", "--video")
+    assert code == 2 and "did you mean 'bench_work'?" in complaint
+
+
+@pytest.mark.parametrize("words", [("-o", "x.png"), ("--video", "-o", "x.GIF")])
+def test_without_matplotlib_it_is_said_before_anything_is_drawn(folder, monkeypatch, words):
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
+    ending = words[-1][2:].upper()
+    assert complaint_on(*words).startswith(f"{ending} files need matplotlib, which is not installed")
+    assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize("words", [("-n", 1, "-o", "x.svg"), ("--video", "-n", 1)])
+def test_drawings_and_pages_need_no_matplotlib(folder, monkeypatch, words):
+    monkeypatch.setattr("opsim.report.page.find_spec", lambda name: None)
+    assert opsim("motion", "show", MOTION_ASKED_BENCH, "reach", *words)[0] == 0
+
+
+def test_performances_are_files_that_hold_their_joints(tmp_path):
+    code, shown, _ = opsim(
+        "motion", "sample", BENCH, "reach", "-n", 3, "--seed", 3, "--fps", 25, "-o", tmp_path / "a.bvh"
+    )
+    assert code == 0 and f"{tmp_path / 'a_k0.bvh'} to a_k2.bvh" in shown
+    drawn = MotionLibrary.load(BENCH)["reach"].sample(3, np.random.default_rng(3))
+    for k in range(3):
+        take = read_bvh(tmp_path / f"a_k{k}.bvh")
+        assert take.rate_hz == 25 and take.duration_s == pytest.approx(drawn.duration_s[k], abs=0.5 / 25)
+        places = drawn[k].positions_m(times_s=np.arange(take.n_frames) / 25)[0]
+        order = [take.names.index(name) for name in drawn.skeleton.names]
+        assert np.abs(take.positions_m[:, order] - places).max() < 1e-7
+        bones = np.linalg.norm(take.positions_m[:, 1:] - take.positions_m[:, list(take.parents[1:])], axis=2)
+        assert np.ptp(bones, axis=0).max() < 1e-6
+
+
+def test_one_performance_is_one_file_of_that_name(tmp_path):
+    assert opsim("motion", "sample", BENCH, "reach", "-n", 1, "-o", tmp_path / "one.BVH")[0] == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["one.BVH"]
+
+
+def test_ten_files_stand_in_order(tmp_path):
+    assert opsim("motion", "sample", BENCH, "reach", "-n", 11, "--fps", 5, "-o", tmp_path / "a.bvh")[0] == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"a_k{k:02d}.bvh" for k in range(11)]
+
+
+def test_a_drawn_movement_comes_back_where_it_was_facing_as_it_did(tmp_path):
+    words = ("motion", "sample", BENCH, "reach", "-n", 1, "--seed", 5, "--fps", 25, "-o")
+    assert opsim(*words, tmp_path / "s.npz")[0] == 0 and opsim(*words, tmp_path / "x.bvh")[0] == 0
+    code, _, err = opsim("motion", "import", tmp_path / "x.bvh", "-o", tmp_path / "back.npz")
+    assert code == 0, err
+    (one,), (other,) = (read_recording(tmp_path / name).takes for name in ("s.npz", "back.npz"))
+    order = [other.names.index(name) for name in one.names]
+    assert np.abs(one.positions_m - other.positions_m[:, order]).max() < 1e-6
+
+
+def test_files_of_an_earlier_draw_do_not_stay_beside_the_new_ones(tmp_path):
+    out = tmp_path / "x.bvh"
+    words = ("motion", "sample", BENCH, "reach", "--fps", 5, "-o", out, "-n")
+    assert opsim(*words, 3)[0] == 0
+    (tmp_path / "x_k7.bvh").write_text("HIERARCHY\nROOT Hips\n{\n")
+    (tmp_path / "x_kept.bvh").write_text("mine")
+    code, shown, _ = opsim(*words, 2)
+    assert code == 0 and "removed, of an earlier draw: x_k2.bvh" in shown
+    assert "left beside them, not of this draw: x_k7.bvh" in shown
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["x_k0.bvh", "x_k1.bvh", "x_k7.bvh", "x_kept.bvh"]
+    code, shown, _ = opsim(*words, 1)
+    assert code == 0 and "x_k0.bvh, x_k1.bvh" in shown
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["x.bvh", "x_k7.bvh", "x_kept.bvh"]
+
+
+MOTION_OVERWRITE_BENCH = shipped_folder() / "libraries" / "bench_work.npz"
+
+
+@pytest.fixture(scope="module")
+def made_reach(tmp_path_factory):
+    path = tmp_path_factory.mktemp("made") / "reach.npz"
+    assert opsim("motion", "sample", MOTION_OVERWRITE_BENCH, "reach", "-n", 6, "--fps", 20, "-o", path)[0] == 0
+    return path
+
+
+@pytest.fixture
+def motion_overwrite_folder(made_reach, tmp_path, monkeypatch):
+    """A folder to stand in, with two recordings, a library under two names and a link to each kind."""
+    for name in ("reach.npz", "other.npz"):
+        shutil.copy(made_reach, tmp_path / name)
+    for name in ("lib.npz", "lib.html"):
+        shutil.copy(MOTION_OVERWRITE_BENCH, tmp_path / name)
+    (tmp_path / "link.npz").symlink_to("reach.npz")
+    (tmp_path / "same.npz").symlink_to("lib.npz")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(emulator.MotionEmulator, "fit", lambda *_, **__: pytest.fail("the fit began"))
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        ("fit reach.npz -o reach.npz", "reach.npz: found the recording that is read, expected another file to write"),
+        ("fit reach.npz -o ../{}/reach.npz", "reach.npz: found the recording that is read"),
+        ("fit reach.npz -o link.npz", "link.npz: found the recording that is read"),
+        ("fit reach.npz -o other.npz", "other.npz: found a recording, expected a new file or a library to replace"),
+        ("sample lib.npz reach -o lib.npz", "lib.npz: found the library that is read"),
+        ("sample lib.npz reach -o same.npz", "same.npz: found the library that is read"),
+        ("sample bench_work reach -o lib.npz", "lib.npz: found a library, expected a new file or a recording"),
+        ("show lib.html reach --video -o lib.html", "lib.html: found the library that is read"),
+        ("show lib.html reach --beside reach.npz -o lib.html", "lib.html: found the library that is read"),
+        ("judge reach.npz -o reach.npz", "reach.npz: found a file"),
+        ("judge reach.npz --paper -o reach.npz", "reach.npz: found a file"),
+        ("people reach.npz -o reach.npz", "reach.npz: found a file"),
+    ],
+)
+def test_what_is_read_is_never_written_over(motion_overwrite_folder, words, said):
+    before = {path.name: path.read_bytes() for path in motion_overwrite_folder.iterdir()}
+    code, _, complaint = opsim("motion", *words.format(motion_overwrite_folder.name).split())
+    assert code == 2 and said in complaint
+    assert {path.name: path.read_bytes() for path in motion_overwrite_folder.iterdir()} == before
+
+
+def test_a_library_replaces_a_library_and_a_recording_a_recording(motion_overwrite_folder, monkeypatch):
+    monkeypatch.undo()
+    monkeypatch.chdir(motion_overwrite_folder)
+    assert opsim("motion", "fit", "reach.npz", "--n-components", 2, "-o", "lib.npz")[0] == 0
+    assert (motion_overwrite_folder / "lib.npz").read_bytes() != MOTION_OVERWRITE_BENCH.read_bytes()
+    assert opsim("motion", "sample", "lib.npz", "reach", "-n", 2, "-o", "other.npz")[0] == 0
+    assert (motion_overwrite_folder / "other.npz").read_bytes() != (motion_overwrite_folder / "reach.npz").read_bytes()

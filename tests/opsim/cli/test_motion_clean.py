@@ -10,7 +10,7 @@ import pytest
 from emulator.cleaning import Repair
 from emulator.recordings.npz import read_recording, write_recording
 from opsim.cli.motion.clean_page import column_of
-from tests.made_takes import clean, error_m, same, spoilt
+from tests.made.takes import clean, error_m, same, spoilt
 from tests.opsim.cli.calls import opsim
 
 

@@ -22,7 +22,7 @@ START = """
 import sys
 sys.path.insert(0, {root!r})
 import opsim.cli.sweep
-from tests import made_study
+from tests.made import study as made_study
 opsim.cli.sweep.command = made_study.command
 from opsim.cli import main
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from human_plans import planned
-from made_shops import ran, spans
+from made.shops import ran, spans
 
 from opsim.engine.floor import run_plan
 from opsim.history import practice

@@ -1,7 +1,7 @@
 """What was begun before a station closes is finished, whoever goes on with it. By hand arithmetic, in minutes."""
 
 import pytest
-from made_shops import ran
+from made.shops import ran
 from opsim_minutes import minutes
 
 from opsim.log import CLOSED, FINISH, HELD, OFF, TOOL, WALK, WORK

@@ -1,7 +1,7 @@
 """When people are there: by hand arithmetic, in minutes unless it says otherwise."""
 
 import pytest
-from made_shops import ran
+from made.shops import ran
 from opsim_minutes import minutes
 
 from opsim.log import ABSENT, AWAY, BREAK, FINISH, HELD, NO_WORKER, OFF, WAIT, WALK, WORK

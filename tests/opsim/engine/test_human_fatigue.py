@@ -8,9 +8,9 @@ import pytest
 from checked_floors import differ, plan_of
 from choices import Lots
 from human_plans import LINE, planned, shipped, without_effects
-from made_brigades import scenario as brigade
-from made_floors import text_of
-from made_people_blocks import people_floor_with
+from made.brigades import scenario as brigade
+from made.floors import text_of
+from made.people_blocks import people_floor_with
 
 from opsim.engine.floor import run_plan
 from opsim.history import tiredness

@@ -14,7 +14,7 @@ another place until 7 min, and walks for 1 min. Times are in minutes; Ana's firs
 """
 
 import pytest
-from made_shops import ran
+from made.shops import ran
 
 from opsim.log import AWAY, BREAK, FINISH, HELD, NO_WORKER, WALK, WORK
 

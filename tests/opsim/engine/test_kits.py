@@ -1,9 +1,9 @@
 """Bills of material and stores: known answers by hand, and the laws."""
 
-import made_shops
 import numpy as np
 import plans
 import pytest
+from made import shops as made_shops
 from plans import plan
 
 from opsim import log as kinds

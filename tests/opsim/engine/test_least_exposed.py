@@ -7,7 +7,7 @@ import plans
 import pytest
 import simpy
 from checked_floors import differ
-from made_pool import POOL
+from made.pool import POOL
 
 from opsim.engine.floor import FloorOfPlan, run_plan
 from opsim.engine.floor.human_effects import stops, works

@@ -1,7 +1,7 @@
 """Whatever somebody is at when his time comes: by hand arithmetic, in minutes."""
 
 import pytest
-from made_shops import ran
+from made.shops import ran
 from opsim_minutes import minutes
 
 from opsim.log import AWAY, BLOCKED, BREAK, HELD, NO_TOOL, NO_WORKER, OFF, SETUP, TEAM, TRANSPORT, WALK, WORK

@@ -1,9 +1,9 @@
-"""Moving lines: against plain recursions (``naive_line``), and by hand: 6 m stretches at 0.1 m/s are passed in 60 s."""
+"""Moving lines: against plain recursions (``naive.line``), and by hand: 6 m stretches at 0.1 m/s are passed in 60 s."""
 
 import numpy as np
 import pytest
-from made_moving_line import moving_line
-from naive_line import Line, grid
+from made.moving_line import moving_line
+from naive.line import Line, grid
 from plans import plan, ran
 
 from opsim.engine.draws import Draws

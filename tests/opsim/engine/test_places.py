@@ -1,7 +1,7 @@
 """Blocking before service and buffers behind: by hand arithmetic."""
 
 import pytest
-from made_shops import HEAD, ran, spans
+from made.shops import HEAD, ran, spans
 
 LINE = """
 tasks: {quick: {fixed: 10 s, automatic: true}, slow: {fixed: 30 s, automatic: true}}

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made_shops import begun, ran, spans
+from made.shops import begun, ran, spans
 
 ONE = """
 tasks: {cut: {fixed: 10 s, automatic: true}}

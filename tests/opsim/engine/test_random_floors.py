@@ -25,8 +25,8 @@ from checked_floors import checked
 from choices import Drawn, Lots
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_blocks import BLOCKS, floor_with
-from made_lines import line_scenario
+from made.blocks import BLOCKS, floor_with
+from made.lines import line_scenario
 from plans import plan
 
 from opsim import log as kinds

@@ -37,13 +37,13 @@ from contests import CONTESTED, contested, met_at_work
 from human_plans import NEUTRAL
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_blocks import BLOCKS, floor_with
-from made_brigades import scenario
-from made_crews import CREWS
-from made_floors import text_of
-from made_people_blocks import ALWAYS, PEOPLE, people_floor_with
-from made_troubles import troubled
-from naive_people import jumps, unjoined
+from made.blocks import BLOCKS, floor_with
+from made.brigades import scenario
+from made.crews import CREWS
+from made.floors import text_of
+from made.people_blocks import ALWAYS, PEOPLE, people_floor_with
+from made.troubles import troubled
+from naive.people import jumps, unjoined
 from plans import plan, ran
 from shown_blocks import shown
 

@@ -1,7 +1,7 @@
 """Hand-over: somebody is wanted, comes, and takes over; or what happens instead. By hand arithmetic, in minutes."""
 
 import pytest
-from made_shops import ran
+from made.shops import ran
 from opsim_minutes import minutes
 from plans import ran as ran_alone
 

@@ -1,9 +1,9 @@
 """Disassembly: known answers by hand, the luck of pieces, and the laws."""
 
-import made_shops
 import numpy as np
 import plans
 import pytest
+from made import shops as made_shops
 
 from opsim import log as kinds
 

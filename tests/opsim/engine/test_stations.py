@@ -6,7 +6,7 @@ Set-ups: each server is set up for what comes, by hand arithmetic.
 """
 
 import pytest
-from made_shops import HEAD, begun, ran, spans
+from made.shops import HEAD, begun, ran, spans
 from plans import plan
 
 from opsim.engine.floor import run_plan

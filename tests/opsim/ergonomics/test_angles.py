@@ -1,5 +1,7 @@
 import json
 import warnings
+from dataclasses import dataclass, fields, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,12 @@ from opsim.ergonomics.angles import (
     upper_arm_angles,
     wrist_bend_rad,
 )
+from opsim.ergonomics.options import CHOICES, PAPER, RANGES, USUAL, Options, Thresholds, checked
+from opsim.ergonomics.redraw import neck_neutral_rad as neck_neutral_rad_of_neutral
+from opsim.ergonomics.redraw import neck_neutrals_rad
+from opsim.libraries import load_library
+from opsim.shipped import shipped_folder
+from opsim.tasks import Fixed
 from tests.opsim.ergonomics.bodies import arm, bent, mirrored, moved, standing, turn
 
 X, Y, Z = np.eye(3)
@@ -239,3 +247,105 @@ def test_positions_of_another_shape_are_refused():
 def test_an_unknown_reference_is_refused_with_the_nearest_word():
     with pytest.raises(ValueError, match="did you mean 'gravity'"):
         upper_arm_angles(standing(), CANONICAL, "gravitty")
+
+
+@dataclass(frozen=True)
+class Starts:
+    """Performances that begin with these necks (n,) and trunks (n,), in degrees; a task model of itself."""
+
+    neck_deg: tuple[float, ...]
+    trunk_deg: tuple[float, ...]
+    report: object = None
+    skeleton = SimpleNamespace(names=CANONICAL)
+
+    @property
+    def duration_s(self):
+        return np.ones(len(self.neck_deg))
+
+    def positions_m(self, n_times):
+        lean = [turn([0, 1, 0], neck) for neck in self.neck_deg]
+        first = [moved(bent(trunk), way, "neck", ["head"]) for trunk, way in zip(self.trunk_deg, lean)]
+        return np.repeat(np.array(first)[:, None], n_times, axis=1)
+
+
+class Model(Starts):
+    def sample(self, n, rng, *, worker=None, condition=None):
+        return Starts(self.neck_deg, self.trunk_deg)
+
+
+def degrees(**models):
+    return {task: round(float(np.rad2deg(angle)), 9) for task, angle in neck_neutrals_rad(models).items()}
+
+
+def test_the_neutral_is_the_median_of_those_that_begin_upright():
+    starts = Starts((12.0, 18.0, 14.0, 60.0), (0.0, 10.0, -14.0, 40.0))
+    assert np.rad2deg(neck_neutral_rad_of_neutral(starts)) == pytest.approx(14.0)
+    assert neck_neutral_rad_of_neutral(Model(starts.neck_deg, starts.trunk_deg)) == neck_neutral_rad_of_neutral(starts)
+
+
+def test_where_most_begin_bent_it_cannot_be_told():
+    assert neck_neutral_rad_of_neutral(Starts((12.0, 18.0, 20.0), (0.0, 30.0, 40.0))) == 0.0
+
+
+def test_times_without_a_body_have_none():
+    assert degrees(count=Fixed(3.0)) == {"count": 0.0}
+
+
+def test_tasks_of_the_same_recordings_share_the_median_of_theirs():
+    one, other = SimpleNamespace(source="lab"), SimpleNamespace(source="plant")
+    tasks = {"reach": Model((10.0,), (0.0,), one), "fasten": Model((30.0,), (0.0,), one)}
+    tasks |= {"place": Model((14.0,), (0.0,), one), "stoop": Model((5.0,), (70.0,), one)}
+    found = degrees(**tasks, lift=Model((20.0,), (0.0,), other), count=Fixed(3.0))
+    assert found == {"reach": 14.0, "fasten": 14.0, "place": 14.0, "stoop": 14.0, "lift": 20.0, "count": 0.0}
+
+
+def test_made_work_stands_with_the_head_it_was_made_with_every_time():
+    """Key postures of made tasks that look ahead have the head 16.5 degrees forward."""
+    library = load_library(shipped_folder() / "libraries" / "bench_work.npz")
+    found = degrees(pick=library["pick"], reach=library["reach"])
+    assert found["pick"] == found["reach"] == pytest.approx(16.5, abs=0.1)
+    assert found == degrees(reach=library["reach"], pick=library["pick"])
+
+
+def test_what_is_usual_is_right_and_comes_back_itself():
+    assert checked(USUAL) is USUAL and checked(Options(thresholds=PAPER)).thresholds is PAPER
+
+
+def test_every_number_has_a_range_and_every_word_its_choices():
+    numbers = {one.name for one in fields(Thresholds) if one.name != "spread"} | {"rate_hz"}
+    assert numbers == set(RANGES)
+    words = {one.name for one in fields(Options) if isinstance(getattr(USUAL, one.name), str)}
+    assert words == set(CHOICES)
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_each_range_ends_where_it_says(name):
+    def said(value):
+        one = replace(USUAL if name == "rate_hz" else USUAL.thresholds, **{name: value})
+        return one if name == "rate_hz" else replace(USUAL, thresholds=one)
+
+    low, high = RANGES[name]
+    assert checked(said(low)) and checked(said(high))
+    for wrong in (low - 0.01, high + 0.01, float("nan"), True, "10 deg", None):
+        with pytest.raises(ValueError, match=rf"{name}: found .+, expected {low:g} to {high:g}"):
+            checked(said(wrong))
+
+
+def test_all_mistakes_are_said_at_once_with_the_nearest_word():
+    thresholds = Thresholds(twist=91.0, abducted=95.0, owas_back=-5.0, trunk_upright=25.0, spread="yes")
+    wrong = Options(0.0, "gravty", "worksheet2001", "papers", ("3373", "4133"), "upright!", thresholds)
+    with pytest.raises(ValueError) as told:
+        checked(wrong)
+    assert str(told.value).splitlines() == [
+        "arm_reference: no 'gravty'; did you mean 'gravity'?",
+        "rula_table_a: no 'worksheet2001'; did you mean 'worksheet2000'?",
+        "rula_force: no 'papers'; did you mean 'paper'?",
+        "waiting: no 'upright!'; did you mean 'upright'?",
+        "owas_disputed: no disputed code '4133'; did you mean '4132'?",
+        "rate_hz: found 0.0, expected 1 to 60 a second",
+        "thresholds.twist: found 91.0, expected 1 to 90 degrees",
+        "thresholds.abducted: found 95.0, expected 1 to 90 degrees",
+        "thresholds.trunk_upright: found 25.0, expected 0 to 20 degrees",
+        "thresholds.owas_back: found -5.0, expected 1 to 90 degrees",
+        "thresholds.spread: found 'yes', expected true or false",
+    ]

@@ -4,8 +4,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from opsim.ergonomics.angles import AT, CANONICAL, COLUMNS
-from opsim.ergonomics.measures import first_measures, has_body, measures_of, measures_of_positions, n_cells
+import emulator.skeleton
+from opsim.ergonomics.angles import AT, CANONICAL, COLUMNS, SIDES, bone_chain, joint_places
+from opsim.ergonomics.measures import (
+    first_measures,
+    has_body,
+    measures_of,
+    measures_of_positions,
+    missing_scores,
+    n_cells,
+)
 from opsim.ergonomics.options import USUAL
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
@@ -162,3 +170,71 @@ def test_bones_of_another_number_are_refused_by_name(block):
 
     with pytest.raises(ValueError, match=r"Odd.bone_length_m gave \(64, 19\), expected \(64, 20\)"):
         measures_of(Odd(), [0])
+
+
+def test_a_parent_comes_before_its_children_however_joints_are_numbered():
+    """Joint 2 is the root; 0 hangs on 1, 1 on 3, 3 on 2: bones end at joints 0, 1 and 3."""
+    assert bone_chain((1, 3, -1, 2)).tolist() == [[2, 2, 3], [1, 3, 1], [0, 1, 0]]
+
+
+def test_places_of_joints_that_are_missing_are_beyond_the_last():
+    places = joint_places(("neck", "pelvis", "tail"))
+    assert places[CANONICAL.index("pelvis")] == 1 and places[CANONICAL.index("neck")] == 0
+    assert np.count_nonzero(places == 3) == len(CANONICAL) - 2
+
+
+def test_the_canonical_names_are_those_of_the_emulator():
+    assert CANONICAL == emulator.skeleton.CANONICAL
+
+
+def test_every_joint_of_a_limb_has_its_other_side():
+    limbs = [name for name in CANONICAL if "_" in name]
+    assert all(f"{side}_{name.partition('_')[2]}" in CANONICAL for name in limbs for side in SIDES)
+
+
+def without(*words):
+    return missing_scores([name for name in CANONICAL if not name.endswith(words)])
+
+
+def test_the_canonical_joints_miss_nothing_that_is_scored():
+    assert missing_scores(CANONICAL) == [] and without("spine", "chest") == []
+
+
+def test_without_hands_the_wrist_is_not_known_and_stands_for_them():
+    (said,) = without("hand")
+    assert said.startswith("no hands: how far the wrist is bent is not known, so RULA and REBA are wider by it")
+    assert "OWAS does not ask" in said and "those of the wrist" in said
+
+
+def test_without_wrists_and_head_three_things_are_not_known():
+    head, wrists = without("wrist", "hand", "head")
+    assert head.startswith("no head: the neck is not known") and wrists.startswith(
+        "no wrists or hands: how far elbow and wrist"
+    )
+
+
+def test_whatever_a_missing_joint_hides_is_named():
+    """Without hips thighs have no upper end; without a shoulder the neck has no frame."""
+    assert without("hip")[0].startswith("no hips: how far trunk and knees are bent")
+    assert without("left_shoulder")[0].startswith("no left shoulder: twist of the trunk, neck and upper arms")
+
+
+def test_one_side_is_named():
+    assert missing_scores([name for name in CANONICAL if name != "left_knee"])[0].startswith("no left knee: ")
+
+
+def test_a_skeleton_of_nothing_says_so_of_every_score():
+    trunk, shoulders, head, elbows, wrists, legs, feet = missing_scores(())
+    assert trunk.startswith("no pelvis, neck or hips: ") and "RULA, REBA and OWAS" in trunk
+    assert (
+        shoulders.startswith("no shoulders")
+        and elbows.startswith("no elbows")
+        and legs.startswith("no knees or ankles")
+    )
+    assert head.startswith("no head") and wrists.startswith("no wrists") and feet.startswith("no ankles")
+
+
+def test_without_toes_the_floor_is_an_ankle_and_without_ankles_no_lift_is_seen():
+    (toes,), (legs, ankles) = without("toe"), without("ankle", "toe")
+    assert toes.startswith("no toes: the floor is taken where the lower ankle is")
+    assert legs.startswith("no ankles: how far knees") and "no lift is seen" in ankles

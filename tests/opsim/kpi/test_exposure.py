@@ -8,11 +8,11 @@ from plans import loaded, ran
 
 from opsim.engine.floor import run_plan
 from opsim.ergonomics.options import Options
-from opsim.ergonomics.shift.ledger import AT_MOST, Booking
+from opsim.ergonomics.shift.ledger import AT_MOST, BINS, Booking, Ledger
 from opsim.kpi import exposure, figures
-from opsim.kpi.catalogue import EXPOSURE, POSTURE, SCORED, headline, needs_postures
+from opsim.kpi.catalogue import EXPOSURE, KPIS, POSTURE, SCORED, USUAL, headline, needs_postures
 from opsim.kpi.exposure import LEVEL_KPIS as LEVELS
-from opsim.kpi.exposure import exposure_levels, measured_share
+from opsim.kpi.exposure import bounds_of_level, exposure_levels, mean_score, measured_share, minutes, quantile
 from opsim.log import OFF, WAIT, WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
@@ -237,3 +237,132 @@ def test_a_scenario_may_switch_postures_off():
         compile_plan(loaded(CELL.replace("seed: 3", f"seed: 3{said}"))) for said in ("", ", posture: off")
     )
     assert with_it.posture and not without.posture and replace(without, posture=True).tasks[0].name == "label"
+
+
+POSTURE_HOUR_S = 3600.0
+
+
+def figures_of(rows, plan):
+    return {(f.kpi, f.subject, f.part): f.value for f in figures(made(rows, plan), plan, POSTURE) if f.kpi in POSTURE}
+
+
+@pytest.fixture(scope="module")
+def posture_by_hand():
+    """In two hours ana bends 20 times for 9 s and counts for 60 s, ben bends once, half as long."""
+    plan = made_plan(horizon_s=3 * POSTURE_HOUR_S, warm_up_s=POSTURE_HOUR_S)
+    start = POSTURE_HOUR_S + 100 * np.arange(20)
+    rows = [work(s, s + 9, 0, worker=0, k=k, task=BEND) for k, s in enumerate(start)]
+    rows += [work(9000, 9060, 0, worker=0, k=0, task=COUNT), work(9000, 9004.5, 0, worker=1, k=0, task=BEND)]
+    return figures_of(rows, plan)
+
+
+@pytest.mark.parametrize(
+    ("kpi", "subject", "part", "expected"),
+    [
+        ("trunk_beyond_60_min_per_h", "ana", "", 20 * 3 / 60 / 2),
+        ("trunk_beyond_20_min_per_h", "ana", "", 20 * 7 / 60 / 2),
+        ("trunk_beyond_60_min_per_h", "ben", "", 1.5 / 60 / 2),
+        ("trunk_beyond_60_min_per_h", "", "", 61.5 / 60 / 4),
+        ("trunk_flexion_mean_deg", "ana", "", 45),
+        ("trunk_flexion_mean_deg", "", "", 45),
+        ("trunk_flexion_p95_deg", "ben", "", 85.5),
+        ("trunk_flexion_p95_deg", "", "", 85.5),
+        ("trunk_flexion_share", "ana", "below_20", 40 / 7200),
+        ("trunk_flexion_share", "ana", "from_20_to_60", 80 / 7200),
+        ("trunk_flexion_share", "ana", "beyond_60", 60 / 7200),
+        ("trunk_flexion_share", "ana", "unmeasured", 60 / 7200),
+        ("trunk_flexion_share", "ana", "not_at_work", 1 - 240 / 7200),
+        ("posture_measured_share", "ana", "", 180 / 240),
+        ("posture_measured_share", "ben", "", 1),
+        ("posture_measured_share", "", "", 184.5 / 244.5),
+    ],
+)
+def test_a_figure_is_what_the_hand_finds_of_posture(posture_by_hand, kpi, subject, part, expected):
+    assert posture_by_hand[kpi, subject, part] == pytest.approx(expected, rel=0.005)
+
+
+def test_shares_of_the_window_sum_to_one(posture_by_hand):
+    for subject in ("", "ana", "ben"):
+        shares = [
+            value for (kpi, of, _), value in posture_by_hand.items() if (kpi, of) == ("trunk_flexion_share", subject)
+        ]
+        assert len(shares) == 5 and sum(shares) == pytest.approx(1, abs=1e-12)
+
+
+def test_work_that_nobody_measured_is_nan_and_not_upright():
+    found = figures_of([work(0, 60, 0, worker=0, k=0, task=COUNT)], made_plan())
+    assert np.isnan(found["trunk_beyond_60_min_per_h", "ana", ""]) and np.isnan(
+        found["trunk_flexion_p95_deg", "ana", ""]
+    )
+    assert found["posture_measured_share", "ana", ""] == 0
+    assert found["trunk_flexion_share", "ana", "unmeasured"] == pytest.approx(60 / 3600)
+
+
+def test_who_does_no_work_is_never_bent():
+    found = figures_of([work(0, 9, 0, worker=0, k=0, task=BEND)], made_plan())
+    assert found["trunk_beyond_60_min_per_h", "ben", ""] == 0
+    assert np.isnan(found["trunk_flexion_mean_deg", "ben", ""]) and np.isnan(found["posture_measured_share", "ben", ""])
+
+
+def test_leaning_back_is_a_flexion_below_zero():
+    found = figures_of([work(0, 9, 0, worker=0, k=0, task=BEND)], made_plan(Bending((-30.0,) * 64)))
+    assert found["trunk_flexion_mean_deg", "ana", ""] == pytest.approx(-15, rel=0.01)
+    assert found["trunk_flexion_share", "ana", "below_20"] == pytest.approx(9 / 3600)
+
+
+def test_postures_are_made_only_where_a_figure_that_needs_them_is_asked_for():
+    plan = made_plan(Bending(kind=lambda *_: pytest.fail("drawn")))
+    log = made([work(0, 9, 0, worker=0, k=0, task=BEND)], plan)
+    others = [kpi for kpi in KPIS if kpi not in (*POSTURE, *EXPOSURE)]
+    assert {figure.kpi for figure in figures(log, plan, others)} <= set(others)
+    assert not needs_postures(USUAL) and needs_postures([*USUAL, "trunk_flexion_p95_deg"])
+
+
+def test_how_much_was_measured_stands_beside_whatever_was_asked_for():
+    assert headline(["walked_m"]) == {"walked_m"}
+    assert headline(["walked_m", "trunk_flexion_mean_deg"]) == {
+        "walked_m",
+        "trunk_flexion_mean_deg",
+        "posture_measured_share",
+    }
+
+
+def test_a_floor_without_workers_has_no_figures_of_posture():
+    plan = made_plan()
+    assert not figures_of([], made_plan(workers=())) and figures_of([], plan)
+
+
+def ledger(**seconds):
+    """One cell; by name of ``BINS`` seconds by value, None for not known. What is not named is not known for 100 s."""
+    bins = {name: np.zeros((1, 1 + b.n)) for name, b in BINS.items()}
+    for name in BINS:
+        for value, spent_s in seconds.get(name, {None: 100.0}).items():
+            bins[name][0, 0 if value is None else 1 + value - BINS[name].first] = spent_s
+    return Ledger(np.zeros((1, 5), int), bins)
+
+
+def test_minutes_are_those_at_the_level_or_beyond():
+    found = ledger(rula={4: 30.0, 5: 60.0, 7: 120.0}, rula_at_most={7: 210.0}, trunk={19: 60.0, 20: 120.0})
+    assert minutes(found, "rula_from_5")[0] == 3 and minutes(found, "rula_from_7")[0] == 2
+    assert minutes(found, "rula_from_5", "_at_most")[0] == 3.5 and minutes(found, "trunk_beyond_20")[0] == 2
+
+
+def test_what_nobody_measured_is_not_known_and_what_nobody_did_is_nothing():
+    assert np.isnan(minutes(ledger(), "rula_from_5")[0]) and np.isnan(mean_score(ledger(), "rula")[0])
+    idle = ledger(**{name: {None: 0.0} for name in BINS})
+    assert minutes(idle, "rula_from_5")[0] == 0 and np.isnan(quantile(idle, "rula", 0.9)[0])
+
+
+@pytest.mark.parametrize(("q", "expected"), [(0.05, 2), (0.1, 2), (0.5, 3), (0.9, 3), (0.91, 6), (1.0, 6)])
+def test_the_quantile_is_the_score_at_or_below_which_that_share_of_the_time_is(q, expected):
+    assert quantile(ledger(rula={2: 10.0, 3: 80.0, 6: 10.0}), "rula", q)[0] == expected
+
+
+def test_the_mean_is_over_the_known_time():
+    assert mean_score(ledger(reba={None: 900.0, 1: 30.0, 15: 10.0}), "reba")[0] == pytest.approx((30 + 150) / 40)
+
+
+def test_scores_have_two_bounds_and_angles_one():
+    assert {name: len(bounds_of_level(name)) for name in LEVELS} == {
+        name: 2 if name.startswith(("rula", "reba", "owas")) else 1 for name in LEVELS
+    }

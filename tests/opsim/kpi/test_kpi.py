@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,22 @@ from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS, figures, samples
-from opsim.kpi.catalogue import USUAL
+from opsim.kpi.catalogue import KPIS as KPIS_of_better
+from opsim.kpi.catalogue import KPIS as KPIS_of_subjects
+from opsim.kpi.catalogue import (
+    LESS,
+    LESS_IS_BETTER,
+    LESS_OF,
+    LESS_OF_LIMITS,
+    MORE,
+    MORE_IS_BETTER,
+    OF_EACH,
+    USUAL,
+    better_of,
+    read_asked,
+    subject_of,
+)
+from opsim.kpi.catalogue import AskedFigure as Asked
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
 from opsim.plan.tasks import Handling
 from opsim.report.numbers import NAMES
@@ -189,3 +205,46 @@ def test_a_million_rows_take_seconds(text, capsys):
     with capsys.disabled():
         print(f"\n{n} figures of {len(log):,} rows: {spent_s:.2f} s")
     assert spent_s < 4
+
+
+@pytest.mark.parametrize(
+    "text, kpi, subject, part, better",
+    [
+        ("throughput_per_h", "throughput_per_h", "", "", MORE),
+        (" rula_from_5_min_per_h/ana ", "rula_from_5_min_per_h", "ana", "", LESS),
+        ("rula_from_5_min_per_h//at_most", "rula_from_5_min_per_h", "", "at_most", LESS),
+        ("more worker_states/ana/wait", "worker_states", "ana", "wait", MORE),
+        ("less  throughput_per_h", "throughput_per_h", "", "", LESS),
+        ("worker_states/ana/work", "worker_states", "ana", "work", ""),
+        ("trunk_flexion_share/ana/below_20", "trunk_flexion_share", "ana", "below_20", ""),
+    ],
+)
+def test_a_figure_is_read_with_its_subject_its_part_and_the_way_that_is_better(text, kpi, subject, part, better):
+    asked = read_asked(text)
+    assert (asked.kpi, asked.subject, asked.part, asked.better) == (kpi, subject, part, better)
+
+
+def test_what_is_read_is_written_as_it_was():
+    for subject, part in product(("", "ana"), ("", "at_most")):
+        asked = Asked("walked_m", subject, part)
+        again = read_asked(asked.name)
+        assert (again.kpi, again.subject, again.part) == (asked.kpi, asked.subject, asked.part)
+
+
+def test_no_figure_is_better_both_ways_and_every_name_is_that_of_a_figure():
+    assert not set(MORE_IS_BETTER) & set(LESS_IS_BETTER)
+    assert set(MORE_IS_BETTER) | set(LESS_IS_BETTER) <= set(KPIS_of_better)
+    assert not [kpi for kpi in MORE_IS_BETTER if kpi.startswith((*LESS_OF, *LESS_OF_LIMITS))]
+
+
+def test_what_depends_on_who_asks_has_no_better_way():
+    assert better_of("on_duty_h") == better_of("station_states") == better_of("posture_measured_share") == ""
+
+
+def test_every_figure_that_is_of_one_thing_each_exists_and_is_of_one_kind():
+    names = [name for kind in OF_EACH.values() for name in kind]
+    assert set(names) <= set(KPIS_of_subjects) and len(names) == len(set(names))
+
+
+def test_what_is_of_the_whole_too_needs_no_subject():
+    assert subject_of("queue_length") == "station" and subject_of("throughput_per_h") == ""

@@ -1,12 +1,23 @@
+"""Two figures against each other in the report of one variant."""
+
 import math
 import re
 
 import numpy as np
+import pytest
 
 from opsim.report.comparison import comparison_html
-from opsim.report.sections.pareto import frontier_section, frontier_sentences, frontier_svg
+from opsim.report.page import Folded, Svg
+from opsim.report.sections import pareto as frontier_shown
+from opsim.report.sections.pareto import frontier_section, frontier_sentences, frontier_svg, usual_pair
+from opsim.report.sections.scenarios import MOST_VARIANTS
+from opsim.report.sections.scenarios import scenarios_section as section
+from opsim.results import Result
 from opsim.study.compare import Comparison
 from opsim.study.pareto import Frontier, placed
+from tests.made.result import SCRIPT, kpi, material, summary
+from tests.opsim.report.made_floor import beside, charts, strings, words
+from tests.opsim.report.made_material import texts
 
 HARM = '<script>alert("x")</script>'
 KEYS = ("throughput_per_h", "", "", "1/h"), ("walked_m", "ana", "", "m")
@@ -89,3 +100,153 @@ def test_of_many_variants_every_one_has_a_dot_and_some_of_the_front_a_name():
     names = re.findall(r">(v\d+)</text>", svg)
     assert svg.count("<circle") == 200 and 0 < len(names) <= 12 and set(names) <= set(front)
     assert len(frontier_sentences(found)[0]) < 400
+
+
+RATE, STRAIN = ("throughput_per_h", "", "", "1/h"), ("rula_from_5_min_per_h", "", "", "min/h")
+
+
+class Made(Result):
+    def kpis(self):
+        return {key: dict(enumerate(values)) for key, values in self.summary["table"].items()}
+
+
+def made(folder, name, rate, strain, seed=1, **more):
+    table = {RATE: np.array([0.0, 1.0, 2.0, 1.0]) + rate, STRAIN: np.array([0.1, 0.0, 0.2, 0.1]) + strain}
+    kpis = [
+        {"kpi": key[0], "subject": "", "part": "", "unit": key[3], "mean": float(np.mean(values)), "headline": True}
+        for key, values in table.items()
+    ]
+    content = {"variant": name, "seed": seed, "kpis": kpis, "replications": 4, "window_s": [0, 3600], "table": table}
+    return Made(folder, content | more)
+
+
+@pytest.fixture
+def variants(tmp_path):
+    return {
+        "base": made(tmp_path, "base", 60, 20),
+        "raised": made(tmp_path, "raised", 61, 12),
+        SCRIPT: made(tmp_path, SCRIPT, 70, 18),
+    }
+
+
+def section_of(variants, name, **more):
+    return frontier_shown.pareto_section(
+        material({**variants[name].summary, "tasks": [], **more}, siblings=tuple(variants.items()))
+    )
+
+
+def test_output_stands_against_exposure_where_nobody_asked(variants):
+    assert [one.kpi for one in usual_pair(variants)] == ["throughput_per_h", "rula_from_5_min_per_h"]
+    section = section_of(variants, "base")
+    assert section.id == "frontier" and "asks for no two figures" in texts(section)
+
+
+def test_the_variant_of_the_report_is_marked_and_said(variants):
+    found = {name: next(b for b in section_of(variants, name).blocks if isinstance(b, Svg)).text for name in variants}
+    assert "raised, this report" in found["raised"] and "base, this report" in found["base"]
+    assert all(svg.count('r="10.5"') == 2 for svg in found.values())  # in the picture and in its key
+    assert not any("<script" in svg for svg in found.values())
+
+
+def test_what_the_scenario_asks_for_is_drawn(variants):
+    asked = ["less throughput_per_h", "rula_from_5_min_per_h"]
+    section = section_of(variants, "base", frontier=asked)
+    assert "throughput" in section.title.lower() and "asks for no two" not in texts(section)
+    assert "(less is better)" in next(block for block in section.blocks if isinstance(block, Svg)).text
+
+
+def test_where_variants_are_not_comparable_it_is_said_only_where_it_was_asked(variants, tmp_path):
+    variants["raised"] = made(tmp_path, "raised", 61, 12, seed=2)
+    assert section_of(variants, "base") is None
+    asked = section_of(variants, "base", frontier=["throughput_per_h", "rula_from_5_min_per_h"])
+    assert "seeds" in texts(asked)
+
+
+def test_one_variant_or_a_figure_that_is_the_same_everywhere_tells_nothing(variants, tmp_path):
+    assert section_of({"base": variants["base"]}, "base") is None
+    alike = {name: made(tmp_path, name, 60, 20 + n) for n, name in enumerate(("base", "other"))}
+    assert section_of(alike, "base") is None
+
+
+KEY = ("throughput_per_h", "", "", "1/h")
+
+
+class ForestMade:
+    """What a comparison needs of a Result: ten replications of one figure."""
+
+    def __init__(self, values, seed=7):
+        mean = sum(values) / len(values)
+        rows = [kpi("throughput_per_h", unit="1/h", mean=mean, half_width=1.0, headline=True, n=len(values))]
+        self.summary = {**summary(), "kpis": rows, "seed": seed, "scenario": "Made line"}
+        self.values = values
+
+    def kpis(self):
+        return {KEY: dict(enumerate(self.values))}
+
+
+LUCK = [0.0, 3.0, -2.0, 1.0, 4.0, -3.0, 0.5, 2.0, -1.0, 1.5]
+BASE = [60 + luck for luck in LUCK]
+
+
+def of(**others):
+    return beside(material(summary()), base=ForestMade(BASE), **others)
+
+
+def forest_dots(figure):
+    """(x, symbol) of each row from above."""
+    found = [(y, x, trace["marker"]["symbol"]) for trace in figure["data"] for x, y in zip(trace["x"], trace["y"])]
+    return [(x, symbol) for _, x, symbol in sorted(found)]
+
+
+def test_one_variant_is_compared_with_nothing():
+    assert section(beside(material(summary()), base=ForestMade(BASE))) is None
+
+
+def test_means_stand_beside_paired_differences_and_what_is_clear_is_full():
+    faster = ForestMade([value + 5 + 0.01 * n for n, value in enumerate(BASE)])
+    alike = ForestMade([value + luck for value, luck in zip(BASE, reversed(LUCK))])
+    made = section(of(faster=faster, alike=alike))
+    mean, apart = charts(made).values()
+    assert forest_dots(mean)[0] == (pytest.approx(60.6), "diamond")
+    assert [symbol for _, symbol in forest_dots(mean)] == ["diamond", "circle", "circle-open"]
+    assert forest_dots(apart) == [(pytest.approx(5.045), "circle"), (pytest.approx(0.6), "circle-open")]
+    (error,) = (t["error_x"]["array"] for t in apart["data"] if t["marker"]["symbol"] == "circle")
+    assert 0 < error[0] < 0.1, "the interval of pairs is narrow, though that of the means is wide"
+    assert words(made).startswith("faster is better in throughput (+5.045 ± 0.022 per hour")
+    assert (
+        any("higher, better" in text for text in strings(apart))
+        and "base (this report)" in made.blocks[2].blocks[0].said
+    )
+
+
+def test_the_same_step_in_few_pairs_is_shown_with_how_many():
+    few = {"base": ForestMade(BASE[:3]), "tiring": ForestMade([value - 9 for value in BASE[:3]])}
+    _, apart = charts(section(beside(material(summary()), **few))).values()
+    assert any(
+        "-9 in each of 3 pairs: too few to say" in text.replace("\N{MINUS SIGN}", "-") for text in strings(apart)
+    )
+
+
+def test_other_random_numbers_are_shown_and_not_compared():
+    made = section(of(other=ForestMade(BASE, seed=8)))
+    assert "not compared" in words(made) and [name for name in charts(made) if "apart" in name] == []
+    assert len(charts(made)) == 1
+
+
+def test_of_many_variants_the_best_and_the_worst_are_drawn():
+    many = {f"v{n}": ForestMade([value + n / 10 + 0.001 * k for k, value in enumerate(BASE)]) for n in range(-40, 41)}
+    made = section(of(**many))
+    mean, apart = charts(made).values()
+    assert len(forest_dots(mean)) <= MOST_VARIANTS and len(forest_dots(apart)) == len(forest_dots(mean)) - 1
+    assert (forest_dots(apart)[0][0], forest_dots(apart)[-1][0]) == (pytest.approx(4.0045), pytest.approx(-3.9955))
+    assert "of 82 variants" in made.blocks[2].blocks[0].title
+
+
+def test_a_figure_that_is_the_same_everywhere_needs_no_picture():
+    made = section(of(same=ForestMade(BASE)))
+    assert charts(made) == {} and any(isinstance(block, Folded) for block in made.blocks)
+
+
+def test_hostile_names_are_no_markup():
+    made = section(of(**{SCRIPT: ForestMade([value + 5 + 0.01 * n for n, value in enumerate(BASE)])}))
+    assert not any("<script" in text for figure in charts(made).values() for text in strings(figure))

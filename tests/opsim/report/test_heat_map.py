@@ -1,18 +1,24 @@
-"""A heat map of presence: minutes on the floor, none lost and none made up."""
+"""A heat map of presence: minutes on the floor, none lost and none made up.
+
+Time spread over a floor: none is lost, and it lies where it was spent.
+"""
 
 import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from plans import loaded, ran
 
 from opsim.report.page import Svg
 from opsim.report.plot.floor_plan import FloorWays, floor_map
 from opsim.report.sections import occupancy as heat_map
 from opsim.report.sections.common import presence
-from opsim.report.sections.occupancy import COLOURS, density_of, levels_of
-from tests.made_result import SCRIPT
+from opsim.report.sections.occupancy import COLOURS, density_of, levels_of, spread
+from opsim.report.sections.occupancy import HeatGrid as Grid
+from tests.made.result import SCRIPT
 from tests.opsim.report.made_material import hostile, of_log, texts
 from tests.opsim.study.layout.made_floor import FLOOR
 
@@ -66,3 +72,24 @@ def test_hostile_names_do_no_harm(made):
     section = heat_map.occupancy_section(of_log(made.log, hostile(made.plan, SCRIPT), made.loaded, [{"kpi": "x"}]))
     svg = next(block for block in section.blocks if isinstance(block, Svg))
     assert "<script" not in svg.text and "&lt;script" in svg.text and SCRIPT[:8] in texts(section)
+
+
+GRID = Grid(0.0, 5.0, 0.1, (50, 80))
+POINTS = st.tuples(st.floats(0, 8), st.floats(0, 5))
+
+
+@given(st.lists(st.tuples(st.lists(POINTS, min_size=1, max_size=4), st.floats(0, 1e4)), max_size=5), st.floats(0.01, 3))
+def test_nothing_is_lost_however_it_is_smoothed(lines, sigma):
+    assert spread(GRID, lines, sigma).sum() == pytest.approx(sum(amount for _, amount in lines), abs=1e-6)
+
+
+def test_a_point_is_a_bell_about_it():
+    found = spread(GRID, [(((2.05, 3.05),), 1.0)], 0.4)
+    row, column = np.unravel_index(found.argmax(), found.shape)
+    assert (row, column) == (19, 20)
+    assert found.max() / 0.01 == pytest.approx(1 / (2 * np.pi * 0.4**2), rel=0.01)
+
+
+def test_a_line_is_even_along_its_length():
+    found = spread(GRID, [(((1.0, 2.0), (7.0, 2.0)), 6.0)], 0.2).sum(axis=0)
+    assert np.allclose(found[20:60], 0.1, rtol=0.02) and found[:3].sum() < 1e-4

@@ -1,18 +1,27 @@
+"""Parts of figures in words, and which are shown."""
+
 import hashlib
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import pytest
 
 from opsim.report import render as contents
-from opsim.report.page import HERE
+from opsim.report.page import HERE, StudyPage, Table, study_html
+from opsim.report.page import StudySection as Section
 from opsim.report.render import report_html, write_report
 from opsim.report.sections import scenarios as forest
 from opsim.report.sections import worker_timeline as days
-from opsim.report.sections.provenance import plotly_version
-from tests import made_result
-from tests.made_result import IMAGE, NAMES, SCRIPT, hostile, kpi, material, summary
+from opsim.report.sections.common import is_shown, part_name, without_again
+from opsim.report.sections.provenance import BOTH, RUN, YOURS, plotly_version
+from opsim.report.sections.provenance import stress_des_section as section
+from opsim.report.sections.provenance import stress_items as items_of
+from tests.made import result as made_result
+from tests.made.result import IMAGE, NAMES, SCRIPT, MadeResult, hostile, kpi, material, summary
+from tests.made.result import page as page_of_parts
 
 SECTIONS = ("summary", "figures-table", "states", "times", "movements", "made-up", "assumptions", "provenance")
 
@@ -214,3 +223,126 @@ def test_every_link_leads_somewhere_and_no_id_stands_twice():
     found = page()
     assert {address[1:] for address in found.addresses if address.startswith("#")} <= set(found.ids)
     assert len(found.ids) == len(set(found.ids))
+
+
+FATES = {"resumed": 0.5, "by_another": 0.0, "handed_over": 0.0}
+
+
+def broken_off(subject, **per_h):
+    return [kpi("interruptions_per_h", subject, part, "1/h", mean, 0.0) for part, mean in per_h.items()]
+
+
+def test_parts_of_interruptions_are_in_plain_words_and_others_as_they_are():
+    assert part_name("interruptions_per_h", "by_another") == "gone on with by another"
+    assert part_name("station_states", "blocked") == "blocked" and part_name("interruptions_per_h", "") == ""
+
+
+def test_a_part_that_is_nothing_everywhere_is_left_out_and_the_total_never():
+    assert not is_shown("interruptions_per_h", "open", [{"mean": 0.0}, {"mean": None}])
+    assert is_shown("interruptions_per_h", "open", [{"mean": 0.0}, {"mean": 0.1}])
+    assert is_shown("interruptions_per_h", "", [{"mean": 0.0}]) and is_shown("stop_share", "jam", [{"mean": 0.0}])
+
+
+def test_the_report_lists_of_interruptions_what_there_was():
+    rows = [kpi("interruptions_per_h", unit="1/h", mean=0.5, half_width=0.0), *broken_off("", **FATES)]
+    text = page_of_parts(summary(kpis=[*rows, *broken_off("weld", **FATES)]))
+    assert text.count("gone on with by the same one") == 2 and "weld · gone on with by the same one" in text
+    assert "by_another" not in text and "gone on with by another" not in text and "handed over" not in text
+
+
+def test_nothing_of_a_figure_that_has_parts_alone_is_an_answer_and_the_unknown_none():
+    for name in ("rest_allowance_share", "iso_11226_min_per_h", "exposure_gini"):
+        assert is_shown(name, "murrell", [{"mean": 0.0}]) and not is_shown(name, "murrell", [{"mean": None}])
+    rows = [kpi("iso_11226_min_per_h", "ana", "trunk", "min/h", 0.0, 0.0)]
+    assert "Held beyond ISO 11226" in page_of_parts(summary(kpis=rows))
+
+
+def test_what_there_is_at_most_is_left_out_where_it_is_what_there_is_at_least():
+    rows = [
+        kpi("rest_allowance_share", "ana", part, "share", mean)
+        for part, mean in [("murrell", 0.1), ("murrell_at_most", 0.1), ("price", 0.1), ("price_at_most", 0.2)]
+    ]
+    alone = kpi("lifting_index", "lift", "at_most", "", 2.0)
+    assert without_again([*rows, alone]) == [rows[0], rows[2], rows[3], alone]
+
+
+def test_the_report_leaves_them_out_too():
+    rows = [kpi("rula_mean", "ana", part, "", 3.0) for part in ("", "at_most")]
+    text = page_of_parts(summary(kpis=[*rows, kpi("rula_p90", "ana", "", "", 3.0)]))
+    assert "at most" not in text and "Other figures: bodies" in text and "Other figures: flow" not in text
+
+
+def test_long_text_has_room_on_a_narrow_screen_and_short_text_and_numbers_take_none():
+    table = Table(("who", "what", "why", "n"), [("ana", "w" * 20, "why " * 20, "1")], words=3)
+    assert table.kinds == ["", "words", "sentence", "number"]
+    page = study_html(StudyPage("Line", "sweep", (), (Section("Rows", table=table),)))
+    assert '<td>ana</td><td class="words">' in page and '<td class="number">1</td>' in page
+
+
+def test_a_page_says_scroll_sideways_only_where_a_browser_knows_that_there_is_more():
+    page = study_html(StudyPage("Line", "sweep", (), ()))
+    assert "display: var(--can-scroll, none)" in page and "animation-timeline: scroll(self inline)" in page
+
+
+NUMBERS = [
+    *("1.1", "1.2", "1.3", "2.1", "2.2", "2.3", "2.4", "2.5", "3.1", "3.2", "3.3", "3.4"),
+    *("4.1", "4.2", "4.3", "5.1", "5.2", "5.3", "5.4", "6.1"),
+]
+"""The items of STRESS-DES, Monks et al. (2019), table 1."""
+RESOLVED = {
+    "products": {"pump": {"route": ["weld", ["press", "saw"]]}},
+    "workers": {"ana": {}},
+    "stations": {"weld": {}, "press": {}, "saw": {}},
+    "flow": {"dispatch": "spt"},
+    "release": {"kind": "poisson"},
+}
+
+
+def made(folder="nowhere", siblings=(), resolved=RESOLVED, **other):
+    found = material(summary(**other), siblings=siblings)
+    return replace(found, run=replace(found.run, loaded=SimpleNamespace(resolved=resolved)))
+
+
+def said(material):
+    return {item.number: item for item in items_of(material)}
+
+
+def test_all_20_items_are_there_in_their_order_each_by_somebody():
+    items = items_of(made())
+    assert [item.number for item in items] == NUMBERS
+    assert {item.by for item in items} == {RUN, BOTH, YOURS}
+    assert all(item.said for item in items if item.by == RUN)
+
+
+def test_what_a_run_cannot_know_is_left_to_who_reports_it():
+    found = said(made())
+    assert [number for number, item in found.items() if item.by == YOURS] == ["1.1", "3.2", "5.4"]
+
+
+def test_what_it_knows_is_said():
+    found = said(made(precision=[{"figure": "throughput_per_h", "wanted": 0.01}]))
+    assert "20 replications, as many as it took for throughput_per_h within 1 %" in found["4.3"].said
+    assert "Seed 7" in found["5.2"].said and "PCG64" in found["5.2"].said
+    assert "pump: weld - press or saw" in found["2.2"].said and "waiting jobs by spt" in found["2.4"].said
+    assert "workers ana (1)" in found["2.5"].said and "entry: release" in found["2.5"].said
+    assert "the first 30.00 min do not count" in found["4.1"].said and "Made recordings 2026" in found["3.1"].said
+
+
+def test_a_variant_says_in_what_it_differs_from_the_base(tmp_path):
+    (tmp_path / "scenario.resolved.yaml").write_text("flow: {dispatch: fifo}\nworkers: {ana: {}}\n")
+    base = MadeResult(summary(), tmp_path)
+    found = material(summary(variant="quick"))
+    found = replace(
+        found,
+        siblings={"base": base, "quick": found.result},
+        run=replace(found.run, loaded=SimpleNamespace(resolved={"flow": {"dispatch": "spt"}, "workers": {"ana": {}}})),
+    )
+    assert said(found)["2.3"].said == "Against base: flow.dispatch fifo, now spt."
+    assert "Variants run: base and quick" in said(found)["1.3"].said
+
+
+def test_the_table_names_a_group_once():
+    (table,) = (block for block in section(made()).blocks if block.kind == "grid")
+    assert [row[0] for row in table.rows if row[0]] == [
+        *("Objectives", "Logic", "Data", "Experimentation", "Implementation", "Code access")
+    ]

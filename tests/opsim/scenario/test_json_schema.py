@@ -1,7 +1,6 @@
 """The schema for editors accepts what the reader accepts, and finds what can be found without looking names up.
 
-It was also tried with the jsonschema package and with yaml-language-server 1.25; neither is needed here.
-"""
+It was also tried with the jsonschema package and with yaml-language-server 1.25; neither is needed here."""
 
 import json
 from pathlib import Path
@@ -14,7 +13,8 @@ from opsim import units
 from opsim.problems import ScenarioError
 from opsim.scenario.fields import NAME_PATTERN, is_name
 from opsim.scenario.json_schema import FILE_NAME, json_schema, schema_text
-from opsim.scenario.read import scenarios_in
+from opsim.scenario.paths import step, top, words
+from opsim.scenario.read import scenarios_in, variant_trees
 from opsim.scenario.yaml import read_tree
 from opsim.shipped import shipped_folder
 from tests.json_schema import complaints
@@ -196,3 +196,51 @@ def test_the_reader_agrees_that_the_right_ones_are_right():
 
 def test_the_schema_is_plain_json():
     assert json.loads(schema_text()) == SCHEMA
+
+
+KNOWN_PATHS_HERE = Path(__file__).parent
+KNOWN_PATHS_FILES = sorted(
+    [*shipped_folder().glob("*.yaml"), KNOWN_PATHS_HERE / "everything.yaml", KNOWN_PATHS_HERE / "good.yaml"]
+)
+
+
+def spot_at(root, path):
+    spot = top(root)
+    for part in path.split("."):
+        spot = spot and step(root, spot, part)
+    return spot
+
+
+def leaves(value, path=()):
+    if not isinstance(value, dict) or not value:
+        yield path
+        return
+    for key, below in value.items():
+        yield from leaves(below, (*path, key))
+
+
+@pytest.mark.parametrize("file", KNOWN_PATHS_FILES, ids=lambda file: file.stem)
+def test_every_path_that_stands_in_a_right_scenario_is_known(file):
+    for tree in variant_trees(file)[1].values():
+        for path in leaves(tree.plain()):
+            spot = top(tree)
+            for part in path:
+                if part == "opsim":
+                    break
+                assert part in words(tree, spot), path
+                spot = step(tree, spot, part)
+                assert spot is not None, path
+
+
+def test_keys_that_are_not_written_are_known_too():
+    root = variant_trees(KNOWN_PATHS_HERE / "good.yaml")[1]["base"]
+    for path in ("run.posture", "human.learning.rate", "stations.pack.breakdowns.jam.repair", "defaults.workers.walk"):
+        assert spot_at(root, path) is not None
+    assert spot_at(root, "stations.pack.sarvers") is None
+    assert spot_at(root, "opsim") is None
+
+
+def test_what_is_copied_by_like_and_defaults_shines_through():
+    root = variant_trees(KNOWN_PATHS_HERE / "good.yaml")[1]["base"]
+    assert spot_at(root, "workers.ben.skills.pack").node.value == 1.1
+    assert "like" in words(root, spot_at(root, "workers.ben"))

@@ -1,9 +1,16 @@
+"""Changes laid over a variant: paths that lead nowhere, and what the order of changes decides (nothing)."""
+
+from itertools import permutations
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from opsim.problems import ScenarioError
+from opsim.scenario.paths import nearest_path
 from opsim.scenario.read import scenarios_in
+from opsim.scenario.study_checks import Varied
 
 GOOD = (Path(__file__).parent / "good.yaml").read_text(encoding="utf-8")
 
@@ -134,3 +141,129 @@ def test_a_wrong_change_is_said_once_and_as_a_change():
         "changes:1:14: run.horizon: unknown unit 'hours'\n     1 | run.horizon: 4 hours\n"
         "       |              ^ write '4 h'\n1 problem in changes"
     )
+
+
+HERE = Path(__file__).parent
+VARIED_GOOD = Varied.read(HERE / "good.yaml")
+FULL = Varied.read(HERE / "everything.yaml")
+
+
+def said(changes, varied=VARIED_GOOD, **more):
+    with pytest.raises(ScenarioError) as caught:
+        varied.with_changes(changes, **more)
+    return caught.value.problems
+
+
+@pytest.mark.parametrize(
+    ("path", "found", "hint"),
+    [
+        ("layout.plces.bench", "no 'plces' in layout", "layout.places.bench"),
+        ("stations.pak.buffer", "no 'pak' among the stations", "stations.pack.buffer"),
+        ("stations.pack.bufer", "no 'bufer' in stations.pack", "stations.pack.buffer"),
+        ("workers.ana.wlk", "no 'wlk' in workers.ana", "workers.ana.walk"),
+        ("workers.ben.skils.pack", "no 'skils' in workers.ben", "workers.ben.skills.pack"),
+        ("Workers.ana.walk", "no 'Workers' in a scenario", "workers.ana.walk"),
+        ("workers.walk", "no 'walk' among the workers", "workers.ana.walk"),
+        ("pack.buffer", "no 'pack' in a scenario", "stations.pack.buffer"),
+        ("horizon", "no 'horizon' in a scenario", "run.horizon"),
+        ("run.time.horizon", "no 'time' in run", "run.horizon"),
+        ("workers..walk", "a part of this path is empty", "workers.ana.walk"),
+        ("workers. ana.walk", "no ' ana' among the workers", "workers.ana.walk"),
+        ("tasks.lift.fixd", "no 'fixd' in tasks.lift", "tasks.lift.fixed"),
+        ("human.learning.rat", "no 'rat' in human.learning", "human.learning.rate"),
+        ("defaults.worker.walk", "no 'worker' among the defaults", "defaults.workers.walk"),
+    ],
+)
+def test_a_path_that_leads_nowhere_is_answered_with_the_nearest_full_path(path, found, hint):
+    (problem,) = said({path: 1})
+    assert (problem.file, problem.line, problem.column) == ("changes", 1, 1)
+    assert (problem.path, problem.message, problem.hint) == (path, found, f"did you mean {hint}?")
+
+
+@pytest.mark.parametrize(
+    ("path", "found", "hint"),
+    [
+        ("layout.places.bench[0]", "'bench[0]' cannot be a part of a path", "a list is replaced whole: give layout."),
+        ("layout.places.bench.0", "layout.places.bench is a list; its parts", "give the whole list at layout.places."),
+        ("release.kind.x", "release.kind is 'poisson'; nothing lies inside it", "give a new value at release.kind"),
+        ("run.posture.x", "nothing lies inside run.posture", "give a value at run.posture"),
+        ("workers.ana.patrol.x", "workers.ana.patrol is a list", "give the whole list at workers.ana.patrol"),
+        ("tools.gun.n", "no 'gun' among the tools", "to add one, write tools.gun: {...}"),
+        ("opsim", "no 'opsim' in a scenario", "known: allocation, cards, "),
+        ("nosuch.a", "no 'nosuch' in a scenario", "known: allocation, cards, "),
+        ("studies.sweep.x", "no 'x' in studies.sweep", "known: "),
+        ("", "a part of this path is empty", "a path is written like workers.ana.walk"),
+    ],
+)
+def test_a_path_with_nothing_near_says_the_way_out(path, found, hint):
+    (problem,) = said({path: 1})
+    assert problem.message.startswith(found)
+    assert problem.hint.startswith(hint)
+
+
+def test_all_wrong_paths_and_all_wrong_values_are_said_at_once_and_where_they_come_from():
+    changes = {"stations.pak.buffer": 1, "run.horizon": "4 hours", "workers.ana.wlk": "1 m/s", "run.seed": "x"}
+    problems = said(changes, origin="--vary")
+    assert {problem.file for problem in problems} == {"--vary"}
+    assert [problem.path for problem in problems] == list(changes)
+
+
+def test_a_slip_in_a_new_entry_s_name_is_no_new_entry():
+    assert said({"stations.pak": 4})[0].hint == "did you mean stations.pack?"
+    assert "adds a place 'benc' that nothing uses" in said({"layout.places.benc": ["1 m", "1 m"]})[0].message
+
+
+def test_entries_are_added_whole():
+    workers = VARIED_GOOD.with_changes({"workers.eva": {"like": "ana", "walk": "1 m/s"}}).scenario.workers
+    assert workers["eva"].walk_m_per_s == 1.0
+    assert VARIED_GOOD.with_changes({"workers.ben.skills.pack": 0.9}).scenario.workers["ben"].skills == {"pack": 0.9}
+
+
+def test_the_order_of_changes_decides_nothing():
+    changes = {
+        "workers.eva.walk": "1 m/s",
+        "workers.eva": {"like": "ben"},
+        "workers.ben.skills.pack": 0.9,
+        "workers.ben": {"like": "ana"},
+        "workers.ana.skills": {"pack": 1.3},
+    }
+    found = {repr(VARIED_GOOD.with_changes(dict(order)).scenario) for order in permutations(changes.items())}
+    assert len(found) == 1
+    workers = VARIED_GOOD.with_changes(changes).scenario.workers
+    assert [workers[name].skills["pack"] for name in ("ana", "ben", "eva")] == [1.3, 0.9, 0.9]
+    assert workers["eva"].walk_m_per_s == 1.0
+
+
+def test_who_is_like_another_copies_what_changes_make_of_him():
+    """Of two deep changes the copied one comes first, whatever their names are."""
+    changes = {"workers.ben.skills.pack2": 0.5, "workers.ana.skills.unload": 0.7}
+    for order in (changes, dict(reversed(changes.items()))):
+        skills = FULL.with_changes(order).scenario.workers["ben"].skills
+        assert (skills["pack2"], skills["unload"]) == (0.5, 0.7)
+
+
+words = st.sampled_from(["workers", "ana", "walk", "stations", "pack", "buffer", "run", "layout", "like", "x", ""])
+parts = st.lists(st.one_of(words, st.text(max_size=6)), min_size=1, max_size=5)
+values = st.recursive(
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8)),
+    lambda inside: st.one_of(st.lists(inside, max_size=3), st.dictionaries(st.text(max_size=5), inside, max_size=3)),
+    max_leaves=4,
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.dictionaries(parts.map(".".join), values, max_size=3))
+def test_changes_of_any_kind_give_a_scenario_or_a_list_of_mistakes(changes):
+    try:
+        VARIED_GOOD.with_changes(changes)
+    except ScenarioError as error:
+        assert error.problems
+        assert str(error)
+
+
+@given(parts)
+@settings(max_examples=40, deadline=None)
+def test_the_nearest_path_is_a_path(asked):
+    near = nearest_path(VARIED_GOOD.tree, asked)
+    if near is not None:
+        assert nearest_path(VARIED_GOOD.tree, near.split(".")) == near

@@ -13,7 +13,7 @@ from opsim.log import WORK
 from opsim.results import Result
 from opsim.study.compare import compare
 from opsim.study.run import reopened
-from tests.made_result import NAMES, hostile
+from tests.made.result import NAMES, hostile
 from tests.opsim.export import hostile as harmful
 from tests.opsim.export.made_export import ran
 from tests.opsim.export.made_results import results, variants

@@ -5,10 +5,13 @@ import numpy as np
 import pytest
 from plans import line, loaded
 
+from opsim.kpi.catalogue import KPIS
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario
-from opsim.study.compare import NotComparable, compare, holm, paired
-from opsim.study.intervals import t_interval
+from opsim.study.compare import ONLY_WHERE, NotComparable, compare, holm, paired, remedy
+from opsim.study.intervals import holm as holm_of_paired
+from opsim.study.intervals import paired as paired_of_paired
+from opsim.study.intervals import paired_with_each, t_interval
 
 
 @dataclass(frozen=True)
@@ -221,3 +224,57 @@ def test_variants_of_another_scenario_or_window_are_not_compared(tmp_path):
     ]
     with pytest.raises(NotComparable, match="the window of base"):
         compare(dict(zip(("base", "long"), folders)))
+
+
+def paired_made(seed):
+    """Figures of 40 variants, 2 figures each, in 6 to 14 replications: some alike, some unknown, some constant."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(6, 15))
+    base = rng.normal(100, 5, (2, n))
+    values = base + rng.normal(0, 1, (40, 2, n)) + rng.normal(0, 1, (40, 2, 1))
+    values[3] = base
+    values[4] = base * (1 + 1e-14)
+    values[5] = base + 2
+    values[6, 0], values[7] = 7.0, np.nan
+    values[8, :, ::2] = np.nan
+    values[9, 1, 1:] = np.nan
+    return (base if seed % 2 else np.full_like(base, 9.0)), values
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_one_with_each_is_one_by_one(seed):
+    one, others = paired_made(seed)
+    mean, p, same = paired_with_each(one, others)
+    for i, other in enumerate(others):
+        for figure in (0, 1):
+            interval, alone, _ = paired_of_paired(one[figure], other[figure])
+            assert mean[i, figure] == pytest.approx(interval.mean, rel=1e-9, abs=1e-12, nan_ok=True)
+            assert p[i, figure] == pytest.approx(alone, rel=1e-6, abs=1e-12, nan_ok=True)
+            assert same[i, figure] == (interval.n > 0 and interval.mean == 0 and interval.sd == 0)
+
+
+def test_none_to_compare_with_is_nothing():
+    mean, p, same = paired_with_each(np.ones((2, 5)), np.ones((0, 2, 5)))
+    assert mean.shape == p.shape == same.shape == (0, 2) and holm_of_paired([]).size == 0
+
+
+def test_nobody_is_sent_to_the_name_he_wrote():
+    assert all(f"did you mean {kpi!r}" not in remedy(kpi, {*KPIS} - {kpi}) for kpi in KPIS)
+
+
+@pytest.mark.parametrize(
+    "kpi, said",
+    [
+        ("rest_taken_min_per_h", "people rest by need ('human: rest')"),
+        ("overtime_h", "workers have shifts"),
+        ("stock", "these results have none of it"),
+        ("rula_mean", "'outputs' list it"),
+        ("throughput_per_hour", "did you mean 'throughput_per_h'?"),
+    ],
+)
+def test_why_there_is_none_of_a_figure_is_said(kpi, said):
+    assert remedy(kpi, ("throughput_per_h", "walked_m")).endswith(said) or said in remedy(kpi, ("throughput_per_h",))
+
+
+def test_only_figures_have_conditions():
+    assert set(ONLY_WHERE) <= set(KPIS)

@@ -1,11 +1,34 @@
-"""The parameters of each family, held against the formulas and distributions of scipy."""
+"""The parameters of each family, held against the formulas and distributions of scipy.
+
+Whole numbers by the seam of times.
+
+Parameters that are no times are refused where a model is made.
+"""
+
+import math
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from opsim.tasks import Beta, Empirical, Erlang, Gamma, Geometric, Hyperexponential, Normal, Triangular, Weibull
+from opsim.scenario.schema import GeometricCycles, UniformCycles
+from opsim.tasks import (
+    Beta,
+    Empirical,
+    Erlang,
+    Exponential,
+    Fixed,
+    Gamma,
+    Geometric,
+    Hyperexponential,
+    Lognormal,
+    Normal,
+    Triangular,
+    Uniform,
+    Weibull,
+)
 from opsim.tasks.distributions import balanced_probability, normal_cut, weibull_shape
+from opsim.tasks.model import UniformCount, count_model
 
 
 @pytest.mark.parametrize("cv", [1e-3, 0.05, 0.3, 1.0, 3.0, 10.0])
@@ -109,3 +132,49 @@ def test_an_empirical_time_has_exactly_the_mean_of_its_values_and_a_little_less_
 
 def test_two_equal_empirical_models_are_equal():
     assert Empirical((1.0, 2.0)) == Empirical((1.0, 2.0)) != Empirical((1.0, 3.0))
+
+
+def test_a_number_of_cycles_gets_the_model_it_says():
+    assert count_model(500) == Fixed(500.0)
+    assert count_model(GeometricCycles(dist="geometric", mean=20.0)) == Geometric(20.0, 1.0)
+    assert count_model(UniformCycles(dist="uniform", low=4, high=6)) == UniformCount(4, 6)
+
+
+def test_a_uniform_count_is_whole_and_takes_both_of_its_bounds():
+    counts = UniformCount(4, 6).sample(30_000, np.random.default_rng(1)).duration_s
+    values, seen = np.unique(counts, return_counts=True)
+    assert values.tolist() == [4, 5, 6]
+    assert np.all(np.abs(seen - 10_000) < 4 * (30_000 * 2 / 9) ** 0.5)
+    assert UniformCount(4, 6).mean_duration_s() == 5
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 3), (5, 4)])
+def test_counts_begin_at_1_and_in_order(low, high):
+    with pytest.raises(ValueError, match="must be 1 <= low <= high"):
+        UniformCount(low, high)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Fixed(-5.0),
+        lambda: Fixed(0.0),
+        lambda: Exponential(math.nan),
+        lambda: Exponential(math.inf),
+        lambda: Lognormal(20.0, -0.2),
+        lambda: Lognormal(-1.0, 0.2),
+        lambda: Lognormal(20.0, 0.2, 1.5),
+        lambda: Hyperexponential(0.0, 1.5),
+        lambda: Erlang(5.0, 0),
+        lambda: Geometric(5.0, 6.0),
+        lambda: Uniform(-1.0, 2.0),
+    ],
+)
+def test_an_impossible_parameter_is_refused(make):
+    with pytest.raises(ValueError, match="must be"):
+        make()
+
+
+def test_a_text_is_no_time():
+    with pytest.raises(TypeError, match="duration_s must be a time in seconds above 0, found '5'"):
+        Fixed("5")

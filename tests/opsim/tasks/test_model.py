@@ -1,11 +1,37 @@
-"""What holds for every time model, whatever its family."""
+"""What holds for every time model, whatever its family.
+
+From the words of the language to the model: every kind, with the mean it says itself.
+
+A movement that takes another time is the same movement, at the same shares of it.
+"""
 
 from math import expm1, log, log1p, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from opsim.tasks import Fixed, Gamma, Lognormal, Recorded
+from opsim.external_worker import library_model
+from opsim.performance import Drawn
+from opsim.scenario.read import scenarios_in
+from opsim.tasks import (
+    Beta,
+    Empirical,
+    Erlang,
+    Exponential,
+    Fixed,
+    Gamma,
+    Geometric,
+    Hyperexponential,
+    Lognormal,
+    Normal,
+    Recorded,
+    Triangular,
+    Uniform,
+    Weibull,
+    task_model,
+)
+from opsim.tasks.variability import retimed
 from tests.opsim.tasks.models import CV_OF, MODELS, SHARED
 
 
@@ -96,3 +122,118 @@ def test_log_time_of_a_lognormal_worker_is_normal_about_his_own_mean():
     model = Lognormal(20.0, 0.4, 0.5)
     logs = np.log(model.sample(50_000, np.random.default_rng(8), worker=0.3).duration_s)
     assert logs.mean() == pytest.approx(log(20.0) - log1p(0.16) / 2 + 0.3, abs=4 * 0.28 / 50_000**0.5)
+
+
+GOOD = (Path(__file__).parents[1] / "scenario/good.yaml").read_text(encoding="utf-8")
+KINDS = [
+    ("fixed: 3 s", Fixed(3.0), "fixed, 3 s"),
+    ("dist: exponential, mean: 3 s", Exponential(3.0), "exponential, mean 3 s"),
+    ("dist: erlang, mean: 3 s, k: 2", Erlang(3.0, 2), "erlang of 2, mean 3 s"),
+    ("dist: geometric, mean: 3 s, step: 1 s", Geometric(3.0, 1.0), "geometric, mean 3 s in steps of 1 s"),
+    ("dist: lognormal, mean: 3 s, cv: 0.2", Lognormal(3.0, 0.2), "lognormal, mean 3 s, cv 0.2"),
+    ("dist: gamma, mean: 3 s, cv: 0", Fixed(3.0), "gamma, mean 3 s, cv 0"),
+    (
+        "dist: gamma, mean: 3 s, cv: 0.2, between_share: 0.4",
+        Gamma(3.0, 0.2, 0.4),
+        "gamma, mean 3 s, cv 0.2, 40% of it between workers",
+    ),
+    ("dist: weibull, mean: 3 s, cv: 0.2", Weibull(3.0, 0.2), "weibull, mean 3 s, cv 0.2"),
+    ("dist: hyperexponential, mean: 3 s, cv: 2", Hyperexponential(3.0, 2.0), "hyperexponential, mean 3 s, cv 2"),
+    ("dist: normal, mean: 3 s, sd: 0.6 s", Normal(3.0, 0.6 / 3), "normal, mean 3 s, cv 0.2, none below 0 s"),
+    (
+        "dist: normal, mean: 3 s, cv: 0.2, low: 1 s",
+        Normal(3.0, 0.2, 0.0, 1.0),
+        "normal, mean 3 s, cv 0.2, none below 1 s",
+    ),
+    ("dist: normal, mean: 3 s, sd: 0 s", Fixed(3.0), "normal, mean 3 s, cv 0, none below 0 s"),
+    (
+        "dist: beta, low: 1 s, high: 5 s, mean: 3 s, cv: 0.2",
+        Beta(3.0, 0.2, 0.0, 1.0, 5.0),
+        "beta, 1 to 5 s, mean 3 s, cv 0.2",
+    ),
+    ("dist: uniform, low: 1 s, high: 5 s", Uniform(1.0, 5.0), "uniform, 1 to 5 s"),
+    (
+        "dist: triangular, low: 1 s, mode: 2 s, high: 5 s",
+        Triangular(1.0, 2.0, 5.0),
+        "triangular, 1 to 5 s, most likely 2 s",
+    ),
+    ("dist: empirical, values: [2 s, 4 s]", Empirical((2.0, 4.0)), "empirical, 2 values, mean 3 s"),
+    ("recorded: times.csv", Recorded((2.0, 4.0)), "recorded, times.csv (resample)"),
+    ("recorded: times.csv, by: trace", Recorded((2.0, 4.0), by_index=True), "recorded, times.csv (trace)"),
+    ("recorded: times.csv, by: smooth", Empirical((2.0, 4.0)), "recorded, times.csv (smooth)"),
+]
+
+
+@pytest.mark.parametrize(("said", "model", "words"), KINDS, ids=[kind[0] for kind in KINDS])
+def test_a_task_gets_the_model_it_says(tmp_path, said, model, words):
+    (tmp_path / "times.csv").write_text("2\n4\n")
+    text = GOOD.replace("fixed: 3 s", said)
+    loaded = scenarios_in(text.encode(), tmp_path / "line.yaml")["base"]
+    task = loaded.scenario.tasks["lift"]
+    assert task_model(task, loaded) == model
+    assert task.words == words
+    assert getattr(task, "mean_s", model.mean_duration_s()) == model.mean_duration_s()
+
+
+LIFT = library_model("bench_work/lift")
+BODY = LIFT.sample(4, np.random.default_rng(1))
+LONGER = retimed(BODY, BODY.duration_s * np.array([1.0, 2.0, 0.5, 3.0]))
+DECODED = ("directions", "positions_m", "root_m")
+
+
+@pytest.mark.parametrize("what", DECODED)
+def test_at_shares_of_its_time_a_stretched_movement_is_the_movement(what):
+    share = np.linspace(0, 1, 7)
+    stretched = getattr(LONGER, what)(times_s=LONGER.duration_s[:, None] * share)
+    assert np.allclose(stretched, getattr(BODY, what)(times_s=BODY.duration_s[:, None] * share), rtol=0, atol=1e-10)
+    assert np.array_equal(getattr(LONGER, what)(n_times=7), getattr(BODY, what)(n_times=7))
+
+
+@pytest.mark.parametrize("what", DECODED)
+def test_the_same_times_for_all_are_times_of_the_new_duration(what):
+    at_s = np.array([0.0, 0.4, 1.0])
+    together = getattr(LONGER, what)(times_s=at_s)
+    for row, stretch in enumerate([1.0, 2.0, 0.5, 3.0]):
+        alone = getattr(BODY[row], what)(times_s=at_s / stretch)[0]
+        assert np.allclose(together[row], alone, rtol=0, atol=1e-10)
+
+
+def test_marks_keep_their_share_and_what_is_not_time_stays():
+    assert BODY.mark_s.shape[1] > 0
+    assert np.allclose(LONGER.mark_s / LONGER.duration_s[:, None], BODY.mark_s / BODY.duration_s[:, None], rtol=1e-12)
+    assert LONGER.skeleton is BODY.skeleton
+    assert np.array_equal(LONGER[1:].bone_length_m, BODY[1:].bone_length_m)
+    assert not hasattr(retimed(Whole(BODY), LONGER.duration_s), "bone_length_m")
+    assert np.array_equal(LONGER.scores, BODY.scores)
+
+
+@pytest.mark.parametrize("index", [2, -1, slice(1, 3), np.array([3, 0])], ids=str)
+def test_rows_can_be_taken_where_the_body_has_rows(index):
+    rows = np.atleast_1d(np.arange(4)[index])
+    some = LONGER[index]
+    assert len(some) == len(rows)
+    assert np.array_equal(some.duration_s, LONGER.duration_s[rows])
+    assert np.allclose(some.mark_s, LONGER.mark_s[rows], rtol=1e-12)
+    assert np.allclose(some.positions_m(n_times=5), LONGER.positions_m(n_times=5)[rows], rtol=0, atol=1e-10)
+
+
+class Whole:
+    """Performances without rows: the seam does not ask for them."""
+
+    def __init__(self, block):
+        self.duration_s, self.mark_s, self.positions_m = block.duration_s, block.mark_s, block.positions_m
+
+
+def test_a_body_without_rows_is_decoded_whole():
+    whole = retimed(Whole(BODY), LONGER.duration_s)
+    assert not hasattr(type(whole), "__getitem__")
+    at_s = np.linspace(0, 2, 5)
+    cut = Drawn(LONGER, 1).decoded("positions_m", times_s=at_s)
+    assert np.allclose(Drawn(whole, 1).decoded("positions_m", times_s=at_s), cut, rtol=0, atol=1e-10)
+
+
+def test_a_stretched_time_without_a_body_has_no_postures():
+    longer = retimed(Fixed(2.0).sample(3, np.random.default_rng(0)), np.full(3, 5.0))
+    assert longer.mark_s.shape == longer.scores.shape == (3, 0)
+    with pytest.raises(ValueError, match="no postures"):
+        longer.positions_m()

@@ -1,10 +1,16 @@
 import numpy as np
 import pytest
-from made_scene import SHOWN, run_of, scene
+from made.scene import SHOWN, run_of, scene
 
 from opsim.ergonomics.redraw import performance_again
+from opsim.ergonomics.scores.scoring import Scores
+from opsim.ergonomics.shift.day import fold
+from opsim.libraries import load_library
 from opsim.log import SETUP, WORK
+from opsim.shipped import shipped_folder
+from opsim.viewer.playback import Collected, is_of_coefficients, travels_m
 from opsim.viewer.pose import body_at, joints_m
+from opsim.viewer.scores import rula
 from opsim.viewer.segments import is_gone
 from opsim.viewer.skeletons import turned
 
@@ -102,3 +108,80 @@ def test_who_stands_eases_in_and_out():
         assert before == pytest.approx(after, abs=1e-5)
         edges += 1
     assert edges
+
+
+def drawn(library, task, **condition):
+    model = load_library(shipped_folder() / "libraries" / library)[task]
+    return model.sample(5, np.random.default_rng(0), condition=condition or None)
+
+
+def test_whose_paths_are_quickly_made_is_told_by_the_model():
+    assert is_of_coefficients(drawn("bench_work.npz", "stoop"))
+    assert not is_of_coefficients(drawn("walking.npz", "walk", distance_m=3.0))
+
+
+def test_each_performance_that_leads_somewhere_has_its_own_end():
+    some, found = drawn("bench_work.npz", "carry"), Collected()
+    found.add("carry", "carry", some[:2])
+    found.add("carry", "carry", some[2:])
+    path = some.path(n_times=2)
+    assert travels_m(found.close()) == pytest.approx(path[:, 1, :2] - path[:, 0, :2])
+    assert np.ptp(path[:, 1, 0]) > 0.01
+
+
+@pytest.mark.parametrize(
+    "name", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("kitting", "two_shift_plant")), "walking_cell"]
+)
+def test_nobody_is_ever_outside_of_what_is_framed(name):
+    shown = scene(name)
+    west, south, east, north = shown.reach_m
+    rng, seen = np.random.default_rng(3), 0
+    for _ in range(150):
+        worker, time_s = int(rng.integers(len(shown.workers))), float(rng.uniform(shown.low_s, shown.high_s))
+        joints = joints_m(shown, worker, time_s)
+        if joints is not None:
+            x, y = joints[0, :2]
+            assert west - 0.6 < x < east + 0.6 and south - 0.6 < y < north + 0.6
+            seen += 1
+    assert seen > 20
+
+
+def test_where_a_task_leads_away_from_the_bench_is_framed_too():
+    """Kits are fetched three metres from the bench, where no place is."""
+    south = min(y for _, _, y in scene("kitting").places)
+    assert scene("kitting").reach_m[1] < south - 2.5
+
+
+class Kept:
+    """All frames with their scores, for a naive twin."""
+
+    def __init__(self):
+        self.frames = []
+
+    def add(self, frames, scores: Scores):
+        for k in range(len(frames)):
+            self.frames.append((frames.worker, frames.start_s[k], frames.end_s[k], *scores.rula[k].tolist()))
+
+
+def test_scores_are_those_of_the_frame_there_is_at_each_moment():
+    from dataclasses import replace
+
+    run, low_s, high_s = run_of("walking_cell"), 600.0, 660.0
+    found, kept = rula(run.log(), run.plan, low_s, high_s), Kept()
+    options = replace(run.plan.ergonomics, rate_hz=4.0)
+    fold(run.log(), replace(run.plan, warm_up_s=low_s, horizon_s=high_s, ergonomics=options), [kept])
+    assert found.shape == (2, 240) and (found > 0).mean() > 0.5
+    for worker in range(2):
+        for i in range(0, 240, 3):
+            at_s = low_s + (i + 0.5) / 4
+            here = [
+                (low, high) for w, start_s, end_s, low, high in kept.frames if w == worker and start_s <= at_s < end_s
+            ]
+            meant = here[0][0] | here[0][1] << 4 if here and here[0][0] > 0 else 0
+            assert found[worker, i] == meant
+
+
+def test_without_any_posture_there_are_no_scores():
+    run = run_of("serial_line", 300.0)
+    assert rula(run.log(), run.plan, 0.0, 300.0) is None
+    assert isinstance(rula(run_of("walking_cell").log(), run_of("walking_cell").plan, 0.0, 60.0), np.ndarray)

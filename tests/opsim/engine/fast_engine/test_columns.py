@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor, entered
+from made.machine import as_floor, empty_floor, entered
 from twins import twins
 
 from opsim.engine.fast_engine.log_rows import AT_ONCE, MOST_SORTED, Columns, flush_all, flush_rows, new_row

@@ -12,7 +12,7 @@ Plans that are too large for the ids of streams are refused in words, not run wi
 from types import SimpleNamespace
 
 import pytest
-from made_machine import as_floor, empty_floor, entered
+from made.machine import as_floor, empty_floor, entered
 from plans import CELL as LIMITED
 from plans import plan, queue
 from stand_in_engine import install_rule

@@ -18,7 +18,7 @@ Rules by exposure on both engines; the rates are Python's, as everybody has them
 import numpy as np
 import pytest
 from human_plans import LINE, NEUTRAL, planned, shipped
-from made_pool import POOL
+from made.pool import POOL
 from twins import of_both, twins
 
 from opsim.engine.fast_engine import run_plan

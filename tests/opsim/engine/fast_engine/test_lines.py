@@ -10,7 +10,7 @@ Teams: called, gathered, at work and broken up as in SimPy's engine.
 """
 
 import pytest
-from made_moving_line import moving_line
+from made.moving_line import moving_line
 from twins import twins
 
 from opsim.log import AWAY, BREAK, FINISH, FULL, IS_DOWN, REWORK, SENT_ON, STANDS, TEAM, UNFINISHED, WAIT, WALK, WORK

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor, entered
+from made.machine import as_floor, empty_floor, entered
 from plans import plan, queue
 from twins import twins
 

@@ -20,7 +20,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import as_floor, empty_floor, entered
+from made.machine import as_floor, empty_floor, entered
 from opsim.engine.fast_engine.rotations import WIDTH, Posts, one_each, posts_of
 from twins import twins
 

@@ -1,6 +1,9 @@
-"""The kernel against its naive twin, and what unknowns do to scores."""
+"""The kernel against its naive twin, and what unknowns do to scores.
 
-from dataclasses import replace
+Which part of the body a score is from, and every sub-score beside it.
+"""
+
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -9,7 +12,8 @@ from hypothesis import strategies as st
 
 from opsim.ergonomics.angles import AT, COLUMNS
 from opsim.ergonomics.options import USUAL, Options, Thresholds
-from opsim.ergonomics.scores.scoring import ASKED, NOTHING_OPEN, WALKING, Bounds, bounds_of, score
+from opsim.ergonomics.scores.explain import explain
+from opsim.ergonomics.scores.scoring import ASKED, EITHER, NOTHING_OPEN, WALKING, Bounds, bounds_of, score
 from opsim.plan.tasks import Handling
 from tests.opsim.ergonomics.made_measures import frames, said, upright
 from tests.opsim.ergonomics.naive_scores import naive_scores
@@ -208,3 +212,138 @@ def explained_arm(row):
     phases = phases_of(NOTHING_OPEN)
     kernel.find_codes(np.asarray(row, float), places(), edges_of(USUAL.thresholds), phases[1], False, codes)
     return tuple(codes[kernel.ARM].tolist())
+
+
+SAID = Handling(8.0, "fair", "repeated", "end", True, True, "unbalanced", True)
+
+
+def test_what_is_said_leaves_nothing_open():
+    # 8 kg repeated: RULA 2; REBA 1; OWAS 1; fair grip 1
+    found = bounds_of(SAID)
+    assert (found.rula_force, found.reba_load, found.owas_load, found.coupling) == ((2, 2), (1, 1), (1, 1), (1, 1))
+    assert (found.wrist_twist, found.supported, found.sitting, found.one_legged, found.rapid) == ((2, 2), *[(1, 1)] * 4)
+
+
+def test_what_is_not_said_is_all_that_it_may_be():
+    found = bounds_of(Handling())
+    assert (found.rula_force, found.reba_load, found.owas_load, found.coupling) == ((0, 3), (0, 3), (1, 3), (0, 3))
+    assert found.wrist_twist == (1, 2)
+    assert (found.supported, found.sitting, found.one_legged, found.rapid) == (EITHER,) * 4
+
+
+@pytest.mark.parametrize(
+    ("load_kg", "force", "rula", "worksheet", "reba", "owas"),
+    [
+        (8.0, None, (1, 3), (1, 3), (1, 2), (1, 1)),
+        (12.0, None, (2, 3), (3, 3), (2, 3), (2, 2)),
+        (12.0, "intermittent", (2, 2), (3, 3), (2, 2), (2, 2)),
+        (None, "intermittent", (0, 2), (0, 3), (0, 2), (1, 3)),
+        (None, "shock", (3, 3), (3, 3), (1, 3), (1, 3)),
+        (1.0, None, (0, 3), (0, 3), (0, 1), (1, 1)),
+        (0.0, None, (0, 0), (0, 0), (0, 0), (1, 1)),
+        (0.0, "shock", (3, 3), (3, 3), (1, 1), (1, 1)),
+    ],
+)
+def test_load_and_force_together_make_the_range(load_kg, force, rula, worksheet, reba, owas):
+    found = bounds_of(Handling(load_kg=load_kg, force=force))
+    assert (found.rula_force, found.rula_force_worksheet, found.reba_load, found.owas_load) == (
+        rula,
+        worksheet,
+        reba,
+        owas,
+    )
+
+
+def test_a_load_of_nothing_needs_no_grip_but_one_that_is_named_counts():
+    assert bounds_of(Handling(load_kg=0.0)).coupling == (0, 0)
+    assert bounds_of(Handling(load_kg=0.0, grip="poor")).coupling == (2, 2)
+
+
+def test_empty_hands_have_no_load_force_or_grip_and_all_else_as_before():
+    found, whole = bounds_of(SAID).empty_handed(), bounds_of(SAID)
+    held = {
+        "rula_force": (0, 0),
+        "rula_force_worksheet": (0, 0),
+        "reba_load": (0, 0),
+        "owas_load": (1, 1),
+        "coupling": (0, 0),
+    }
+    assert {one.name: getattr(found, one.name) for one in fields(found)} == {
+        one.name: held.get(one.name, getattr(whole, one.name)) for one in fields(found)
+    }
+
+
+def test_who_walks_stands_on_both_feet_whatever_he_carries():
+    assert WALKING.walking and WALKING.one_legged == WALKING.sitting == WALKING.supported == (0, 0)
+    assert WALKING.reba_load == (0, 3) and not NOTHING_OPEN.walking
+    assert bounds_of(SAID, walking=True).reba_load == (1, 1)
+
+
+STOOP = upright(trunk_flexion=70.0, neck_flexion=-10.0, left_arm_flexion=70.0, right_arm_flexion=70.0)
+
+
+def test_a_stoop_is_told_part_by_part():
+    found = explain(STOOP, NOTHING_OPEN)
+    # RULA: upper arm 3, elbow straight 2: A 3; neck 4, trunk 4: B 7; C (3, 7) 6
+    assert found["rula"]["score"] == (6, 6) and found["rula"]["level"] == (3, 3)
+    assert found["rula"]["text"] == "investigation and changes required soon"
+    parts = found["rula"]["parts"]
+    assert [parts[name] for name in ("upper_arm", "lower_arm", "wrist", "neck", "trunk", "legs")] == [
+        *[(3, 3), (2, 2), (1, 1)],
+        *[(4, 4), (4, 4), (1, 1)],
+    ]
+    assert found["owas"]["parts"] == {"back": (2,), "arms": (1,), "legs": (2,), "load": (1,)}
+
+
+def test_what_drives_a_score_sums_to_what_is_above_the_least():
+    # Shapley by hand, OWAS 2121: only the back differs from 1121: 2 - 1.
+    found = explain(STOOP, NOTHING_OPEN)
+    assert found["owas"]["drives"] == {"back": 1.0}
+    assert sum(found["rula"]["drives"].values()) == pytest.approx(6 - 1)
+    assert sum(found["reba"]["drives"].values()) == pytest.approx(5 - 1)
+    assert next(iter(found["reba"]["drives"])) == "trunk"
+
+
+def test_two_parts_share_what_only_both_bring():
+    # RULA: neck 4 with trunk 1: B 5, C (1, 5) 4; trunk 4 with neck 1: B 5, 4; both: B 7, C (1, 7) 5; none: 1.
+    # Each first: 3, each second: 1: (3 + 1) / 2. (Elbows at 80 degrees, so that arms bring nothing.)
+    both = upright(neck_flexion=-10.0, trunk_flexion=70.0, left_elbow=80.0, right_elbow=80.0)
+    assert explain(both, NOTHING_OPEN)["rula"]["drives"] == pytest.approx({"neck": 2.0, "trunk": 2.0})
+
+
+def test_time_and_load_drive_too():
+    found = explain(upright(), Bounds(reba_load=(3, 3)), repeated=True, static=True)
+    # REBA: A 1 + 3 = 4: C (4, 1) 3, + 2. RULA: C (2 + 1, 1 + 1) 3 against C (1, 1) 1: arms and time
+    assert found["reba"]["score"] == (5, 5) and found["reba"]["drives"] == {"load": 2.0, "time": 2.0}
+    assert found["reba"]["parts"]["time"] == (2, 2) and found["rula"]["parts"]["time"] == (1, 1)
+    assert set(found["rula"]["drives"]) == {"arms", "time"}
+    unloaded = explain(upright(), Bounds(reba_load=(3, 3)), carrying=False)
+    assert unloaded["reba"]["score"] == (1, 1) and unloaded["reba"]["drives"] == {}
+
+
+def test_the_worse_arm_is_the_one_that_is_told():
+    found = explain(upright(right_arm_flexion=100.0), NOTHING_OPEN)
+    assert found["rula"]["side"] == "right" and found["rula"]["parts"]["upper_arm"] == (4, 4)
+
+
+def test_what_is_open_is_told_as_such():
+    found = explain(upright(left_knee=40.0), bounds_of())
+    assert found["owas"]["parts"] == {"back": (1,), "arms": (1,), "legs": (1, 2, 3, 4, 5), "load": (1, 2, 3)}
+    assert found["reba"]["parts"]["legs"] == (1, 3)
+
+
+def test_what_is_no_posture_is_refused():
+    with pytest.raises(ValueError, match=r"measures must be \(N, 30\), found \(1, 3\)"):
+        explain(np.zeros(3), NOTHING_OPEN)
+
+
+@settings(max_examples=25)
+@given(frames(), said())
+def test_scores_are_those_of_the_kernel_and_drives_sum_to_their_middle(row, bounds):
+    found, scored = explain(row, bounds), score(row[None], bounds)
+    least = explain(upright(left_elbow=80.0, right_elbow=80.0), NOTHING_OPEN)
+    for name in ("rula", "reba", "owas"):
+        assert found[name]["score"] == tuple(getattr(scored, name)[0].tolist())
+        if name != "owas" or not bounds.walking:
+            middle = np.mean(found[name]["score"]) - least[name]["score"][0]
+            assert sum(found[name]["drives"].values()) == pytest.approx(middle)

@@ -1,17 +1,35 @@
-"""What shifts cost in energy."""
+"""What shifts cost in energy.
+
+Metabolic energy by Garg, Chaffin & Herrin.
+
+Rest allowances of Rohmert, Murrell and Price.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from opsim.ergonomics.strain.energy import Spent, bending_kcal, energy, lifting_kcal, moved_kcal
+from opsim.ergonomics.strain import energy as garg
+from opsim.ergonomics.strain.energy import (
+    Spent,
+    bending_kcal,
+    energy,
+    holding_time_min,
+    lifting_kcal,
+    moved_kcal,
+    murrell_rest_share,
+    of_whole,
+    price_relaxation,
+    rohmert_rest_share,
+)
 from opsim.plan.tasks import Handling, Moment
 from opsim.plan.workers import Body
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT
-from tests.opsim.ergonomics.strain.test_lifting import made_lifts
-from tests.opsim.ergonomics.strain.test_lifts import loaded_plan
+from tests.opsim.ergonomics.strain.test_lifting import loaded_plan, made_lifts
 
 MAN = Body(mass_kg=70.0, sex="m")
 
@@ -134,3 +152,115 @@ def test_walks_with_something_in_the_hands_cost_more():
     spent, times = Spent(plan), [np.full(2, seconds) for seconds in (3600.0, 0.0, 300.0)]
     found = energy(spent, *times, plan, [(0, 10.0, 120.0)]).work_kcal
     assert found[0, 0] - found[1, 0] == pytest.approx(2 * (4.006 - 2.288))
+
+
+@pytest.mark.parametrize(
+    ("found", "by_hand"),
+    [
+        # man of 70 kg, 10 kg from 0.31 m to 0.81 m
+        (garg.stoop_lift_kcal(70, 10, 0.31, 0.81, 1), 0.01 * (11.375 + 10.85)),  # .325x70x.5; (1.41+.76)x10x.5
+        (garg.squat_lift_kcal(70, 10, 0.31, 0.81, 1), 0.01 * (17.99 + 14.05)),  # .514x70x.5; (2.19+.62)x10x.5
+        (garg.stoop_lower_kcal(70, 10, 0.31, 0.81, 1), 0.01 * (9.38 + 3.375 + 2.61)),  # .268x70x.5; .675x5; 5.22x.5
+        (garg.squat_lower_kcal(70, 10, 0.31, 0.81, 1), 0.01 * (17.885 + 3.505)),  # .511x70x.5; .701x5
+        # woman of 60 kg, 5 kg from 0.81 m to 1.31 m
+        (garg.arm_lift_kcal(60, 5, 0.81, 1.31, 0), 0.01 * (1.86 + 7.975)),  # .062x60x.5; 3.19x5x.5
+        (garg.arm_lower_kcal(60, 5, 0.81, 1.31, 0), 0.01 * (2.79 + 2.55)),  # .093x60x.5; 1.02x5x.5
+        (garg.posture_kcal_per_min("standing", 70), 1.68),
+        (garg.posture_kcal_per_min("bent", 70), 1.96),
+        (garg.posture_kcal_per_min("sitting", 70), 1.61),
+        (garg.walking_kcal_per_min(70, 1.0), 0.01 * (51 + 177.8)),
+        (garg.walking_kcal_per_min(70, 1.0, 10), 0.01 * (68 + 177.8 + 40.8 + 114)),
+        (garg.holding_kcal_per_min(10), 0.62),
+    ],
+)
+def test_equations_by_hand(found, by_hand):
+    assert found == pytest.approx(by_hand)
+
+
+def test_a_lift_past_the_bench_is_cut_there():
+    """60 kg woman, 5 kg from 0.31 to 1.31 m: with the back to 0.81, with the arms from there."""
+    back, arms = garg.stoop_lift_kcal(60, 5, 0.31, 0.81, 0), garg.arm_lift_kcal(60, 5, 0.81, 1.31, 0)
+    assert garg.moved_kcal(60, 5, 0.31, 1.31, 0) == pytest.approx(back + arms)
+    down = garg.squat_lower_kcal(60, 5, 0.31, 0.81, 0) + garg.arm_lower_kcal(60, 5, 0.81, 1.31, 0)
+    assert garg.moved_kcal(60, 5, 1.31, 0.31, 0, squat=True) == pytest.approx(down)
+
+
+def test_what_stays_at_its_height_costs_nothing_to_move():
+    assert garg.moved_kcal(70, 10, 0.5, 0.5, 1) == 0.0
+
+
+heights, sexes = st.floats(0.05, 1.9), st.sampled_from([0.0, 0.5, 1.0])
+
+
+@given(heights, heights, st.floats(0, 30), st.floats(0, 10), st.floats(40, 120), sexes, st.booleans())
+def test_heavier_loads_and_bodies_never_cost_less(one, other, load, more, body, sex, squat):
+    kcal = garg.moved_kcal(body, load, one, other, sex, squat)
+    assert kcal >= 0
+    assert garg.moved_kcal(body, load + more, one, other, sex, squat) >= kcal
+    assert garg.moved_kcal(body + more, load, one, other, sex, squat) >= kcal
+
+
+@given(st.floats(0.1, 0.8), st.floats(0, 0.6), st.floats(0, 30), sexes, st.booleans())
+def test_going_deeper_never_costs_less(high, deeper, load, sex, squat):
+    low = max(high - deeper, 0.05)
+    for begin, end in ((low, 0.81), (0.81, low)):
+        higher = (high, 0.81) if begin == low else (0.81, high)
+        assert (
+            garg.moved_kcal(70, load, begin, end, sex, squat) >= garg.moved_kcal(70, load, *higher, sex, squat) - 1e-12
+        )
+
+
+def test_many_at_once_are_each_alone():
+    rng = np.random.default_rng(0)
+    begin, end, load, squat = (
+        rng.uniform(0, 1.8, 40),
+        rng.uniform(0, 1.8, 40),
+        rng.uniform(0, 20, 40),
+        rng.random(40) < 0.5,
+    )
+    found = garg.moved_kcal(70.0, load, begin, end, 0.5, squat)
+    alone = [float(garg.moved_kcal(70.0, *one[:1], *one[1:3], 0.5, one[3])) for one in zip(load, begin, end, squat)]
+    assert found == pytest.approx(alone)
+
+
+def test_rohmerts_holding_times_by_hand():
+    """f = 0.5: -1.5 + 4.2 - 2.4 + 0.8 = 1.1 min; f = 1: -1.5 + 2.1 - 0.6 + 0.1 = 0.1 min;
+    f = 0.2: -1.5 + 10.5 - 15 + 12.5 = 6.5 min; up to 0.15 for ever.
+    """
+    assert holding_time_min([0.5, 1.0, 0.2]) == pytest.approx([1.1, 0.1, 6.5])
+    assert np.isinf(holding_time_min([0.15, 0.0])).all()
+
+
+def test_rohmerts_rest_by_hand():
+    """Half a strength for 0.55 of its 1.1 min: 18 x 0.5^1.4 x 0.35^0.5 = 18 x 0.378929 x 0.591608 = 4.0352."""
+    assert rohmert_rest_share(0.55, 0.5) == pytest.approx(4.0352, abs=1e-4)
+    assert rohmert_rest_share(60.0, 0.15) == 0.0
+    assert rohmert_rest_share(99.0, 0.5) == pytest.approx(rohmert_rest_share(1.1, 0.5))
+
+
+def test_murrells_rest_by_hand():
+    """6 kcal/min against a standard of 4: 60 min x (6 - 4) / (6 - 1.5) = 26.7 min of an hour."""
+    assert 60 * murrell_rest_share(6.0, 4.0) == pytest.approx(26.667, abs=1e-3)
+    assert murrell_rest_share(6.0) == pytest.approx(1 / 4.5)
+    assert murrell_rest_share(5.0) == 0.0 and murrell_rest_share(1.0) == 0.0
+
+
+def test_prices_rest_by_hand():
+    """7 kcal/min = 488.5 W: (488.46 - 300) / 195 = 0.96646 of the time worked, 49 % of all."""
+    assert price_relaxation(7.0) == pytest.approx((7 * 69.78 - 300) / 195)
+    assert of_whole(price_relaxation(7.0)) == pytest.approx(0.4915, abs=1e-4)
+    assert price_relaxation(4.2) == 0.0
+
+
+@given(st.floats(0, 1), st.floats(0, 1), st.floats(0, 30), st.floats(0, 30))
+def test_more_force_and_longer_holds_never_ask_for_less_rest(one, other, brief, long):
+    (weak, strong), (brief, long) = sorted((one, other)), sorted((brief, long))
+    assert holding_time_min(strong) <= holding_time_min(weak)
+    assert rohmert_rest_share(brief, weak) <= rohmert_rest_share(long, strong) + 1e-12
+
+
+@given(st.floats(0, 20), st.floats(0, 20))
+def test_more_energy_never_asks_for_less_rest(one, other):
+    low, high = sorted((one, other))
+    assert 0 <= murrell_rest_share(low) <= murrell_rest_share(high) < 1
+    assert 0 <= of_whole(price_relaxation(low)) <= of_whole(price_relaxation(high)) < 1

@@ -7,7 +7,7 @@ import pytest
 from opsim.report.page import Chart
 from opsim.report.plot import plotly as figures
 from opsim.report.plot.matplotlib_chart import chart_svg
-from tests.made_result import BOLD, SCRIPT, states
+from tests.made.result import BOLD, SCRIPT, states
 
 matplotlib = pytest.importorskip("matplotlib")
 SVG = "{http://www.w3.org/2000/svg}"

@@ -1,5 +1,5 @@
 from opsim.report.motion.people import compact, notes, overview, pairs, persons, title, total
-from tests.made_people import NONE, found
+from tests.made.people import NONE, found
 
 NOBODY = [NONE] * 4
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from opsim.report.motion import people as picture
-from tests.made_people import NONE, found
+from tests.made.people import NONE, found
 
 
 @pytest.fixture

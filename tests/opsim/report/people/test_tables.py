@@ -2,7 +2,7 @@ import csv
 import math
 
 from opsim.report.motion.people import FILES, as_plain, write_tables
-from tests.made_people import found
+from tests.made.people import found
 
 
 def rows_of(path):

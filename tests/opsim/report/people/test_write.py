@@ -1,7 +1,7 @@
 import re
 
 from opsim.report.motion.people import FILES, write_people
-from tests.made_people import NONE, found
+from tests.made.people import NONE, found
 
 
 def test_the_page_stands_beside_its_tables_and_picture(tmp_path):

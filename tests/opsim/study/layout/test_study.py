@@ -1,14 +1,20 @@
-"""The whole study on a small floor: known answers, laws, and the same whoever computes it."""
+"""The whole study on a small floor: known answers, laws, and the same whoever computes it.
+
+The shipped eight-station cell: its layout is a random one of the middle, and the study finds a better one.
+
+The whole of it, with all 200 random layouts simulated: ``PYTHONPATH=tests python -m study_evidence.layout``.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from study_evidence.layout import EACH, FILE, asked_for, drawn, shipped
 
 from opsim.kpi.catalogue import read_asked
 from opsim.report.page import study_html
 from opsim.report.studies.layout import layout_page
-from opsim.study.jobs import Job, Point
+from opsim.study.jobs import Answers, Job, Point, Source
 from opsim.study.layout.evaluate import BEST, EXPOSURE, WALKED, _worst, against, exposure_asked, flows_of
 from opsim.study.layout.floor import NoLayout
 from opsim.study.layout.study import NOW, chosen, study_layout, summary
@@ -176,3 +182,24 @@ def test_an_exposure_that_is_not_measured_says_so_in_its_column(found):
     section = next(one for one in layout_page(made).sections if one.title.startswith("Layouts"))
     assert all(row[-1] == "not measured" for row in section.table.rows)
     assert "Not measured: no work that is done here has a known posture" in section.sentences[0]
+
+
+NUMBER = 67
+"""Which of the random layouts is shipped."""
+
+
+@pytest.mark.slow
+def test_the_shipped_layout_is_a_random_one_and_about_half_of_others_walk_less():
+    layouts = drawn(range(12), each=EACH, processes=1)
+    base = drawn([NUMBER], each=EACH, processes=1)[0]
+    less = np.mean([one.walked_m_per_h < base.walked_m_per_h for one in layouts])
+    assert base.at == shipped() and 0.2 <= less <= 0.8
+
+
+@pytest.mark.slow
+def test_the_proposal_for_the_shipped_cell_is_better_in_walking_and_throughput_on_fresh_numbers():
+    asked = asked_for({"proposals": 1, "replications": 5, "exposure": "walked_m"})  # no postures: a third of the time
+    found = study_layout(asked, Answers(Source(FILE, asked.kept), processes=1))
+    assert found.taken is not None and found.taken.proposed
+    assert found.fresh[WALKED].difference.high < 0 < found.fresh[BEST].difference.low
+    assert found.fresh[WALKED].relative[0] < -0.25

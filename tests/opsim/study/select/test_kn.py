@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from made_systems import normal_systems, slippage
+from made.systems import normal_systems, slippage
 
 from opsim.study.select import Limit, Out, each, kn
 from opsim.study.select.kn import UNMOVED

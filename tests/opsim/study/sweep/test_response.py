@@ -1,8 +1,15 @@
+"""Effects read from a fit: their intervals hold what a run at both ends would say."""
+
 import numpy as np
 import pytest
 
+from opsim.study.intervals import t_interval
 from opsim.study.sweep import fit_response, grid
+from opsim.study.sweep.designs import latin_hypercube
+from opsim.study.sweep.effects import best_of, effects_by_fit
+from opsim.study.sweep.factors import Factor
 from opsim.study.sweep.response_surface import columns
+from opsim.study.sweep.response_surface import fit_response as fit_response_of_by_fit
 
 # Montgomery, Design and Analysis of Experiments, 8th ed., table 11.6: a central composite design and its yields
 CODED = [(-1, -1), (-1, 1), (1, -1), (1, 1), *[(0, 0)] * 5, (1.414, 0), (-1.414, 0), (0, 1.414), (0, -1.414)]
@@ -143,3 +150,73 @@ def test_the_misfit_is_what_the_misses_have_beyond_luck():
     found = [fit_response(x, 2 * x + tooth + rng.normal(0, 1, (40, 8)), kind="linear").misfit for _ in range(100)]
     straight = [fit_response(x, 2 * x + rng.normal(0, 1, (40, 8)), kind="linear").misfit for _ in range(100)]
     assert np.mean(found) == pytest.approx(0.25, rel=0.1) and np.mean(straight) < 0.02
+
+
+FACTORS = (Factor("a.b", (-1.0, 1.0), is_range=True), Factor("c.d", (-1.0, 1.0), is_range=True))
+
+
+def knee(x):
+    """No polynomial: it stops rising in a, and rises in d only below the middle."""
+    return 10 * np.minimum(x[:, 0], -0.3) + np.minimum(x[:, 1], 0)
+
+
+def plane(x):
+    return 5 * x[:, 0] + x[:, 1]
+
+
+def effects(truth, rng, points=12, replications=5, noise=0.1):
+    x = 2 * latin_hypercube(points, 2, rng) - 1
+    luck = rng.normal(0, 1, (1, replications)) + noise * rng.normal(0, 1, (points, replications))
+    fit = fit_response_of_by_fit(x, truth(x)[:, None] + luck, low=[-1, -1], high=[1, 1])
+    return fit, effects_by_fit(FACTORS, fit)
+
+
+@pytest.mark.parametrize("truth", [plane, knee])
+def test_an_interval_by_the_fit_holds_the_true_difference_of_its_two_levels(truth):
+    rng, held = np.random.default_rng(2), []
+    for _ in range(150):
+        for one in effects(truth, rng)[1]:
+            column = 0 if one.name == "a.b" else 1
+            ends = np.zeros((2, 2))
+            ends[:, column] = [float(one.levels[k].name) for k in (one.least, one.most)]
+            low, high = truth(ends)
+            held.append(one.rise.low <= high - low <= one.rise.high)
+    assert np.mean(held) > 0.92
+
+
+def test_a_plane_is_found_clear_with_an_interval_no_wider_than_its_luck():
+    _, (first, second) = effects(plane, np.random.default_rng(3), points=20, replications=10)
+    assert first.name == "a.b" and first.clear and second.clear and second.rise.half_width < 0.4
+
+
+def test_nothing_is_clear_by_a_fit_that_is_not_to_be_trusted():
+    fit, found = effects(lambda x: 5 * np.sin(9 * x[:, 0]) + 3 * x[:, 0], np.random.default_rng(1))
+    assert not fit.trusted and found and not any(one.clear for one in found)
+
+
+NAN = float("nan")
+
+
+def best(values, better="more"):
+    rows = np.array(values, dtype=float)
+    return best_of(rows, [t_interval(row) for row in rows], better)
+
+
+def test_the_best_has_the_best_mean_and_is_told_from_the_others_pair_by_pair(rng):
+    luck = rng.normal(0, 50, 8)
+    tie = 5 + 0.1 * (-1.0) ** np.arange(8)
+    found = best([luck, luck + tie, luck + tie[::-1] + 0.001])
+    assert found.row == 2 and found.like_it == 1 and found.shared == 8
+
+
+def test_a_point_does_not_win_by_having_values_in_lucky_replications_only(rng):
+    luck = np.array([0.0, 0, 0, 10, 10, 10])
+    worse = np.where(luck > 0, luck - 1, NAN)
+    for better, sign in (("more", 1), ("less", -1)):
+        found = best(sign * np.array([worse, luck, luck - 2 - rng.normal(0, 0.1, 6)]), better)
+        assert found.row == 1 and found.shared == 3
+
+
+def test_points_without_any_value_are_no_rivals():
+    found = best([[NAN, NAN], [1, 2], [0, 1.5]])
+    assert found.row == 1 and found.shared == 2

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_machine import Box, as_box, as_floor, empty_floor, entered
+from made.machine import Box, as_box, as_floor, empty_floor, entered
 from twins import twins
 
 from opsim.engine.fast_engine.machine import (

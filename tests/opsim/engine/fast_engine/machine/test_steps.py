@@ -4,7 +4,7 @@ from types import FunctionType
 
 import numpy as np
 import pytest
-from made_machine import as_floor, empty_floor, entered, is_even, is_odd
+from made.machine import as_floor, empty_floor, entered, is_even, is_odd
 from opsim.engine.fast_engine.floor_state import Floor
 
 from opsim.engine.fast_engine.machine import TABLE, complete, line_of, needed, step_of, steps

@@ -6,7 +6,7 @@ import sys
 from contextlib import contextmanager
 
 import pytest
-from made_machine import empty_floor, is_even, is_odd
+from made.machine import empty_floor, is_even, is_odd
 
 from opsim.engine.fast_engine.machine import TABLE, code_cache, compiling, complete, needed, step_of, table
 from opsim.engine.fast_engine.machine import code_cache as store
