@@ -16,6 +16,6 @@ for figure in figures(log, plan):
         print(f"{figure.kpi} {figure.subject or 'all'}: {figure.value:.1f}")
 
 with tempfile.TemporaryDirectory() as folder:
-    result = run_scenario(variants["near"], folder=Path(folder), replications=5, processes=1)
+    result = run_scenario(variants["near"], folder=Path(folder), replications=5)
     row = next(row for row in result.summary["kpis"] if row["kpi"] == "time_in_system_s" and not row["subject"])
     print(f"rack near: a job stays {row['mean']:.0f} s +- {row['half_width']:.0f} s in {row['n']} replications")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gc
 import os
+import pickle
 import signal
+import sys
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -54,6 +56,7 @@ class Pool:
         fork = can_fork()
         context: Any = get_context("fork" if fork else "spawn")
         self._ahead = WAITING * processes
+        self._hides = None if fork or b"__main__" in pickle.dumps(prepare) else sys.modules["__main__"]
         self._parent_lives, self._parent_ends = context.Pipe(duplex=False)
         begin = (prepare, self._parent_lives, self._parent_ends if fork else None)
         self._pool = ProcessPoolExecutor(processes, context, initializer=_begin, initargs=begin)
@@ -86,7 +89,7 @@ class Pool:
         self._end()
 
     def _submitted(self, items: Iterator[Any], n: int) -> set[Future[Any]]:
-        with _without_signals():
+        with _without_signals(), _hidden(self._hides):
             return {self._pool.submit(_work, item) for item in islice(items, n)}
 
     def _end(self) -> None:
@@ -128,6 +131,24 @@ def _without_signals() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _hidden(script: Any) -> Iterator[None]:
+    """Processes started in this block do not run the user's script again, as they do to find what stands in it.
+
+    Else a script whose work is not below ``if __name__ == "__main__":`` would start processes from its processes, which
+    Python refuses.
+    """
+    if script is None:
+        yield
+        return
+    kept = {name: script.__dict__[name] for name in ("__spec__", "__file__") if name in script.__dict__}
+    script.__dict__.update(dict.fromkeys(kept))
+    try:
+        yield
+    finally:
+        script.__dict__.update(kept)
 
 
 _here: dict[str, Any] = {}

@@ -122,6 +122,25 @@ if __name__ == "__main__":
 """
 
 
+def test_a_script_without_a_guard_is_not_run_again_in_each_process(tmp_path):
+    """As they are spawned beside threads, such as those of BLAS."""
+    script = tmp_path / "unguarded.py"
+    script.write_text(UNGUARDED)
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120)
+    assert done.stdout == "begun\n[1, 2, 4, 8] unguarded.py\n" and done.stderr == ""
+
+
+UNGUARDED = """
+import os, threading
+from functools import partial
+from opsim.pool import pooled
+
+print("begun")
+threading.Thread(target=threading.Event().wait, daemon=True).start()
+print(sorted(pooled(partial(partial, pow, 2), range(4), 2)), os.path.basename(__file__))
+"""
+
+
 BEGIN = """
 import math, multiprocessing, os, signal, sys, threading, time
 from functools import partial
