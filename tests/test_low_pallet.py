@@ -16,11 +16,11 @@ N = 6
 
 
 @functools.cache
-def replications(variant):
-    """(N,) minutes bent an hour, and (N,) throughput, of the first replications."""
+def replications(variant, n=N):
+    """(n,) minutes bent an hour, and (n,) throughput, of the first replications."""
     plan = compile_plan(read_scenarios("low_pallet", [variant])[variant])
     rows = []
-    for replication in range(N):
+    for replication in range(n):
         found = figures(run_plan(plan, replication), plan, asked=(BENT,))
         rows.append(
             [next(f.value for f in found if f.kpi == kpi and not f.subject) for kpi in (BENT, "throughput_per_h")]
@@ -31,8 +31,8 @@ def replications(variant):
 @pytest.mark.slow
 def test_drawing_times_and_postures_apart_misses_bent_time_and_no_throughput():
     """Who bends deeper takes longer: apart, the deep postures are given shorter times."""
-    bent, rate = replications("base")
-    bent_apart, rate_apart = replications("times_apart_from_bodies")
+    bent, rate = replications("base", 16)
+    bent_apart, rate_apart = replications("times_apart_from_bodies", 16)
     assert np.array_equal(rate, rate_apart)
     missed = t_interval(bent - bent_apart, 0.95)
     assert missed.low > 0

@@ -63,7 +63,7 @@ WAITS = row(HELD, 4, 50, station=0, job=0, cause=AWAY)
 
 
 def found(*rows):
-    p = plan(FLOOR)
+    p = plan(PROGRESS_FLOOR)
     log = made(rows, p)
     return list(away(log, p, Stays(log)))
 
