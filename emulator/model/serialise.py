@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from emulator.byte_planes import from_planes, to_planes
 from emulator.covariates import serialise as stored
 from emulator.fitting.report import FitReport
 from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
@@ -84,7 +85,8 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     for name in ("posture", "root"):
         pca: JointPCA = getattr(model, name)
         whole, exponent = encode(np.concatenate([pca.mean[None], pca.basis]), bits(model.n_times))
-        arrays |= {f"{name}_whole": _steps(whole, model.n_times), f"{name}_exponent": exponent}
+        grid = whole.reshape(len(whole), model.n_times, -1).transpose(0, 2, 1)
+        arrays |= {f"{name}_planes": to_planes(np.ascontiguousarray(grid)), f"{name}_exponent": exponent}
     if model.workforce.told is not None:
         plain["covariates"], told = stored.pack(model.workforce.told.model)
         arrays |= {f"covariates_{name}": value for name, value in told.items()}
@@ -102,12 +104,6 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     if model.workforce.smoothed is not None:
         arrays |= packed(model.workforce.smoothed, SMOOTHED, "smoothed_")
     return plain, arrays
-
-
-def _steps(whole: np.ndarray, n_times: int) -> np.ndarray:
-    """Whole (R, T * C) -> first values and steps along time (R, T, C), modulo 2^16 or 2^32: small, they pack well."""
-    grid = whole.reshape(len(whole), n_times, -1)
-    return np.concatenate([grid[:, :1], np.diff(grid, axis=1)], axis=1)
 
 
 def _halves(whole: np.ndarray) -> np.ndarray:
@@ -219,8 +215,13 @@ class _Parts:
         return spread
 
     def long_pca(self, name: str, channels: int) -> JointPCA:
-        whole = self.own.array(f"{name}_whole", self.size[name] + 1, "T", channels)
-        rows = decode(_sums(whole), self.own.array(f"{name}_exponent", len(whole)))
+        n = self.size[name] + 1
+        if f"{name}_planes" in self.own:
+            grid = from_planes(self.own.array(f"{name}_planes", -1, n, channels, "T")).transpose(0, 2, 1)
+            whole = grid.reshape(n, -1)
+        else:  # a library of before
+            whole = _sums(self.own.array(f"{name}_whole", n, "T", channels))
+        rows = decode(whole, self.own.array(f"{name}_exponent", n))
         return JointPCA(rows[0], rows[1:], self._explained(name))
 
     def short_pca(self, name: str, length: int) -> JointPCA:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from emulator.archive import FORMAT, MemberError, open_members, read_member
+from emulator.byte_planes import from_planes
 from emulator.model.emulator import MotionEmulator
 from emulator.model.library import LibraryError, MotionLibrary, file_sha256, read_header
 from tests.emulator.fitted import made, recorded
@@ -206,7 +207,7 @@ def less(rows):
     return lambda name, content: npy(np.load(io.BytesIO(content))[:-1]) if name in rows else content
 
 
-@pytest.mark.parametrize("part", ["within_factor", "between_factor", "effects", "posture_whole", "pace_mean"])
+@pytest.mark.parametrize("part", ["within_factor", "between_factor", "effects", "posture_planes", "pace_mean"])
 def test_a_row_cut_off_any_array_is_named_with_file_task_and_shapes(saved, part):
     with zipfile.ZipFile(saved) as file:
         shape = np.load(io.BytesIO(file.read(f"reach/{part}.npy"))).shape
@@ -227,6 +228,25 @@ def test_a_row_cut_off_a_library_of_before_that_says_no_shapes_is_found(saved, p
     assert MotionLibrary.load(saved).tasks == ("reach", "walk")
     with pytest.raises(LibraryError, match=f"walk/{part}: the squares"):
         MotionLibrary.load(changed(saved, less([f"walk/{part}.npy"])))
+
+
+def test_curves_of_a_library_of_before_are_read_as_they_were(saved):
+    """Its curves were written as steps along time, components x times x channels."""
+    kept = MotionLibrary.load(saved)
+    with zipfile.ZipFile(saved) as file:
+        members = {name: file.read(name) for name in file.namelist()}
+    for name in [name for name in members if name.endswith("_planes.npy")]:
+        whole = from_planes(np.load(io.BytesIO(members.pop(name)))).transpose(0, 2, 1)
+        steps = np.diff(whole, axis=1, prepend=np.zeros_like(whole[:, :1]))
+        members[name.replace("_planes", "_whole")] = npy(steps)
+    with zipfile.ZipFile(saved, "w") as file:
+        for name, content in members.items():
+            file.writestr(name, content)
+    with_header(saved, lambda header: {key: value for key, value in header.items() if key != "shapes"})
+    again = MotionLibrary.load(saved)
+    for task in kept:
+        assert again[task].posture.basis.tobytes() == kept[task].posture.basis.tobytes()
+        assert again[task].root.mean.tobytes() == kept[task].root.mean.tobytes()
 
 
 def test_an_exponent_beyond_all_numbers_is_refused(saved):
