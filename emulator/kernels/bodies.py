@@ -1,6 +1,6 @@
 """Bodies from directions: joints by walking down the bones, and the way of a root that rides on planted feet.
 
-Their twins: Skeleton.positions with clean.turn, RootChannel.inverse_numpy, tests/naive.py.
+Their twins: Skeleton.positions with clean.turn, RootChannel.inverse_numpy, tests/naive.
 
 Forward kinematics of a hierarchy of joints with channels, frame by frame. Twin: ``naive_hierarchy`` in tests.
 
@@ -50,10 +50,11 @@ def stand_all(directions, length_m, chain, path, joints):
 
 
 @compiled(fastmath=FAST, error_model="numpy", nogil=True)
-def ride_all(directions, length_m, chain, feet, soft_m, channel, leg_m, root):
+def ride_all(directions, length_m, chain, feet, soft_m, channel, leg_m, lowest_m, root):
     """The way of the root (n, T, 3) from directions (n, T, 3B) and channel (n, T, 4); see ``root.RootChannel``.
 
     feet (F,) : joints that may carry; leg_m (n,) : what slip and clearance are measured in
+    lowest_m  : no joint gets below this height
     """
     n_feet = feet.size
     joints = np.zeros((chain.shape[0] + 1, 3))
@@ -82,7 +83,7 @@ def ride_all(directions, length_m, chain, feet, soft_m, channel, leg_m, root):
             floor = soft_m * np.log(weight / n_feet) - lowest_foot if n_feet else 0.0
             root[i, t, 0] = way_x + channel[i, t, 0] * leg_m[i]
             root[i, t, 1] = way_y + channel[i, t, 1] * leg_m[i]
-            root[i, t, 2] = max(floor + channel[i, t, 2] * leg_m[i], -lowest)
+            root[i, t, 2] = max(floor + channel[i, t, 2] * leg_m[i], lowest_m - lowest)
         for c in range(2):
             start = root[i, 0, c]
             for t in range(directions.shape[1]):

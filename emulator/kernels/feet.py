@@ -1,6 +1,6 @@
 """Bodies that stand as somebody stood: the root moved until planted feet are where they belong, legs bent after it.
 
-Its twin: planted in tests/naive_footing.py.
+Its twin: planted in tests/naive/footing.py.
 """
 
 from __future__ import annotations

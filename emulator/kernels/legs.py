@@ -1,6 +1,6 @@
 """Legs that bend so that ankles go where they belong, and feet that turn: two bones each, and the lengths stay.
 
-Its twin: bent and turned in tests/naive_footing.py.
+Its twin: bent and turned in tests/naive/footing.py.
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ from emulator.kernels.sphere import spline_weights
 STRAIGHT = 0.9995
 """The most of its length to which a leg stretches."""
 STIFF_KNEE, AHEAD = 0.01, 0.02
-"""A leg straight to within this share of its length keeps its length, and a knee straight to within that bends ahead:
-else a millimetre of a foot would throw the knee about by centimetres."""
+"""A leg straight to within the first share of its length keeps its length, and a knee bends at least the second ahead:
+else a millimetre of a foot would throw the knee about by centimetres, and bend far back what is bent back a little."""
+SIDEWAYS = 0.03
+"""Where a leg points ahead itself, within 10 degrees, ahead is no side of it."""
 FOLDED = (0.15, 0.35)
 """A leg whose ankle is this near to its hip, in leg lengths, turns about with every millimetre: it follows not at all
-below the first, fully above the second."""
+below the first, fully above the second; nor does its knee bend ahead."""
 MOST_BEND_M = 0.2
 """What legs bend at most, softly: a foot that would have to go farther is where the draw's own posture has it."""
 
@@ -35,6 +37,13 @@ def bend_of(move, cosine, sine, out):
 
 
 @compiled(error_model="numpy", nogil=True)
+def unfolded(share):
+    """From 0 to 1 as the distance of hip and ankle, as a share of the leg, goes through ``FOLDED``."""
+    u = min(max((share - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0.0), 1.0)
+    return u * u * (3.0 - 2.0 * u)
+
+
+@compiled(error_model="numpy", nogil=True)
 def leg_after(to, length_m, leg_bones, by, leg):
     """Writes the unit vector (3,) from hip to ankle of a leg whose ankle is to move ``by`` (3,); returns how long.
 
@@ -47,8 +56,7 @@ def leg_after(to, length_m, leg_bones, by, leg):
         leg[c] = thigh * to[3 * upper + c] + shank * to[3 * lower + c]
         drawn += leg[c] ** 2
     drawn = np.sqrt(drawn)
-    u = min(max((drawn / full - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0.0), 1.0)
-    follows = u * u * (3.0 - 2.0 * u)
+    follows = unfolded(drawn / full)
     for c in range(3):
         leg[c] += follows * by[c]
         length += leg[c] ** 2
@@ -77,6 +85,12 @@ def left_over(to, length_m, leg_bones, move, cosine, sine, left):
 
 
 @compiled(error_model="numpy", nogil=True)
+def soft_plus(x):
+    """log(1 + exp(x))."""
+    return max(x, 0.0) + np.log1p(np.exp(-abs(x)))
+
+
+@compiled(error_model="numpy", nogil=True)
 def bent_leg(to, length_m, leg_bones, by):
     """Directions ``to`` (3B,) with a leg bent, in place, so that its ankle moves ``by`` (3,)."""
     leg, knee = np.empty(3), np.empty(3)
@@ -88,10 +102,13 @@ def bent_leg(to, length_m, leg_bones, by):
     for c in range(3):
         knee[c] = thigh * to[3 * upper + c]
         along += knee[c] * leg[c]
-    size = 0.0
+    size, level = 0.0, max(1.0 - leg[0] ** 2, 1e-12)
+    least = AHEAD * (thigh + shank)
+    ahead = (knee[0] - along * leg[0]) / np.sqrt(level)
+    want = least + least * soft_plus(ahead / least - 1.0)
+    more = (want - ahead) * unfolded(reach / (thigh + shank)) * np.sqrt(level) / (level + SIDEWAYS)
     for c in range(3):
-        ahead = (1.0 if c == 0 else 0.0) - leg[0] * leg[c]
-        knee[c] += AHEAD * (thigh + shank) * ahead - along * leg[c]
+        knee[c] += more * ((1.0 if c == 0 else 0.0) - leg[0] * leg[c]) - along * leg[c]
         size += knee[c] ** 2
     out = np.sqrt(max(thigh**2 - fore**2, 0.0)) / max(np.sqrt(size), 1e-9)
     for c in range(3):

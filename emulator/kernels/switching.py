@@ -1,6 +1,6 @@
 """Steps through a latent space: the state of a point, mean and spread of the next, a draw that stays on the support.
 
-Their twin: naive_steps in tests/naive.py.
+Their twin: naive_steps in tests/naive.
 
 One beat of a walk from its dynamics: drawn as far as it goes, judged, smoothed and made whole.
 

@@ -1,6 +1,6 @@
 """Numbers out of text: a table of so many columns, read as fast as it can be walked through.
 
-Its twin: ``float`` of each word (tests/naive.py).
+Its twin: ``float`` of each word (tests/naive).
 """
 
 from __future__ import annotations

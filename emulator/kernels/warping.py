@@ -1,12 +1,12 @@
 """The row stencil of the elastic dynamic programme, and the way back.
 
-Its twins: elastic.optimum_numpy, tests/naive.py.
+Its twins: elastic.optimum_numpy, tests/naive.
 Arrays are walked flat, with unsigned places: a signed one might be negative, and numba would test every element
 for it (4 times slower); a slice for every tap costs as much as 80 of its elements.
 
 Square-root velocity fields: made from postures, and carried along warps.
 
-Their twins: elastic.tsrvf_numpy, fields.warped_numpy, tests/naive.py.
+Their twins: elastic.tsrvf_numpy, fields.warped_numpy, tests/naive.
 
 Between values without a jump of the slope and without overshoot. Twin: scipy's PchipInterpolator.
 

@@ -195,11 +195,11 @@ class RootChannel:
         return np.concatenate([left / self.leg_m(bone_length_m)[..., None, None], yaw_rad[..., None]], axis=-1)
 
     def inverse(
-        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray
+        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray, lowest_m: float = 0.0
     ) -> tuple[np.ndarray, np.ndarray]:
         """Side channel (..., T, 4), directions (..., T, B, 3), bones (..., B) -> root_m (..., T, 3), yaw_rad (..., T).
 
-        The path begins at x = y = 0, and no joint is ever below the floor.
+        The path begins at x = y = 0, and no joint is ever below ``lowest_m``: a path kinks where a body would be.
         """
         from emulator.kernels.bodies import ride_all
 
@@ -213,12 +213,13 @@ class RootChannel:
             SOFT_M,
             channel.reshape(-1, n_times, 4),
             self.leg_m(np.asarray(bone_length_m)).reshape(-1),
+            lowest_m,
             root_m.reshape(-1, n_times, 3),
         )
         return root_m, channel[..., 3]
 
     def inverse_numpy(
-        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray
+        self, channel: np.ndarray, directions: np.ndarray, bone_length_m: np.ndarray, lowest_m: float = 0.0
     ) -> tuple[np.ndarray, np.ndarray]:
         """The same as ``inverse`` without compiled code."""
         yaw = channel[..., 3]
@@ -226,7 +227,7 @@ class RootChannel:
         way, floor = self.ride(directions, length_m, yaw)
         left = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
         level = way + left[..., :2]
-        height = np.maximum(floor + left[..., 2], -self._hanging(directions, length_m)[..., 2].min(-1))
+        height = np.maximum(floor + left[..., 2], lowest_m - self._hanging(directions, length_m)[..., 2].min(-1))
         return np.concatenate([level - level[..., :1, :], height[..., None]], axis=-1), yaw
 
     @property

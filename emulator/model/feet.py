@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from emulator.motion import Motion, stretches, turn
 from emulator.skeleton import Skeleton
@@ -24,10 +25,10 @@ LOW_M, HELD_LOW_M = 0.05, 0.08
 SHORTEST_S = 0.1
 FLOOR_SHARE, DEEP_SHARE = 0.02, 0.1
 NO_FLOOR_M = -1e9
-PRINT, FIRST_PRINT = 2e-5, 1e-4
-"""What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a tenth of a
+PRINT, FIRST_PRINT = 4e-6, 1e-4
+"""What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a fiftieth of a
 millimetre are seen where feet do not move at all."""
-TURN_RAD = 2e-4
+TURN_RAD = 4e-5
 """What the directions of feet are rounded to: two hundredths of a millimetre at the end of a foot."""
 PRINTS = np.array([PRINT, PRINT, PRINT, TURN_RAD, TURN_RAD])
 BREATHES = 1e-3
@@ -158,11 +159,11 @@ def on_its_feet(motion: Motion) -> Motion:
     return replace(motion, directions=directions[0], root_m=root - np.append(root[0, :2], 0.0), stretch=None)
 
 
-def fastest_m_per_s(motions: Sequence[Motion]) -> float:
-    """The greatest speed of any joint in the motions, between frames of 1/30 s."""
+def fastest_m_per_s(motions: Sequence[Motion]) -> np.ndarray:
+    """(N,) the greatest speed of any joint in each motion, between frames of 1/30 s."""
     from emulator.kernels.feet import fastest_joint
 
-    return max(float(fastest_joint(motion.positions_m(), np.array(motion.time_s, float))) for motion in motions)
+    return np.array([fastest_joint(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
 
 
 def stood(
@@ -246,14 +247,14 @@ class Footing:
             nearest = np.rint(at).astype(int)
             flat = joints[:, legs.feet.ravel()].reshape(len(joints), -1)
             frames = np.arange(len(joints))
-            feet = np.stack([np.interp(at, frames, column) for column in flat.T], axis=1).reshape(len(at), 4, 3)
+            feet = CubicSpline(frames, flat)(at).reshape(len(at), 4, 3)
             there = Legs(np.array([[0, 1], [2, 3]]), None, legs.soles)
             yaw = np.interp(at, frames, motion.yaw_rad)
             stands.append(own[:, nearest])
             places.append(prints(feet, yaw, stands[-1], there) / [leg, leg, leg, 1.0, 1.0])
             lowest.append(joints[..., 2].min() / leg)
             foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
-        whole = np.clip(np.rint(np.array(places) / PRINTS), -32767, 32767)
+        whole = np.rint(np.array(places) / PRINTS)
         floor, foot_floor = (np.quantile(heights, DEEP_SHARE, axis=0) for heights in (lowest, foot_lowest))
         return cls(postures, np.array(stands), whole * PRINTS, min(0.0, float(floor)), foot_floor)
 

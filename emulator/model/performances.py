@@ -144,7 +144,8 @@ class MotionPerformances(Performances):
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
         aligned = model.decoder.directions(posture, clock)
         flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
-        root, yaw = model.channel.inverse(flat, aligned, lengths)
+        lowest_m = 0.0 if model.footing is None else -np.inf  # feet keep to floors of their own, smoothly
+        root, yaw = model.channel.inverse(flat, aligned, lengths, lowest_m)
         path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 6))
         fastest = np.zeros(n)
         if model.footing is not None:

@@ -100,22 +100,11 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         if not np.array_equal(_recorded_postures(model.scale, model.workforce), model.footing.postures):
             arrays["footing_postures"] = model.footing.postures
         arrays["footing_stands"] = np.packbits(model.footing.stands, axis=-1)
-        arrays["footing_steps"] = _halves(np.rint(prints / PRINTS[: prints.shape[-1]]).astype(np.int16))
+        steps = np.rint(prints / PRINTS[: prints.shape[-1]]).astype(np.int32)
+        arrays["footing_planes"] = to_planes(np.ascontiguousarray(np.moveaxis(steps, 2, 3)))
     if model.workforce.smoothed is not None:
         arrays |= packed(model.workforce.smoothed, SMOOTHED, "smoothed_")
     return plain, arrays
-
-
-def _halves(whole: np.ndarray) -> np.ndarray:
-    """Whole (N, 2, T, C) of 16 bits -> low and high bytes (2, N, 2, C, T) of first values and steps: they pack well."""
-    steps = np.concatenate([whole[:, :, :1], np.diff(whole, axis=2)], axis=2).transpose(0, 1, 3, 2).astype("<u2")
-    return np.stack([steps & 255, steps >> 8]).astype(np.uint8)
-
-
-def _whole(halves: np.ndarray) -> np.ndarray:
-    """The way back from ``_halves``."""
-    steps = halves[0].astype(np.uint16) | (halves[1].astype(np.uint16) << 8)
-    return np.cumsum(steps, axis=-1, dtype=np.uint16).view(np.int16).transpose(0, 1, 3, 2)
 
 
 def _recorded_postures(scale: JointScale, workforce: Workforce) -> np.ndarray:
@@ -268,12 +257,12 @@ class _Parts:
 
     def _prints(self, n: int) -> np.ndarray:
         """(n, 2, T, 5), or (n, 2, T, 3) of a library of before, where feet have no direction."""
-        if "footing_steps" in self.own:
+        if "footing_planes" in self.own:
             steps = np.array([self.own.number("prints", step) for step in self.plain["prints"]])
-            halves = self.own.array("footing_steps", 2, n, 2, len(steps), "T")
-            if halves.dtype != np.uint8 or len(steps) not in (3, 5) or np.any(steps <= 0):
-                raise ValueError(f"{self.task}/footing_steps makes no sense")
-            return _whole(halves) * steps
+            if len(steps) not in (3, 5) or np.any(steps <= 0):
+                raise ValueError(f"{self.task}: prints: found {self.plain['prints']}, expected 3 or 5 positive numbers")
+            whole = from_planes(self.own.array("footing_planes", -1, n, 2, len(steps), "T"))
+            return np.moveaxis(whole, 3, 2) * steps
         whole = self.own.array("footing_prints", n, 2, "T", 3)
         if whole.dtype != np.int16:
             raise ValueError(f"{self.task}/footing_prints: found {whole.dtype}, expected int16")

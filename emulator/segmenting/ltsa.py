@@ -1,7 +1,7 @@
 """The alignment matrix of LTSA: how far global coordinates are from an affine map of each neighbourhood's own ones.
 
 It is banded where neighbours are near in time (bandwidth 2k), and sparse where they are not.
-Source: spatio-temporal LTSA (seed 003), table 1, steps 2 to 4. Its naive twin is in tests/naive.py.
+Source: spatio-temporal LTSA (seed 003), table 1, steps 2 to 4. Its naive twin is in tests/naive.
 
 The eigenvectors to the smallest eigenvalues of an alignment matrix, the constant one left out.
 

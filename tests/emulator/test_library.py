@@ -235,7 +235,7 @@ def test_curves_of_a_library_of_before_are_read_as_they_were(saved):
     kept = MotionLibrary.load(saved)
     with zipfile.ZipFile(saved) as file:
         members = {name: file.read(name) for name in file.namelist()}
-    for name in [name for name in members if name.endswith("_planes.npy")]:
+    for name in [name for name in members if name.endswith(("posture_planes.npy", "root_planes.npy"))]:
         whole = from_planes(np.load(io.BytesIO(members.pop(name)))).transpose(0, 2, 1)
         steps = np.diff(whole, axis=1, prepend=np.zeros_like(whole[:, :1]))
         members[name.replace("_planes", "_whole")] = npy(steps)

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from emulator.kernels.feet import SETTLING
-from emulator.kernels.legs import AHEAD, FOLDED, MOST_BEND_M, STIFF_KNEE, STRAIGHT
+from emulator.kernels.legs import AHEAD, FOLDED, MOST_BEND_M, SIDEWAYS, STIFF_KNEE, STRAIGHT
 from emulator.motion import stretches, turn
 
 
@@ -105,11 +105,16 @@ def leg_after(thigh, shank, move):
     """Hip to ankle (3,) of a leg whose ankle is to go by ``move`` (3,)."""
     long = np.linalg.norm(thigh), np.linalg.norm(shank)
     full, drawn = sum(long), np.linalg.norm(thigh + shank)
-    u = np.clip((drawn / full - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0, 1)
-    leg = thigh + shank + u * u * (3 - 2 * u) * move
+    leg = thigh + shank + unfolded(drawn / full) * move
     slack = max(full - drawn, 0) / full
     reach = drawn + (np.linalg.norm(leg) - drawn) * slack / (slack + STIFF_KNEE)
     return min(max(reach, abs(long[0] - long[1]) + 1e-4), max(drawn, STRAIGHT * full)) * leg / np.linalg.norm(leg)
+
+
+def unfolded(share):
+    """From 0 to 1 where a leg is this share of its length, through FOLDED."""
+    u = np.clip((share - FOLDED[0]) / (FOLDED[1] - FOLDED[0]), 0, 1)
+    return u * u * (3 - 2 * u)
 
 
 def bent(thigh, shank, move):
@@ -117,8 +122,12 @@ def bent(thigh, shank, move):
     leg, long = leg_after(thigh, shank, move), (np.linalg.norm(thigh), np.linalg.norm(shank))
     reach = np.linalg.norm(leg)
     along = leg / reach
-    side = thigh + AHEAD * sum(long) * np.array([1.0, 0, 0])
-    side = side - (side @ along) * along
+    side = thigh - (thigh @ along) * along
+    ahead = np.array([1.0, 0, 0]) - along[0] * along
+    level, least = ahead @ ahead, AHEAD * sum(long)
+    now = side @ ahead / np.sqrt(level)
+    want = least + least * np.logaddexp(0, now / least - 1)
+    side = side + unfolded(reach / sum(long)) * (want - now) * np.sqrt(level) / (level + SIDEWAYS) * ahead
     fore = (long[0] ** 2 - long[1] ** 2 + reach**2) / (2 * reach)
     knee = fore * along + np.sqrt(max(long[0] ** 2 - fore**2, 0)) * side / np.linalg.norm(side)
     return knee, leg - knee
