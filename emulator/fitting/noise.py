@@ -29,7 +29,7 @@ MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
 """Draws of known and of new people may have so many times the recorded peak jerk."""
 MOST_FAST, MOST_FAST_NEW = 0.01, 0.05
 """And this share of them a joint that is too fast."""
-N_DRAWN = 100
+N_DRAWN = 200
 
 
 Stiff = tuple[float, MotionEmulator]

@@ -28,6 +28,7 @@ from emulator.model.dwell_fit import HOLDS_METHOD, said
 from emulator.model.dwell_times import NONE
 from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import fastest_m_per_s
+from emulator.model.joint_coordinates import Margin
 from emulator.model.performances import MotionPerformances
 from emulator.model.reduction import JointPCA
 from emulator.motion import MotionSet
@@ -129,7 +130,7 @@ def summary(
         explained_variance=parts.posture.explained_variance,
         duration_mean_s=float(duration_s.mean()),
         duration_cv=float(duration_s.std(ddof=1) / duration_s.mean()),
-        duration_margin=f"log duration {parts.margin.name}" if len(parts.margin.z) > 1 else "lognormal",
+        duration_margin=_margin_said(parts.margin),
         icc=icc[0],
         icc_low=icc[1],
         icc_high=icc[2],
@@ -143,8 +144,14 @@ def summary(
         command=settings.command,
         methods=_methods(made, parts, workforce, settings) | _told(covariates),
         notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole)),
-        fastest_m_per_s=fastest_m_per_s(made.moving.motions),
+        fastest_m_per_s=float(fastest_m_per_s(made.moving.motions).max()),
     )
+
+
+def _margin_said(margin: Margin) -> str:
+    if len(margin.z) > 2:
+        return f"log duration {margin.name}"
+    return "lognormal" if len(margin.z) == 1 else f"lognormal, at least {np.exp(margin.value[1]):.3g} s"
 
 
 def stiffness_said(own: float, between: float) -> str:

@@ -61,6 +61,10 @@ _GRID = np.linspace(-8.5, 8.5, 4001)
 _WEIGHTS = np.exp(-0.5 * _GRID**2) / np.exp(-0.5 * _GRID**2).sum()
 
 
+FLAT, FAR = 0.05, 8.0
+"""Below the least value a margin is so much flatter, as far as draws go (standard deviations)."""
+
+
 @dataclass(frozen=True)
 class Margin:
     """Increasing piecewise linear map between a value (log seconds, a mark's log ratio) and a normal coordinate z.
@@ -76,7 +80,14 @@ class Margin:
 
     @property
     def name(self) -> str:
-        return "normal" if len(self.z) == 1 else "normal scores"
+        return ("normal", "normal, held above a least value", "normal scores")[min(len(self.z), 3) - 1]
+
+    def held_above(self, least: float) -> Margin:
+        """The same above ``least``, which lies below all knots but those of a line; below it nearly flat."""
+        at = float(self.forward(np.array(least)))
+        z, value = (self.z, self.value) if len(self.z) > 1 else (self.z[:0], self.value[:0])
+        low = np.array([least - FLAT * self.slope * FAR, least])
+        return Margin(np.r_[at - FAR, at, z], np.r_[low, value], self.slope)
 
     def forward(self, value: np.ndarray) -> np.ndarray:
         """Values (...,) -> z (...,)."""

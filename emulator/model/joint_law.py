@@ -22,7 +22,7 @@ from emulator.people.workers import WorkerEffect, Workforce
 from emulator.skeleton import Skeleton
 
 SLOPE_ROOM = np.log(1.2)
-FASTER = 1.1
+FASTER = 1.07
 _N_HERMITE = 20
 AT_ONCE = 64
 """Components of a law whose moments are made at a time."""
@@ -137,9 +137,10 @@ class JointLaw:
 
     @cached_property
     def most_m_per_s(self) -> float:
-        """The greatest speed that a joint of a drawn body may have: a tenth beyond the fastest recorded one.
+        """The greatest speed that a joint of a drawn body may have: 7 % beyond the fastest recorded one.
 
-        A draw beyond it is drawn in, see ``MotionPerformances.damped``; without a bound in libraries of before.
+        So that between the moments at which it is known it stays within a tenth. A draw beyond it is drawn in, see
+        ``MotionPerformances.damped``; without a bound in libraries of before.
         """
         fastest = self.report.fastest_m_per_s
         return float("inf") if self.footing is None or not fastest > 0 else FASTER * fastest
