@@ -1,4 +1,4 @@
-# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | emulator-evidence CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | emulator-evidence CHECKOUT=path | same-results CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -10,7 +10,7 @@ BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
 PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence emulator-evidence take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence emulator-evidence same-results take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -87,6 +87,10 @@ real-time-evidence: $(READY)
 # CHECKOUT=path of another checkout: what the emulator of it gives, this one gives.
 emulator-evidence: $(READY)
 	PYTHONPATH=tests $(RUN) -m emulator_evidence.same $(CHECKOUT)
+
+# What ships gives the results that the code of another checkout gives.
+same-results: $(READY)
+	PYTHONPATH=tests $(RUN) -m study_evidence.same_results $(CHECKOUT)
 
 take-evidence: $(READY)
 	PYTHONPATH=tests:. $(RUN) -m take_evidence.show -o build/take_evidence
