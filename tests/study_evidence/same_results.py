@@ -71,7 +71,8 @@ def _summary(root: Path, before: Path, job: tuple[str, ...], out: Path) -> Any:
     done = subprocess.run(words, env=os.environ | {"PYTHONPATH": str(root)}, capture_output=True, text=True, cwd=root)
     if done.returncode:
         return {"exit": done.returncode, "said": done.stderr.replace(str(out), "OUT")}
-    return {"exit": 0, "summary": json.loads((out / "summary.json").read_text(encoding="utf-8"))}
+    found = {str(path.relative_to(out)): path.read_text(encoding="utf-8") for path in out.rglob("summary.json")}
+    return {"exit": 0} | {name: json.loads(text) for name, text in found.items()}
 
 
 if __name__ == "__main__":
