@@ -1,4 +1,4 @@
-"""A CovariateModel as plain values and arrays and back, for a library file (see ``packing``)."""
+"""A CovariateModel as plain values and arrays and back, for a library file."""
 
 from __future__ import annotations
 

@@ -255,7 +255,7 @@ def judge_held_out(
     n_times: int = N_TIMES,
     n_drawn: int = N_DRAWN,
 ) -> Judged:
-    """Judge schemes (of ``drawers.KNOWN``) on halves of each person's repetitions, dealt out ``n_splits`` times.
+    """Judge schemes (of ``held_out.KNOWN``) on halves of each person's repetitions, dealt out ``n_splits`` times.
 
     Split k of seed s is dealt out by the number 1000 s + k; a scheme's figures do not depend on the other schemes.
     progress : called with (done, total, label)

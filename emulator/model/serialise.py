@@ -1,6 +1,6 @@
-"""A MotionEmulator as plain values and arrays: what a library holds of one task. The way back is ``unpacking``.
+"""A MotionEmulator as plain values and arrays, what a library holds of one task, and back.
 
-The way back from ``packing``: a MotionEmulator out of plain values and arrays, every one of them doubted.
+On the way back every value and array is doubted.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ SMOOTHED = {
 
 
 def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """JSON values of a model for the header, and its arrays by name; of a cyclic one: see ``cyclic.packing``."""
+    """JSON values of a model for the header, and its arrays by name; of a cyclic one: see ``cyclic.serialise``."""
     from emulator.cyclic import serialise as cyclic
     from emulator.cyclic.model import CyclicEmulator
 
