@@ -93,6 +93,18 @@ BODY_KEYS = ("height_m", "mass_kg", "age_years", "sex", "pace", "person")
 """pace: 1.1 is a tenth faster than the typical person in emulated tasks; person: the name of a recorded one."""
 
 
+def seconds_of(model: Any, duration_s: Any) -> np.ndarray:
+    """(n,) what a model drew. Raises ValueError for a time that is negative or no number: the floor would run on it."""
+    import numpy as np
+
+    seconds = np.asarray(duration_s, dtype=float)
+    good = (seconds >= 0) & (seconds < np.inf)
+    if not good.all():
+        found = seconds[~good][0]
+        raise ValueError(f"{type(model).__name__} drew a time of {found:g} s, expected a number of seconds from 0 on")
+    return seconds
+
+
 def keys_read(model: Any) -> tuple[str, ...]:
     """What a task model reads of a body: its ``body_keys``; of a model that does not say, anything may be read."""
     return tuple(getattr(model, "body_keys", BODY_KEYS))

@@ -10,7 +10,7 @@ from opsim.plan import Plan
 from opsim.plan.sources import ANY, order_of
 from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, Scattered
-from opsim.task_model import TaskModel
+from opsim.task_model import TaskModel, seconds_of
 from opsim.threads import one_blas_thread
 from opsim.worker_effects import worker_effect
 
@@ -22,8 +22,8 @@ def _performed(model, effect):
     """How a block of durations is drawn from a task model."""
     at = getattr(model, "at", None) if getattr(model, "by_index", False) else None
     if at is not None:
-        return lambda _rng, block: at(np.arange(block * BLOCK, (block + 1) * BLOCK)).tolist()
-    return lambda rng, _block: model.sample(BLOCK, rng, worker=effect).duration_s.tolist()
+        return lambda _rng, block: seconds_of(model, at(np.arange(block * BLOCK, (block + 1) * BLOCK))).tolist()
+    return lambda rng, _block: seconds_of(model, model.sample(BLOCK, rng, worker=effect).duration_s).tolist()
 
 
 def _held(hold: HoldPlan, model, effect):
@@ -36,7 +36,7 @@ def _held(hold: HoldPlan, model, effect):
         drawn = model.sample(BLOCK, rng, worker=effect)
         start = _shares(drawn, hold.start)
         end = np.maximum(start, _shares(drawn, hold.end))
-        return list(zip(drawn.duration_s.tolist(), start.tolist(), end.tolist()))
+        return list(zip(seconds_of(model, drawn.duration_s).tolist(), start.tolist(), end.tolist()))
 
     return draw
 

@@ -19,6 +19,7 @@ from numba import config
 from opsim.engine.fast_engine.streams.generators import ManyBlocks
 from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, _generator, _hashed, _key
+from opsim.task_model import seconds_of
 
 _LOOKED_AT = (*range(10), 1500, 99_999)
 _NAME = ("trust",)
@@ -153,11 +154,11 @@ def durations(model: Any, effect: Any) -> Drawn:
     """How blocks of durations are drawn from a task model, for a worker of this effect."""
     at = getattr(model, "at", None) if getattr(model, "by_index", False) else None
     if at is not None:
-        return _trace(_seconds(model.times_s)) if type(model) in _singly() else _by_index(at)
+        return _trace(seconds_of(model, model.times_s)) if type(model) in _singly() else _by_index(model)
     if in_one_call(model):
         return of_model(model, effect)
     return lambda words, first, n: np.concatenate(
-        [_seconds(drawn.duration_s) for drawn in _each(model, effect, words, first, n)]
+        [seconds_of(model, drawn.duration_s) for drawn in _each(model, effect, words, first, n)]
     )
 
 
@@ -167,7 +168,7 @@ def held(hold: HoldPlan, model: Any, effect: Any) -> DrawnHeld:
         return _held_at_shares(hold, durations(model, effect), by_index=getattr(model, "by_index", False))
 
     def draw(words: np.ndarray, first: int, n: int) -> Held:
-        columns = zip(*(_of_block(drawn, hold) for drawn in _each(model, effect, words, first, n)))
+        columns = zip(*(_of_block(model, drawn, hold) for drawn in _each(model, effect, words, first, n)))
         duration_s, start, end = (np.concatenate(column) for column in columns)
         return duration_s, start, end
 
@@ -197,9 +198,11 @@ def _trace(times_s: np.ndarray) -> Drawn:
     return NoLuck(lambda _words, first, n: times_s[np.arange(first * BLOCK, (first + n) * BLOCK) % len(times_s)])
 
 
-def _by_index(at: Callable[[np.ndarray], Any]) -> Drawn:
+def _by_index(model: Any) -> Drawn:
     """A model's own trace, asked block by block."""
-    return lambda _words, first, n: np.concatenate([_seconds(at(_items(block))) for block in range(first, first + n)])
+    return lambda _words, first, n: np.concatenate(
+        [seconds_of(model, model.at(_items(block))) for block in range(first, first + n)]
+    )
 
 
 def _held_at_shares(hold: HoldPlan, drawn: Drawn, *, by_index: bool) -> DrawnHeld:
@@ -208,9 +211,9 @@ def _held_at_shares(hold: HoldPlan, drawn: Drawn, *, by_index: bool) -> DrawnHel
     return HeldAtShares(drawn, start, end if by_index else max(start, end))
 
 
-def _of_block(drawn: Any, hold: HoldPlan) -> Held:
+def _of_block(model: Any, drawn: Any, hold: HoldPlan) -> Held:
     start = _shares(drawn, hold.start)
-    return _seconds(drawn.duration_s), start, np.maximum(start, _shares(drawn, hold.end))
+    return seconds_of(model, drawn.duration_s), start, np.maximum(start, _shares(drawn, hold.end))
 
 
 def _shares(drawn: Any, moment: Moment) -> np.ndarray:
@@ -228,10 +231,6 @@ def _each(model: Any, effect: Any, words: np.ndarray, first: int, n: int) -> lis
 
 def _items(block: int) -> np.ndarray:
     return np.arange(block * BLOCK, (block + 1) * BLOCK)
-
-
-def _seconds(duration_s: Any) -> np.ndarray:
-    return np.asarray(duration_s, dtype=float)
 
 
 @cache
