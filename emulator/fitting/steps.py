@@ -27,7 +27,7 @@ from emulator.motion import MotionSet
 from emulator.people.variance_components import intraclass_correlation
 from emulator.people.workers import Told
 
-BONE_SHARE, FINE_RAD, FINE_ROOT = 0.98, 0.002, 0.00001
+BONE_SHARE, FINE_RAD, FINE_ROOT = 0.98, 0.0005, 0.00001
 LARGEST_POSTURE, LARGEST_ROOT = 200, 200
 FLATTENINGS: dict[str, type[SIEM] | type[Extrinsic]] = {"Extrinsic": Extrinsic, "SIEM": SIEM}
 SMOOTH_SHARE, N_SMOOTH = 0.06, 8
