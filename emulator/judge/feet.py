@@ -11,6 +11,7 @@ from itertools import combinations
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
+from emulator.geometry.centre_of_mass import centre_of_mass_m
 from emulator.judge.clips import Clips
 from emulator.skeleton import Skeleton
 
@@ -124,51 +125,13 @@ def _blurred(place: np.ndarray, step_s: float) -> np.ndarray:
 
 SOLE_M = 0.05
 """A sole reaches so far beyond the centres of the joints of its foot: heel, edges and toes."""
-HEAD, TRUNK, TRUNK_CENTRE = 0.0681, 0.43015, 0.4949
-LIMBS = (
-    ("shoulder", "elbow", 0.0263, 0.5763),
-    ("elbow", "wrist", 0.0150, 0.4567),
-    ("wrist", "hand", 0.00585, 0.7687),
-    ("hip", "knee", 0.1447, 0.3854),
-    ("knee", "ankle", 0.0457, 0.4374),
-    ("ankle", "toe", 0.0133, 0.5),
-)
-"""Joints of a limb's segment, its share of body mass, its centre as a share of the way: the means of men and women of
-de Leva 1996, J. Biomech. 29, 1223-1230, table 4; trunk from hips to neck; the head's centre at its joint, the foot's
-half-way between ankle and toe, which the table does not have. ``opsim`` has the table by sex, for loads on joints."""
-NEEDED = (
-    *("neck", "head"),
-    *(f"{side}_{j}" for side in ("left", "right") for j in ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")),
-)
-
-
-def centre_of_mass_m(skeleton: Skeleton, positions_m: np.ndarray) -> np.ndarray:
-    """(..., 3) from joints (..., J, 3). A hand or a toe that the skeleton lacks weighs at the wrist or the ankle.
-
-    Raises ValueError for a skeleton without one of ``NEEDED``.
-    """
-    absent = [name for name in NEEDED if name not in skeleton.names]
-    if absent:
-        raise ValueError(f"centre of mass: the skeleton has no {', '.join(absent)}")
-
-    def at(name: str) -> np.ndarray:
-        return positions_m[..., skeleton.names.index(name), :]
-
-    hips = 0.5 * (at("left_hip") + at("right_hip"))
-    moment, mass = HEAD * at("head") + TRUNK * (hips + TRUNK_CENTRE * (at("neck") - hips)), HEAD + TRUNK
-    for side in ("left", "right"):
-        for near, far, share, centre in LIMBS:
-            start = at(f"{side}_{near}")
-            end = at(f"{side}_{far}") if f"{side}_{far}" in skeleton.names else start
-            moment, mass = moment + share * (start + centre * (end - start)), mass + share
-    return np.asarray(moment / mass)
 
 
 def unsupported(clips: Clips) -> np.ndarray:
     """(n,) share of the time with a foot down in which the centre of mass is outside the planted feet's polygon.
 
     Outside: more than ``SOLE_M`` from the polygon of the joints that are planted. NaN for a clip that never plants a
-    foot. Raises ValueError for a skeleton without the joints of ``NEEDED``.
+    foot. Raises ValueError for a skeleton whose centre of mass cannot be told.
     """
     joints = [joint for foot in feet(clips.skeleton) for joint in foot]
     places, step_s = clips.at_rate(RATE_HZ)

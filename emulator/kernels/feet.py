@@ -159,14 +159,89 @@ def mean_move(moves, weight, sigma, raw, out):
 
 
 @compiled(error_model="numpy", nogil=True)
+def carrying(standing, point_s, raw, weight):
+    """How much each foot carries, weight (2, T), that stands where standing (2, T) says; points point_s apart."""
+    wide = max(0.08 / point_s, 0.3)
+    for f in range(2):
+        ever = False
+        for t in range(standing.shape[1]):
+            raw[t] = (1.0 if standing[f, t] else 0.0) + 1e-3
+            ever = ever or standing[f, t]
+        smooth(raw, wide, int(4 * wide) + 1, weight[f])
+        if not ever:
+            weight[f] = 0.0
+
+
+@compiled(error_model="numpy", nogil=True)
+def off_feet(centre, place, weight, out):
+    """The way out (2,) to a centre of mass from the nearest place between two feet, seen from above; returns how far.
+
+    place (2, 2) : the middles of the feet, weight (2,) : how much each carries; one that carries little is drawn in
+    """
+    total = max(weight[0] + weight[1], 1e-300)
+    along, square = 0.0, 1e-12
+    for c in range(2):
+        out[c] = centre[c] - (weight[0] * place[0, c] + weight[1] * place[1, c]) / total
+        way = place[1, c] - place[0, c]
+        along += out[c] * way
+        square += way * way
+    less = min(2.0 * weight[0], 2.0 * weight[1], total) / total
+    share = min(max(along / square, -less * weight[1] / total), less * weight[0] / total)
+    for c in range(2):
+        out[c] -= share * (place[1, c] - place[0, c])
+    return np.sqrt(out[0] ** 2 + out[1] ** 2)
+
+
+@compiled(error_model="numpy", nogil=True)
+def strayed(centres, places, weight, out):
+    """How far each centre of mass (T, 2) is from between the feet, places (2, T, 2), out (T,); see ``off_feet``."""
+    way = np.empty(2)
+    for t in range(out.size):
+        out[t] = off_feet(centres[t], places[:, t], weight[:, t], way)
+
+
+@compiled(error_model="numpy", nogil=True)
+def held_up(bodies, mass, places, weight, stray_m, out):
+    """By how much a body is to move, out (T, 3), level, to be no farther off its feet than stray_m (T,).
+
+    bodies (T, J, 3); mass (J,) : shares of the joints in the centre of mass; places, weight : as for ``strayed``
+    """
+    centre = np.empty(2)
+    for t in range(stray_m.size):
+        centre[:] = 0.0
+        for j in range(mass.size):
+            for c in range(2):
+                centre[c] += mass[j] * bodies[t, j, c]
+        far = off_feet(centre, places[:, t], weight[:, t], out[t])
+        for c in range(2):
+            out[t, c] *= -max(far - stray_m[t], 0.0) / max(far, 1e-12)
+        out[t, 2] = 0.0
+
+
+@compiled(error_model="numpy", nogil=True)
 def footed(
-    directions, length_m, chain, feet, legs, standing, prints, time_s, floor_m, foot_floor_m, path, bends, fastest
+    directions,
+    length_m,
+    chain,
+    feet,
+    legs,
+    standing,
+    prints,
+    time_s,
+    floor_m,
+    foot_floor_m,
+    mass,
+    stray_m,
+    path,
+    bends,
+    fastest,
 ):
     """Moves the root of path (n, T, 4) until feet stand; what legs must bend beyond that into bends (n, 2, T, 6).
 
     directions (n, T, 3B), length_m (n, B); feet (2, 2) : ankle and toe of each side; legs (2, 2 or 0) : as for ``bent``
     standing (n, 2, T), prints (n, 2, T, 3 or 5) : as for ``foot_moves``
-    time_s (n, T) : when the points come; no joint below floor_m, none of the feet below foot_floor_m (n, 2, 2)
+    time_s (n, T) : when the points come; no joint below floor_m (n,), none of the feet below foot_floor_m (n, 2, 2)
+    mass (J,), stray_m (n, T) : as for ``held_up``
     bends : of the ankle and of the unit vector from ankle to toe, without heading, as ``directions``
     fastest (n,) : the greatest speed of a joint over ``FRAME_S`` or the next longer time between points, written here
     """
@@ -176,7 +251,7 @@ def footed(
     cosine, sine = np.empty(n_times), np.empty(n_times)
     toward, foot_m = np.empty((2, n_times, 3)), np.empty((2, n_times))
     moves, weight = np.empty((2, n_times, 6)), np.empty((2, n_times))
-    left, more = np.empty((2, n_times, 3)), np.empty((n_times, 3))
+    left, more, place = np.empty((2, n_times, 3)), np.empty((n_times, 3)), np.empty((2, n_times, 2))
     raw, shift, lift, foot = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(3)
     for i in range(path.shape[0]):
         for t in range(n_times):
@@ -189,9 +264,10 @@ def footed(
             for j in range(joints.shape[0]):
                 lowest[t] = min(lowest[t], joints[j, 2])
         point_s = time_s[i, n_times - 1] / (n_times - 1)
-        wide, narrow = max(0.08 / point_s, 0.3), max(0.06 / point_s, 0.3)
+        narrow = max(0.06 / point_s, 0.3)
         reach = int(4 * narrow) + 1
         n_standing = 0
+        carrying(standing[i], point_s, raw, weight)
         for f in range(2):
             for t in range(n_times):
                 ankle, toe, square = bodies[t, feet[f, 0]], bodies[t, feet[f, 1]], 0.0
@@ -201,7 +277,6 @@ def footed(
                 foot_m[f, t] = max(np.sqrt(square), 1e-12)
                 for c in range(3):
                     toward[f, t, c] = (toe[c] - ankle[c]) / foot_m[f, t]
-                raw[t] = (1.0 if standing[i, f, t] else 0.0) + 1e-3
             own = foot_moves(middle, toward[f], standing[i, f], prints[i, f], cosine, sine, moves[f])
             n_standing += own
             for t in range(n_times):
@@ -214,9 +289,6 @@ def footed(
             if own > 0:
                 raised(sunk, narrow, reach, lift)
                 moves[f, :, 2] += lift
-            smooth(raw, wide, int(4 * wide) + 1, weight[f])
-            if own == 0:
-                weight[f] = 0.0
         shift[:] = 0.0
         if n_standing > 0:
             mean_move(moves, weight, narrow, raw, shift)
@@ -230,8 +302,25 @@ def footed(
             shift += more
             for f in range(2):
                 moves[f, :, :3] -= more
+        if n_standing > 0 and legs.shape[1] == 2 and mass.size > 0:
+            for t in range(n_times):
+                for f in range(2):
+                    for c in range(2):
+                        half = 0.5 * foot_m[f, t] * (toward[f, t, c] + moves[f, t, 3 + c])
+                        place[f, t, c] = bodies[t, feet[f, 0], c] + moves[f, t, c] + half
+            held_up(bodies, mass, place, weight, stray_m[i], more)
+            for c in range(2):
+                smooth(more[:, c], narrow, reach, raw)
+                shift[:, c] += raw
+                for f in range(2):
+                    moves[f, :, c] -= raw
         for t in range(n_times):
-            lowest[t] = floor_m - lowest[t] - shift[t, 2]
+            lowest[t] = floor_m[i] - lowest[t] - shift[t, 2]
+            for f in range(2 if n_standing > 0 and legs.shape[1] == 2 else 0):
+                left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], foot)
+                ankle_m = bodies[t, feet[f, 0], 2] + shift[t, 2] + moves[f, t, 2] - foot[2]
+                toe_m = ankle_m + foot_m[f, t] * (toward[f, t, 2] + moves[f, t, 5])
+                lowest[t] = max(lowest[t], foot_floor_m[i, f, 0] - ankle_m, foot_floor_m[i, f, 1] - toe_m)
         raised(lowest, narrow, reach, lift)
         for t in range(n_times):
             shift[t, 2] += lift[t]

@@ -2,8 +2,8 @@
 
 A foot that is locked to a point is as easily told from a recorded one as a foot that slides: recorded feet slip by
 1-6 cm while they stand. So a drawn performance takes the stances of the recording that it is nearest to, with their
-slip: each stance stays about the place where the draw has it, the root moves by the feet's mean correction, and the
-legs bend by what is left (two-bone inverse kinematics, lengths kept).
+slip: each stance stays about the place where the draw has it, the root moves by the feet's mean correction and to
+where the feet carry it, and the legs bend by what is left (two-bone inverse kinematics, lengths kept).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from emulator.geometry.centre_of_mass import NEEDED, joint_masses
 from emulator.motion import Motion, stretches, turn
 from emulator.skeleton import Skeleton
 
@@ -23,14 +24,16 @@ SLOW_M_PER_S, HELD_M_PER_S = 0.25, 0.5
 LOW_M, HELD_LOW_M = 0.05, 0.08
 """A foot comes to stand where its ankle or toe is slow and low, and stands until it is no longer slow or low enough."""
 SHORTEST_S = 0.1
-FLOOR_SHARE, DEEP_SHARE = 0.02, 0.1
-NO_FLOOR_M = -1e9
+FLOOR_SHARE = 0.02
+NO_FLOOR = -1e9
 PRINT, FIRST_PRINT = 4e-6, 1e-4
 """What prints are rounded to, in leg lengths, now and in the first libraries that had them: steps of a fiftieth of a
 millimetre are seen where feet do not move at all."""
 TURN_RAD = 4e-5
 """What the directions of feet are rounded to: two hundredths of a millimetre at the end of a foot."""
 PRINTS = np.array([PRINT, PRINT, PRINT, TURN_RAD, TURN_RAD])
+STRAY = 1e-4
+"""What distances of the centre of mass are rounded to, in leg lengths."""
 BREATHES = 1e-3
 """Bones whose length changes less than this share of it are taken as rigid."""
 
@@ -41,11 +44,13 @@ class Legs:
 
     bones is None where a knee or a hip lies between that is not theirs: then only the root is moved.
     soles : (2, K) bones from ankle to toe, -1 where one side has fewer; none where a toe does not hang from its ankle
+    mass : (J,) shares of the joints in the centre of mass; None where the skeleton does not tell it
     """
 
     feet: np.ndarray
     bones: np.ndarray | None
     soles: np.ndarray
+    mass: np.ndarray | None = None
 
     @classmethod
     def of(cls, skeleton: Skeleton) -> Legs | None:
@@ -65,7 +70,8 @@ class Legs:
         ways = [_bones_between(skeleton, ankle, toe) for ankle, toe in feet]
         longest = max(map(len, ways)) if all(ways) else 0
         soles = np.array([(way + [-1] * longest)[:longest] for way in ways], dtype=np.int64)
-        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64), soles)
+        mass = joint_masses(skeleton) if set(NEEDED) <= set(names) else None
+        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64), soles, mass)
 
 
 def _bones_between(skeleton: Skeleton, upper: int, lower: int) -> list[int]:
@@ -141,18 +147,9 @@ def on_its_feet(motion: Motion) -> Motion:
         return motion
     own = prints(recorded, motion.yaw_rad, stands, legs)
     path = np.concatenate([motion.root_m, motion.yaw_rad[:, None]], axis=1)
-    footed_path, bends, _ = stood(
-        motion.skeleton,
-        legs,
-        motion.directions[None],
-        motion.bone_length_m[None],
-        path[None],
-        stands[None],
-        own[None],
-        motion.time_s[None],
-        min(0.0, float(recorded[..., 2].min())),
-        np.full((1, 2, 2), NO_FLOOR_M),
-    )
+    stance = Stance.on(stands[None], own[None], min(0.0, float(recorded[..., 2].min())))
+    one = motion.directions[None], motion.bone_length_m[None], path[None], motion.time_s[None]
+    footed_path, bends, _ = stood(motion.skeleton, legs, *one, stance)
     directions = motion.directions[None].copy()
     bend(directions, motion.bone_length_m[None], legs, np.arange(float(len(path)))[None], bends)
     root = footed_path[0, :, :3]
@@ -166,25 +163,59 @@ def fastest_m_per_s(motions: Sequence[Motion]) -> np.ndarray:
     return np.array([fastest_joint(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
 
 
+def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: float) -> np.ndarray:
+    """(T,) how far the centre of mass is, seen from above, from between the feet that carry it, in metres.
+
+    positions_m (T, J, 3) every ``step_s`` seconds, stands (2, T). inf where nothing tells the centre of mass.
+    """
+    from emulator.kernels.feet import carrying, strayed
+
+    out = np.full(len(positions_m), np.inf)
+    if legs.mass is not None and stands.any():
+        weight = np.empty(stands.shape)
+        carrying(stands, step_s, np.empty(len(out)), weight)
+        places = positions_m[:, legs.feet, :2].mean(axis=2).swapaxes(0, 1)
+        centres = (legs.mass @ positions_m)[:, :2]
+        strayed(np.ascontiguousarray(centres), np.ascontiguousarray(places), weight, out)
+    return out
+
+
+@dataclass(frozen=True, eq=False)
+class Stance:
+    """How n bodies stand, on the common clock of T points, in metres.
+
+    stands : (n, 2, T) whether each foot does; prints_m : (n, 2, T, 3 or 5) see ``prints``
+    floor_m : (n,) no joint gets below this height; foot_floor_m : (n, 2, 2) nor ankle and toe below these, by side
+    stray_m : (n, T) how far the centre of mass may be off the feet; inf as it is
+    """
+
+    stands: np.ndarray
+    prints_m: np.ndarray
+    floor_m: np.ndarray
+    foot_floor_m: np.ndarray
+    stray_m: np.ndarray
+
+    @classmethod
+    def on(cls, stands: np.ndarray, prints_m: np.ndarray, floor_m: float) -> Stance:
+        """Of n bodies above one floor that lean as they do and whose feet have no floor of their own."""
+        n, n_times = len(stands), stands.shape[-1]
+        return cls(stands, prints_m, np.full(n, floor_m), np.full((n, 2, 2), NO_FLOOR), np.full((n, n_times), np.inf))
+
+
 def stood(
     skeleton: Skeleton,
     legs: Legs | None,
     directions: np.ndarray,
     length_m: np.ndarray,
     path: np.ndarray,
-    stands: np.ndarray,
-    prints_m: np.ndarray,
     time_s: np.ndarray,
-    floor_m: float,
-    foot_floor_m: np.ndarray,
+    stance: Stance,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The path (n, T, 4) of roots and headings moved until the feet stand, and what the legs must bend (n, 2, T, 6).
 
     And the greatest speed of any joint (n,), m/s, between frames of 1/30 s.
 
-    directions (n, T, B, 3) without heading, length_m (n, B); stands (n, 2, T), prints_m (n, 2, T, 3 or 5) of ``prints``
-    time_s : (n, T) when the points come; floor_m : no joint gets below this height
-    foot_floor_m : (n, 2, 2) heights below which ankle and toe do not get, by side
+    directions (n, T, B, 3) without heading, length_m (n, B); time_s (n, T) : when the points come
     """
     from emulator.kernels.feet import footed
 
@@ -192,12 +223,12 @@ def stood(
     out, bends, fastest = np.array(path, dtype=float), np.zeros((n, 2, n_times, 6)), np.zeros(n)
     feet = np.zeros((2, 2), np.int64) if legs is None else legs.feet
     bones = np.zeros((2, 0), np.int64) if legs is None or legs.bones is None else legs.bones
+    mass = np.zeros(0) if legs is None or legs.mass is None else legs.mass
     flat = np.ascontiguousarray(directions, dtype=float).reshape(n, n_times, -1)
-    length_m = np.ascontiguousarray(length_m, dtype=float)
-    time_s = np.ascontiguousarray(time_s, dtype=float)
-    foot_floor_m = np.ascontiguousarray(foot_floor_m, dtype=float)
-    chain = skeleton.chain
-    footed(flat, length_m, chain, feet, bones, stands, prints_m, time_s, floor_m, foot_floor_m, out, bends, fastest)
+    given = time_s, stance.floor_m, stance.foot_floor_m, mass, stance.stray_m
+    length_m, *numbers = (np.ascontiguousarray(values, dtype=float) for values in (length_m, *given))
+    own = stance.stands, stance.prints_m
+    footed(flat, length_m, skeleton.chain, feet, bones, *own, *numbers, out, bends, fastest)
     return out, bends, fastest
 
 
@@ -221,15 +252,17 @@ class Footing:
     postures : (N, P) posture coefficients of each, by which the nearest is found
     stands   : (N, 2, T) whether the left and the right foot stands
     prints   : (N, 2, T, 5) see ``prints``, in leg lengths; in libraries of before (N, 2, T, 3), without directions
-    floor    : the height of the lowest joint of all in leg lengths, at most 0: how far recordings are below the floor
-    foot_floor : (2, 2) the same of ankle and toe of each side; they may lie above 0
+    floor    : (N,) the height of the lowest joint in leg lengths, at most 0: how far a recording is below the floor
+    foot_floor : (N, 2, 2) the same of ankle and toe of each side; they may lie above 0
+    strays   : (N, T) see ``strays``, in leg lengths; inf in libraries of before
     """
 
     postures: np.ndarray
     stands: np.ndarray
     prints: np.ndarray
-    floor: float
+    floor: np.ndarray
     foot_floor: np.ndarray
+    strays: np.ndarray
 
     @classmethod
     def fit(
@@ -239,32 +272,31 @@ class Footing:
         legs = Legs.of(motions[0].skeleton)
         if legs is None:
             return None
-        stands, places, lowest, foot_lowest = [], [], [], []
+        stands, places, lowest, foot_lowest, far = [], [], [], [], []
         for motion, gamma, leg in zip(motions, warps, leg_m):
             joints, rate_hz = motion.positions_m(), (len(motion.time_s) - 1) / motion.duration_s
             own = standing(joints, rate_hz, legs)
-            at = gamma * (len(joints) - 1)
-            nearest = np.rint(at).astype(int)
-            flat = joints[:, legs.feet.ravel()].reshape(len(joints), -1)
-            frames = np.arange(len(joints))
-            feet = CubicSpline(frames, flat)(at).reshape(len(at), 4, 3)
-            there = Legs(np.array([[0, 1], [2, 3]]), None, legs.soles)
+            frames, at = np.arange(len(joints)), gamma * (len(joints) - 1)
+            there = CubicSpline(frames, joints)(at)
             yaw = np.interp(at, frames, motion.yaw_rad)
-            stands.append(own[:, nearest])
-            places.append(prints(feet, yaw, stands[-1], there) / [leg, leg, leg, 1.0, 1.0])
+            stands.append(own[:, np.rint(at).astype(int)])
+            places.append(prints(there, yaw, stands[-1], legs) / [leg, leg, leg, 1.0, 1.0])
+            far.append(strays(there, stands[-1], legs, motion.duration_s / (len(at) - 1)) / leg)
             lowest.append(joints[..., 2].min() / leg)
             foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
-        whole = np.rint(np.array(places) / PRINTS)
-        floor, foot_floor = (np.quantile(heights, DEEP_SHARE, axis=0) for heights in (lowest, foot_lowest))
-        return cls(postures, np.array(stands), whole * PRINTS, min(0.0, float(floor)), foot_floor)
+        whole, strayed = np.rint(np.array(places) / PRINTS), np.rint(np.array(far) / STRAY)
+        floors = np.minimum(lowest, 0.0), np.array(foot_lowest)
+        return cls(postures, np.array(stands), whole * PRINTS, *floors, strayed * STRAY)
 
     def nearest(self, postures: np.ndarray) -> np.ndarray:
         """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""
         square = np.sum(self.postures**2, axis=1) - 2 * postures @ self.postures.T
         return np.asarray(square.argmin(axis=1))
 
-    def prints_m(self, near: np.ndarray, leg_m: np.ndarray) -> np.ndarray:
-        """(n, 2, T, 3 or 5) the prints of the recordings ``near`` (n,) for legs of these lengths (n,)."""
-        found = self.prints[near]
-        found[..., :3] *= leg_m[:, None, None, None]
-        return found
+    def stance(self, near: np.ndarray, leg_m: np.ndarray) -> Stance:
+        """How bodies with legs of these lengths (n,) stand that stand as the recordings ``near`` (n,)."""
+        prints_m, leg_of = self.prints[near], leg_m[:, None, None]
+        prints_m[..., :3] *= leg_of[..., None]
+        floors = self.floor[near] * leg_m, self.foot_floor[near] * leg_of
+        stray_m = self.strays[near] * leg_m[:, None]
+        return Stance(self.stands[near], prints_m, *floors, stray_m)

@@ -150,13 +150,9 @@ class MotionPerformances(Performances):
         fastest = np.zeros(n)
         if model.footing is not None:
             leg_m = model.channel.leg_m(lengths)
-            stands, prints_m = model.footing.stands[near], model.footing.prints_m(near, leg_m)
+            stance = model.footing.stance(near, leg_m)
             time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
-            floor_m = model.footing.floor * float(leg_m.mean())
-            foot_floor_m = model.footing.foot_floor * leg_m[:, None, None]
-            path, bends, fastest = stood(
-                self.skeleton, model.legs, aligned, lengths, path, stands, prints_m, time_s, floor_m, foot_floor_m
-            )
+            path, bends, fastest = stood(self.skeleton, model.legs, aligned, lengths, path, time_s, stance)
             path[..., :2] -= path[:, :1, :2]
         return Ground(decoding.control_points(path), bends, posture, kept.copy(), fastest)
 

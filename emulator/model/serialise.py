@@ -18,7 +18,7 @@ from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
 from emulator.geometry.warps import through
 from emulator.model.dwell_times import NONE, Dwells
 from emulator.model.emulator import MotionEmulator
-from emulator.model.feet import FIRST_PRINT, NO_FLOOR_M, PRINTS, Footing
+from emulator.model.feet import FIRST_PRINT, NO_FLOOR, PRINTS, STRAY, Footing
 from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_coordinates import BLOCKS, CURVES, JointScale, Margin, bits, decode, encode, within_worker
 from emulator.model.reduction import JointPCA
@@ -95,8 +95,10 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         arrays |= packed(model.workforce.population, POPULATION, "population_")
     if model.footing is not None:
         prints = model.footing.prints
-        plain |= {"floor": model.footing.floor, "prints": PRINTS[: prints.shape[-1]].tolist()}
-        arrays["footing_floor"] = model.footing.foot_floor
+        plain["prints"] = PRINTS[: prints.shape[-1]].tolist()
+        arrays["footing_lowest"] = np.column_stack([model.footing.floor, model.footing.foot_floor.reshape(-1, 4)])
+        if np.isfinite(model.footing.strays).all():
+            arrays["footing_strays"] = to_planes(np.rint(model.footing.strays / STRAY).astype(np.int16))
         if not np.array_equal(_recorded_postures(model.scale, model.workforce), model.footing.postures):
             arrays["footing_postures"] = model.footing.postures
         arrays["footing_stands"] = np.packbits(model.footing.stands, axis=-1)
@@ -241,19 +243,25 @@ class _Parts:
 
     def footing(self, recorded: np.ndarray) -> Footing | None:
         """recorded : (N, P) posture coefficients, which a library of before says once more."""
-        if "floor" not in self.plain:
+        own, known = "footing_postures" in self.own, "footing_lowest" in self.own
+        if not known and "floor" not in self.plain:
             return None
-        own = "footing_postures" in self.own
         postures = self.own.array("footing_postures", -1, self.size["posture"]) if own else recorded
         n, n_times = len(postures), self.own.letters["T"]
         stands = self.own.array("footing_stands", n, 2, -(-n_times // 8))
-        prints, floor = self._prints(n), self.own.number("floor", self.plain["floor"])
-        if n == 0 or stands.dtype != np.uint8 or floor > 0:
+        lowest = self.own.array("footing_lowest", n, 5) if known else np.tile(self._one_floor(), (n, 1))
+        if n == 0 or stands.dtype != np.uint8 or np.any(lowest[:, 0] > 0):
             raise ValueError(f"{self.task}: its footing makes no sense")
         stands = np.unpackbits(stands, axis=-1, count=n_times).astype(bool)
-        known = "footing_floor" in self.own
-        foot_floor = self.own.array("footing_floor", 2, 2) if known else np.full((2, 2), NO_FLOOR_M)
-        return Footing(postures, stands, prints, floor, foot_floor)
+        strays = np.full((n, n_times), np.inf)
+        if "footing_strays" in self.own:
+            strays = from_planes(self.own.array("footing_strays", 2, n, "T")) * STRAY
+        return Footing(postures, stands, self._prints(n), lowest[:, 0], lowest[:, 1:].reshape(n, 2, 2), strays)
+
+    def _one_floor(self) -> np.ndarray:
+        """(5,) heights of the lowest joint and of the feet in a library of before, which has one floor for all."""
+        feet = self.own.array("footing_floor", 2, 2) if "footing_floor" in self.own else np.full((2, 2), NO_FLOOR)
+        return np.append(self.own.number("floor", self.plain["floor"]), feet)
 
     def _prints(self, n: int) -> np.ndarray:
         """(n, 2, T, 5), or (n, 2, T, 3) of a library of before, where feet have no direction."""

@@ -249,6 +249,27 @@ def test_curves_of_a_library_of_before_are_read_as_they_were(saved):
         assert again[task].root.mean.tobytes() == kept[task].root.mean.tobytes()
 
 
+def test_a_library_of_before_has_one_floor_for_all_and_does_not_hold_bodies_up(saved):
+    with zipfile.ZipFile(saved) as file:
+        members = {name: file.read(name) for name in file.namelist() if "strays" not in name}
+    for name in [name for name in members if name.endswith("footing_lowest.npy")]:
+        del members[name]
+        members[name.replace("lowest", "floor")] = npy(np.array([[0.1, 0.02], [0.1, 0.03]]))
+    with zipfile.ZipFile(saved, "w") as file:
+        for name, content in members.items():
+            file.writestr(name, content)
+
+    def before(header):
+        tasks = {task: own | {"floor": -0.01} for task, own in header["tasks"].items()}
+        return {key: value for key, value in header.items() if key != "shapes"} | {"tasks": tasks}
+
+    with_header(saved, before)
+    for model in MotionLibrary.load(saved).values():
+        footing = model.footing
+        assert np.all(footing.floor == -0.01) and np.all(footing.foot_floor == [[0.1, 0.02], [0.1, 0.03]])
+        assert np.all(footing.strays == np.inf) and len(footing.floor) == len(footing.postures)
+
+
 def test_an_exponent_beyond_all_numbers_is_refused(saved):
     def wild(name, content):
         return (

@@ -11,7 +11,7 @@ CV = 0.3
 N_PEOPLE, N_EACH, FEWER = 300, 6, 5
 """Enough that the fitted CV and share are the true ones within a few per cent. That people do not differ is learnt
 from many repetitions of ``FEWER`` times fewer people: the error of a share of 0 is sqrt(2 / (n k (k - 1))), n people
-and k repetitions each (Donner 1986), 0.015 of 300 people and 0.006 of 60, where 0.015 already costs 1.6 % of the rate."""
+and k repetitions each (Donner 1986), 0.015 of 300 people, 0.006 of 60; and 0.015 costs 1.6 % of the rate already."""
 
 
 def library(n_people: int = N_PEOPLE, n_each: int = N_EACH):

@@ -54,12 +54,35 @@ def raised(lacking, sigma):
     return blurred(nearby, sigma)
 
 
-def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, floor_m, foot_floor_m):
+def off_feet(centre, places, weight):
+    """(2,) from the nearest place between two feet, places (2, 2), to a centre of mass, seen from above.
+
+    The way between the feet is what lies between their mean and each, the less of it the less the lighter one carries.
+    """
+    share = weight / max(weight.sum(), 1e-300)
+    mean = share @ places
+    less = min(2 * share.min(), 1.0) if weight.any() else 0.0
+    ends = mean + less * (places - mean)
+    way = ends[1] - ends[0]
+    along = np.clip((centre - ends[0]) @ way / max(way @ way, 1e-300), 0, 1)
+    return centre - ends[0] - along * way
+
+
+def held_up(centres, places, weight, stray_m):
+    """(T, 2) how bodies move whose centres of mass (T, 2) are farther off their feet than ``stray_m`` (T,)."""
+    off = np.array([off_feet(c, places[:, t], weight[:, t]) for t, c in enumerate(centres)])
+    far = np.linalg.norm(off, axis=1)
+    return -off * (np.maximum(far - stray_m, 0) / np.maximum(far, 1e-12))[:, None]
+
+
+def stood(skeleton, legs, directions, length_m, path, time_s, stance, number):
     """One body: its path (T, 4) moved until the feet stand, and what the legs bend and the feet turn (2, T, 6)."""
+    stands, prints_m = stance.stands[number], stance.prints_m[number]
+    floor_m, foot_floor_m = stance.floor_m[number], stance.foot_floor_m[number]
     joints = skeleton.positions(turn(directions, path[:, 3:]), length_m, path[:, :3])
     step, yaw = time_s[-1] / (len(time_s) - 1), path[:, 3]
     wide, narrow = 0.08 / step, 0.06 / step
-    moves, weight, turns = [], [], []
+    moves, weight, turns, feet = [], [], [], []
     for f, (ankle, toe) in enumerate(legs.feet):
         foot_m = np.linalg.norm(joints[:, toe] - joints[:, ankle], axis=1)[:, None]
         toward = (joints[:, toe] - joints[:, ankle]) / foot_m
@@ -71,6 +94,7 @@ def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, 
         move[:, 2] += raised(np.max(foot_floor_m[f] - np.transpose(ends), axis=1), narrow) * stands[f].any()
         moves.append(move)
         turns.append(foot - toward)
+        feet.append(foot_m * foot)
         weight.append(blurred(stands[f] + 1e-3, wide) * stands[f].any())
     shift = np.zeros((len(path), 3))
     for settling in range(1 + SETTLING):
@@ -80,7 +104,23 @@ def stood(skeleton, legs, directions, length_m, path, stands, prints_m, time_s, 
         total = np.maximum(sum(weight), 1e-300)[:, None]
         mean = sum(w[:, None] * move for w, move in zip(weight, left)) / total
         shift = shift + np.stack([blurred(column, narrow) for column in mean.T], axis=1)
-    shift[:, 2] += raised(floor_m - joints[..., 2].min(axis=1) - shift[:, 2], narrow)
+    ankles = joints[:, legs.feet[:, 0]].swapaxes(0, 1) + np.array(moves)
+    over = held_up(
+        (legs.mass @ joints + shift)[:, :2],
+        (ankles + np.array(feet) / 2)[..., :2],
+        np.array(weight),
+        stance.stray_m[number],
+    )
+    shift[:, :2] += np.stack([blurred(column, narrow) for column in over.T], axis=1)
+    lacking = [floor_m - joints[..., 2].min(axis=1) - shift[:, 2]]
+    for f, (ankle, _) in enumerate(legs.feet):
+        there_m = (
+            joints[:, ankle, 2]
+            + shift[:, 2]
+            + followed(directions, length_m, legs.bones[f], moves[f] - shift, yaw)[:, 2]
+        )
+        lacking += [foot_floor_m[f, 0] - there_m, foot_floor_m[f, 1] - there_m - feet[f][:, 2]]
+    shift[:, 2] += raised(np.max(lacking, axis=0), narrow)
     bends = []
     for f in range(2):
         bend = np.concatenate([turn(softly(moves[f] - shift), -yaw), turn(turns[f], -yaw)], axis=1)

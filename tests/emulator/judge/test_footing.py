@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
+from emulator.geometry.centre_of_mass import centre_of_mass_m
 from emulator.judge.feet import (
     SOLE_M,
-    centre_of_mass_m,
     distance_to_polygon,
     feet,
     footing,
