@@ -15,6 +15,7 @@ a carton is finished at 1052 s, 52 s after it came
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from numbers import Integral
 from typing import Any
@@ -23,10 +24,12 @@ import simpy
 
 from opsim.clock import LONGEST_S
 from opsim.engine.floor.run import FloorOfPlan
-from opsim.engine.in_model import Inside, ask_for, log_so_far, source_for, watch
+from opsim.engine.in_model import Inside, ask_for, happens_at, log_so_far, source_for, watch
+from opsim.engine.shared_resources import SharedParts, SharedResources, SharedTool
 from opsim.log import BAD, FINISH, JOIN, LOST, SCRAP, SPLIT, EventLog, names_of
 from opsim.plan import Plan
 from opsim.plan.plan import until
+from opsim.plan.sources import BASE_STOCK
 from opsim.problems import did_you_mean, shown
 
 WHAT = {FINISH: "finished", SCRAP: "scrapped", JOIN: "joined", SPLIT: "split", LOST: "lost"}
@@ -69,6 +72,11 @@ class Floor:
     env  : your SimPy environment; it may be a RealtimeEnvironment, start at any time, and hold several floors
     plan : as ``compile_plan`` makes it
     replication : number of the replication: it decides all draws
+    tools : by the scenario's name of a tool the Resource or Container of your model that it is taken from: asked for
+        when a job waits for it, given back when no job wants it. A machine of yours that serves jobs of the floor is a
+        tool that its station ``needs``
+    parts : by the name of a product with a source of kind base stock the Container out of which that source keeps its
+        store filled, a lot at a time
 
     leaving : a ``simpy.Store`` into which each finished job is put as a ``Left``, for you to get
     ended   : an event that fires as the run is over, its value the EventLog
@@ -82,8 +90,17 @@ class Floor:
     to be kept to 2^-20 s.
     """
 
-    def __init__(self, env: simpy.Environment, plan: Plan, replication: int = 0):
+    def __init__(
+        self,
+        env: simpy.Environment,
+        plan: Plan,
+        replication: int = 0,
+        *,
+        tools: Mapping[str, simpy.Resource | simpy.Container] | None = None,
+        parts: Mapping[str, simpy.Container] | None = None,
+    ):
         _check(env, plan, replication)
+        shared_tools, shared_parts = _shared_tools(env, plan, tools or {}), _shared_parts(env, plan, parts or {})
         self.env, self.leaving, self.ended = env, simpy.Store(env), env.event()
         self._plan, self._replication = plan, int(replication)
         self._asked: dict[int, simpy.Event] = {}
@@ -92,9 +109,11 @@ class Floor:
         self._products = {product.name: rank for rank, product in enumerate(plan.products)}
         self._whole: EventLog | None = None
         self._of_plan = FloorOfPlan(plan)
-        self._inside = Inside(env, plan.horizon_s, self._ends)
+        self._inside = Inside(env, plan.horizon_s, self._ends, self._looks)
         self._of_plan.open(self._inside.own, self._replication, processes=False)
-        watch(self._of_plan.floor, self._comes, self._leaves)
+        floor = self._of_plan.floor
+        watch(floor, self._comes, self._leaves)
+        self._shared = SharedResources(floor, shared_tools, shared_parts, self._soon, self._brought)
         self._inside.look_ahead()
 
     @property
@@ -120,14 +139,12 @@ class Floor:
         source = source_for(self._plan, rank)
         if source < 0:
             raise ValueError(f"floor {self._plan.name}: cannot release {product}: no source of the scenario makes it")
-        event, number = self.env.event(), self._n_asked[source]
-        self._n_asked[source] += 1
+        event = self.env.event()
 
         def created(job: Any) -> None:
             self._asked[job.number] = event
 
-        ask_for(self._of_plan.floor, rank, source, number, created, self._inside.now_s)
-        self._inside.look_ahead()
+        self._ask_for(rank, source, created)
         return event
 
     def log(self) -> EventLog:
@@ -146,6 +163,24 @@ class Floor:
         Until its warm-up is over it has none.
         """
         return until(self._plan, self._plan.horizon_s if self._whole is not None else self._inside.now_s)
+
+    def _ask_for(self, rank: int, source: int, created: Callable[[Any], None]) -> None:
+        number = self._n_asked[source]
+        self._n_asked[source] += 1
+        ask_for(self._of_plan.floor, rank, source, number, created, self._inside.now_s)
+        self._inside.look_ahead()
+
+    def _brought(self, rank: int, source: int) -> None:
+        """A lot has come out of a container of parts."""
+        self._ask_for(rank, source, lambda job: None)
+
+    def _soon(self, happens: Callable[[], None]) -> None:
+        """Something happens on the floor in this instant."""
+        happens_at(self._of_plan.floor, self._inside.now_s, lambda _floor, _event: happens())
+        self._inside.look_ahead()
+
+    def _looks(self) -> None:
+        self._shared.look()
 
     def _rank(self, product: Any) -> int:
         if not isinstance(product, str) or product not in self._products:
@@ -185,6 +220,7 @@ class Floor:
     def _ends(self) -> None:
         """The run is over: the rows that are open end, and nobody waits any longer for a job that is inside."""
         self._whole = self._of_plan.close(self._replication)
+        self._shared.end()
         job = self._of_plan.floor.first_job
         while job is not None:
             if job.number in self._asked:
@@ -207,3 +243,45 @@ def _check(env: Any, plan: Any, replication: Any) -> None:
             f"floor {plan.name}: the environment's clock is at {env.now:g} s, too late for a run of {plan.horizon_s:g} "
             f"s: times are kept to 2^-20 s as far as {LONGEST_S:g} s; begin the environment earlier"
         )
+
+
+def _shared_tools(env: simpy.Environment, plan: Plan, tools: Mapping[str, Any]) -> list[SharedTool]:
+    """Raises TypeError or ValueError for what cannot be shared."""
+    known: dict[str, int] = {tool.name: rank for rank, tool in enumerate(plan.tools)}
+    found = []
+    for name, source in tools.items():
+        place = f"floor {plan.name}: tools: {name}"
+        if name not in known:
+            hint = did_you_mean(name, known, otherwise="its tools") or "it has none"
+            raise ValueError(f"{place}: the scenario has no such tool; {hint}")
+        if not isinstance(source, simpy.Resource | simpy.Container) or isinstance(source, simpy.PreemptiveResource):
+            raise TypeError(
+                f"{place}: expected a simpy.Resource that is not preemptive, or a Container, found {shown(source)}"
+            )
+        n = plan.tools[known[name]].n
+        _check_shared(env, source, place)
+        if source.capacity < n:
+            raise ValueError(f"{place}: the scenario has {n} of it, your resource has room for {source.capacity:g}")
+        found.append(SharedTool(source, known[name], n))
+    return found
+
+
+def _shared_parts(env: simpy.Environment, plan: Plan, parts: Mapping[str, Any]) -> list[SharedParts]:
+    """Raises TypeError or ValueError for what cannot be shared."""
+    made = [(source.mix[0][0], rank) for rank, source in enumerate(plan.sources) if source.kind == BASE_STOCK]
+    sources, found = {plan.products[product].name: (product, rank) for product, rank in made}, []
+    for name, container in parts.items():
+        place = f"floor {plan.name}: parts: {name}"
+        if name not in sources:
+            hint = did_you_mean(name, sources, otherwise="products that have one") or "the scenario has none"
+            raise ValueError(f"{place}: no source of kind base_stock keeps a store filled with it; {hint}")
+        if not isinstance(container, simpy.Container):
+            raise TypeError(f"{place}: expected a simpy.Container, found {shown(container)}")
+        _check_shared(env, container, place)
+        found.append(SharedParts(container, *sources[name]))
+    return found
+
+
+def _check_shared(env: simpy.Environment, source: Any, place: str) -> None:
+    if source._env is not env:
+        raise ValueError(f"{place}: it belongs to another environment than the floor")

@@ -59,12 +59,18 @@ def ask_for(floor: Any, product: int, rank: int, n: int, created: Callable[[Any]
         created(job)
         want_in(floor, job, floor.now)
 
+    happens_at(floor, at_s, comes, rank, number)
+
+
+def happens_at(floor: Any, at_s: float, line: Callable[[Any, Any], None], rank: int = 0, number: int = 0) -> None:
+    """Something from outside happens on the floor at a time of its clock, as an arrival of this rank and number."""
+
     def reported(event: Any) -> None:
         floor.env_now = floor.env.now
         floor.report_line(floor, event)
 
     event = new_event(floor)
-    event.line, event.alive, event.kind, event.rank, event.number = comes, 1, ARRIVAL, rank, number
+    event.line, event.alive, event.kind, event.rank, event.number = line, 1, ARRIVAL, rank, number
     event.callbacks.append(reported)
     heappush(floor.env._queue, (at_s, 1, next(floor.env._eid), event))
 
@@ -101,13 +107,15 @@ class Inside:
 
     An instant comes after everything else that the outer environment has at that time.
     start_s : the outer clock's time at which the own clock is at 0
-    over    : called once, as the own clock comes to ``horizon_s``
+    over    : called once, as the own clock comes to ``horizon_s``; passed : called as an instant is over
     """
 
-    def __init__(self, outer: simpy.Environment, horizon_s: float, over: Callable[[], None]):
+    def __init__(
+        self, outer: simpy.Environment, horizon_s: float, over: Callable[[], None], passed: Callable[[], None]
+    ):
         self.own, self.outer, self.start_s, self.horizon_s = simpy.Environment(), outer, float(outer.now), horizon_s
         self.failed = False
-        self._over, self._planned = over, set[float]()
+        self._over, self._passed, self._planned = over, passed, set[float]()
 
     @property
     def now_s(self) -> float:
@@ -150,6 +158,7 @@ class Inside:
         except BaseException:
             self.failed = True
             raise
+        self._passed()
         self.look_ahead()
 
 

@@ -103,10 +103,13 @@ class JobTools:
 class Crib:
     """free : of each tool, how many; waiting : in the order of claims; calling : in the order of their first calls
 
+    shared : of each tool, whether it is somebody else's too; then it is not free as it is given back, but ``returned``
     asked, found : who is gone through just now; spent : who waits no more, but may be gone through
     """
 
     free: Array[int]
+    shared: Array[int]
+    returned: Array[int]
     waiting: List[Want]
     calling: List[Want]
     changed: int

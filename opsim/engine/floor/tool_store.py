@@ -124,7 +124,11 @@ def put_back(floor: Floor, job: Job, purpose: int) -> None:
     del job.block.tools.grips[at]
     log_grip(floor, job, found)
     for i in range(found.n_needs):
-        crib.free[found.needs[2 * i]] += found.needs[2 * i + 1]
+        tool = found.needs[2 * i]
+        if crib.shared[tool]:
+            crib.returned[tool] += found.needs[2 * i + 1]
+        else:
+            crib.free[tool] += found.needs[2 * i + 1]
     _forget_grip(floor, found)
     if crib.waiting:
         _stir(floor)

@@ -49,6 +49,7 @@ def install_tools(build: Any) -> bool:
     build.keep_jobs()
     crib = floor.crib = build.arena.new("Crib")
     crib.free = build.ints(tool.n for tool in plan.tools)
+    crib.shared, crib.returned = (build.ints([0] * len(plan.tools)) for _ in range(2))
     for call in (proceed_with, next_with):
         build.line(call)
     floor.tools_line = build.line(who_waits_longest)
