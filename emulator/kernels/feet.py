@@ -21,20 +21,29 @@ FRAME_S = (1.0 - 1e-9) / 30.0
 def smooth(values, sigma, reach, out):
     """Gaussian means out (T,) of values (T,) with standard deviation sigma, in points; the ends are held."""
     n = values.size
+    held = np.empty(n + 2 * reach)
+    held[:reach], held[reach : reach + n], held[reach + n :] = values[0], values, values[n - 1]
+    out[:] = values
     total = 1.0
     for k in range(1, reach + 1):
-        total += 2.0 * np.exp(-0.5 * (k / sigma) ** 2)
+        weight = np.exp(-0.5 * (k / sigma) ** 2)
+        total += 2.0 * weight
+        early, late = held[reach - k : reach - k + n], held[reach + k : reach + k + n]
+        for t in range(n):  # NOTE: points inside: each step is the same for all, and goes four at a time
+            out[t] += weight * (early[t] + late[t])
     for t in range(n):
-        mean = values[t]
-        for k in range(1, reach + 1):
-            mean += np.exp(-0.5 * (k / sigma) ** 2) * (values[max(t - k, 0)] + values[min(t + k, n - 1)])
-        out[t] = mean / total
+        out[t] /= total
 
 
 @compiled(error_model="numpy", nogil=True)
 def raised(lacking, sigma, reach, out):
     """By how much, out (T,), something is raised that lacks heights (T,): by the most that lacks nearby, smoothly."""
-    n = lacking.size
+    n, most = lacking.size, 0.0
+    for t in range(n):
+        most = max(most, lacking[t])
+    if most <= 0.0:
+        out[:] = 0.0
+        return
     nearby = np.empty(n)
     for t in range(n):
         nearby[t] = 0.0
@@ -253,6 +262,7 @@ def footed(
     moves, weight = np.empty((2, n_times, 6)), np.empty((2, n_times))
     left, more, place = np.empty((2, n_times, 3)), np.empty((n_times, 3)), np.empty((2, n_times, 2))
     raw, shift, lift, foot = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(3)
+    by, leg = np.empty(6), np.empty(3)
     for i in range(path.shape[0]):
         for t in range(n_times):
             joints = bodies[t]
@@ -297,7 +307,9 @@ def footed(
         for _ in range(SETTLING if n_standing > 0 and legs.shape[1] == 2 else 0):
             for f in range(2):
                 for t in range(n_times):
-                    left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], left[f, t])
+                    left_over(
+                        directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], by, leg, left[f, t]
+                    )
             mean_move(left, weight, narrow, raw, more)
             shift += more
             for f in range(2):
@@ -317,7 +329,7 @@ def footed(
         for t in range(n_times):
             lowest[t] = floor_m[i] - lowest[t] - shift[t, 2]
             for f in range(2 if n_standing > 0 and legs.shape[1] == 2 else 0):
-                left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], foot)
+                left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], by, leg, foot)
                 ankle_m = bodies[t, feet[f, 0], 2] + shift[t, 2] + moves[f, t, 2] - foot[2]
                 toe_m = ankle_m + foot_m[f, t] * (toward[f, t, 2] + moves[f, t, 5])
                 lowest[t] = max(lowest[t], foot_floor_m[i, f, 0] - ankle_m, foot_floor_m[i, f, 1] - toe_m)

@@ -28,7 +28,7 @@ MOST_BEND_M = 0.2
 def bend_of(move, cosine, sine, out):
     """What a leg must bend and its foot turn, out (6,), without heading, for a move (6,) in the frame of the path."""
     far = np.sqrt(move[0] ** 2 + move[1] ** 2 + move[2] ** 2) / MOST_BEND_M
-    less = (1.0 + far**4) ** -0.25
+    less = 1.0 / np.sqrt(np.sqrt(1.0 + far**4))
     for k in range(0, 6, 3):
         by = less if k == 0 else 1.0
         out[k] = by * (cosine * move[k] + sine * move[k + 1])
@@ -69,9 +69,11 @@ def leg_after(to, length_m, leg_bones, by, leg):
 
 
 @compiled(error_model="numpy", nogil=True)
-def left_over(to, length_m, leg_bones, move, cosine, sine, left):
-    """Writes by how much an ankle (3,) misses its move (3,) after the leg of directions ``to`` (3B,) is bent."""
-    by, leg = np.empty(6), np.empty(3)
+def left_over(to, length_m, leg_bones, move, cosine, sine, by, leg, left):
+    """Writes by how much an ankle (3,) misses its move (3,) after the leg of directions ``to`` (3B,) is bent.
+
+    by (6,), leg (3,) : room to work in, since making room costs as much as the rest
+    """
     bend_of(move, cosine, sine, by)
     reach = leg_after(to, length_m, leg_bones, by, leg)
     for c in range(3):
@@ -91,9 +93,8 @@ def soft_plus(x):
 
 
 @compiled(error_model="numpy", nogil=True)
-def bent_leg(to, length_m, leg_bones, by):
-    """Directions ``to`` (3B,) with a leg bent, in place, so that its ankle moves ``by`` (3,)."""
-    leg, knee = np.empty(3), np.empty(3)
+def bent_leg(to, length_m, leg_bones, by, leg, knee):
+    """Directions ``to`` (3B,) with a leg bent, in place, so that its ankle moves ``by`` (3,); leg, knee (3,) : room."""
     upper, lower = leg_bones
     thigh, shank = length_m[upper], length_m[lower]
     reach = leg_after(to, length_m, leg_bones, by, leg)
@@ -130,18 +131,24 @@ def turned_foot(toward, turn, out):
 
 
 @compiled(error_model="numpy", nogil=True)
-def turned_sole(to, length_m, sole, by):
+def turned_sole(to, length_m, sole, by, was, foot):
     """Directions ``to`` (3B,) with the bones of a foot turned, in place, so that its unit vector changes ``by`` (3,).
 
-    The least rotation that takes the one vector into the other.
+    The least rotation that takes the one vector into the other. was, foot (3,) : room to work in
     """
     if sole.size == 0 or sole[0] < 0:
         return
-    was, foot = np.zeros(3), np.empty(3)
+    for c in range(3):
+        was[c] = 0.0
     for bone in sole:
         for c in range(3 if bone >= 0 else 0):
             was[c] += length_m[bone] * to[3 * bone + c]
-    turned_foot(was, np.zeros(3), was)
+    size = 0.0
+    for c in range(3):
+        size += was[c] ** 2
+    size = max(np.sqrt(size), 1e-12)
+    for c in range(3):
+        was[c] /= size
     turned_foot(was, by, foot)
     cosine = 1.0
     for c in range(3):
@@ -167,7 +174,7 @@ def bent(directions, length_m, legs, soles, place, control):
     control (n, 2, T + 2, 6) : control points of the bends, at places (n, S), in cells
     Two bones: the lengths stay, the knee keeps to its side (the plane of hip, knee, ankle).
     """
-    by, weight = np.empty(6), np.empty(4)
+    by, weight, room = np.empty(6), np.empty(4), np.empty((4, 3))
     for i in range(directions.shape[0]):
         for f in range(2):
             for s in range(place.shape[1]):
@@ -177,5 +184,5 @@ def bent(directions, length_m, legs, soles, place, control):
                     by[c] = 0.0
                     for k in range(4):
                         by[c] += weight[k] * control[i, f, cell + k, c]
-                bent_leg(directions[i, s], length_m[i], legs[f], by)
-                turned_sole(directions[i, s], length_m[i], soles[f], by[3:])
+                bent_leg(directions[i, s], length_m[i], legs[f], by, room[0], room[1])
+                turned_sole(directions[i, s], length_m[i], soles[f], by[3:], room[2], room[3])

@@ -75,8 +75,8 @@ class MotionPerformances(Performances):
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
         place = self._place(times_s, n_times)
         path = np.empty((*place.shape, 4))
-        for rows in self._blocks():
-            path[rows] = decoding.along(self[rows]._ground.control, place[rows])
+        for rows, some in self._blocks():
+            path[rows] = decoding.along(some._ground.control, place[rows])
         return path
 
     def positions_m(
@@ -90,8 +90,8 @@ class MotionPerformances(Performances):
 
         place = self._place(times_s, n_times)
         positions = np.empty((*place.shape, self.skeleton.n_joints, 3), dtype)
-        for rows in self._blocks():
-            some, lengths = self[rows], self.bone_length_m[rows]
+        for rows, some in self._blocks():
+            lengths = some.bone_length_m
             flat = some._directions(place[rows]).reshape(*place[rows].shape, -1)
             path = decoding.along(some._ground.control, place[rows])
             stand_all(flat, lengths, self.skeleton.chain, path, positions[rows])
@@ -103,15 +103,14 @@ class MotionPerformances(Performances):
 
         Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; times and marks stay as they were drawn.
         """
-        return np.concatenate([np.zeros(0), *(1.0 - self[rows]._ground.kept for rows in self._blocks())])
+        return np.concatenate([np.zeros(0), *(1.0 - some._ground.kept for _, some in self._blocks())])
 
     def _directions(self, place: np.ndarray, dtype: Floats = np.float64) -> np.ndarray:
         model = self.model
         if model.footing is None:
             return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
         directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
-        for rows in self._blocks():
-            some = self[rows]
+        for rows, some in self._blocks():
             directions[rows] = model.decoder.directions(some._ground.posture, place[rows], np.dtype(dtype))
             if model.legs is not None:
                 bend(directions[rows], some.bone_length_m, model.legs, place[rows], some._ground.bends)
@@ -120,18 +119,16 @@ class MotionPerformances(Performances):
     @cached_property
     def _ground(self) -> Ground:
         """Where and how the bodies stand, drawn in where a joint is too fast."""
-        model, n = self.model, len(self)
-        kept, ground = np.ones(n), self._grounded(np.ones(n))
-        too_fast = np.flatnonzero(ground.fastest_m_per_s > model.most_m_per_s * self.body_scale)
-        if too_fast.size == 0:
-            return ground
+        most_m_per_s = self.model.most_m_per_s * self.body_scale
+        ground = self._grounded(np.ones(len(self)))
+        too_fast = np.flatnonzero(ground.fastest_m_per_s > most_m_per_s)
         for share in KEPT:
-            kept[too_fast] = share
-            ground = self._grounded(kept)
-            still = ground.fastest_m_per_s[too_fast] > model.most_m_per_s * self.body_scale[too_fast]
-            too_fast = too_fast[still]
             if too_fast.size == 0:
                 break
+            again = self[too_fast]._grounded(np.full(too_fast.size, share))
+            for name, values in vars(again).items():
+                getattr(ground, name)[too_fast] = values
+            too_fast = too_fast[again.fastest_m_per_s > most_m_per_s[too_fast]]
         return ground
 
     def _grounded(self, kept: np.ndarray) -> Ground:
@@ -156,9 +153,16 @@ class MotionPerformances(Performances):
             path[..., :2] -= path[:, :1, :2]
         return Ground(decoding.control_points(path), bends, posture, kept.copy(), fastest)
 
-    def _blocks(self) -> Iterator[slice]:
-        """A few performances at a time: what is computed on the way is several times larger than the answer."""
-        return (slice(start, start + AT_ONCE) for start in range(0, len(self), AT_ONCE))
+    def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
+        """A few performances at a time: what is computed on the way is several times larger than the answer.
+
+        One block is this one itself, so that it stands on its feet once.
+        """
+        if len(self) <= AT_ONCE:
+            return iter([(slice(None), self)])
+        return (
+            (slice(start, start + AT_ONCE), self[start : start + AT_ONCE]) for start in range(0, len(self), AT_ONCE)
+        )
 
     def _place(self, times_s: np.ndarray | None, n_times: int) -> np.ndarray:
         """(n, T) places on the common grid, in cells, of the times asked for."""
