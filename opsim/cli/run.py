@@ -292,8 +292,8 @@ Cells = dict[str, dict[str, Any]]
 def print_results(title: str, results: dict[str, Any]) -> None:
     """One row a figure, one column a variant; of states those that matter (``_ALWAYS``, ``_WHERE_LARGE``)."""
     from opsim.cli.app import print_table
+    from opsim.kpi.parts import part_name
     from opsim.report.numbers import kpi_name, largest_mean, plus_minus
-    from opsim.report.sections.common import part_name
 
     hours = any("scheduled_h" in result.summary for result in results.values())
     found: dict[str, dict[tuple[str, str], Cells]] = {}

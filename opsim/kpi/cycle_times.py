@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.resources import outage_rows
 from opsim.kpi.window import (
     by_rank,
@@ -135,14 +135,14 @@ def task_durations(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
 def durations(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Mean seconds of a performance of each task."""
     for task, seconds in task_durations(log, plan).items():
-        yield Figure("duration_s", task, "", "s", mean(seconds))
+        yield figure("duration_s", task, "", mean(seconds))
 
 
 def work_by_visit(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """Seconds of work a job gets in a visit to each station: their mean and quantiles."""
     for station, seconds in cycle_times(log, plan).items():
-        yield Figure("cycle_time_s", station, "", "s", mean(seconds))
-        yield from quantiles("cycle_time_quantile_s", station, "s", seconds)
+        yield figure("cycle_time_s", station, "", mean(seconds))
+        yield from quantiles("cycle_time_quantile_s", station, seconds)
 
 
 def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -173,11 +173,11 @@ def oee(log: EventLog, plan: Plan) -> Iterator[Figure]:
         factors = {"availability": _ratio(available_s[rank], planned_time_s[rank], 1.0)}
         factors["performance"] = _ratio(planned_s[rank], available_s[rank])
         factors["quality"] = quality[rank]
-        yield Figure("oee", place.name, "", "share", float(np.prod(list(factors.values()))))
+        yield figure("oee", place.name, "", float(np.prod(list(factors.values()))))
         factors["speed"] = _ratio(planned_s[rank], worked_s[rank])
         factors["use"] = _ratio(worked_s[rank], available_s[rank])
         for part, value in factors.items():
-            yield Figure("oee_factor", place.name, part, "share", value)
+            yield figure("oee_factor", place.name, part, value)
 
 
 def _times(log: EventLog, plan: Plan, servers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -26,7 +26,7 @@ from opsim.ergonomics.shift.ledger import AT_MOST, BINS, HOUR_S, HOURS, LEVELS, 
 from opsim.ergonomics.strain.energy import Spent
 from opsim.ergonomics.strain.lifting import Lifted
 from opsim.ergonomics.strain.posture_limits import Still
-from opsim.kpi.catalogue import ENERGY, EXPOSURE, HELD, LIFTED, POSTURE, REGION, REST, SCORED, Figure
+from opsim.kpi.catalogue import ENERGY, EXPOSURE, HELD, LIFTED, POSTURE, REGION, REST, SCORED, Figure, figure
 from opsim.kpi.strain import Resting, energy_spent, holds, lifting, rest_allowances
 from opsim.kpi.window import SECONDS_PER_HOUR
 from opsim.kpi.workers import present_s
@@ -44,7 +44,7 @@ def exposure_by_region(regions: Regions, log: EventLog, plan: Plan) -> Iterator[
     for row, region in enumerate(REGIONS):
         for column, level in enumerate(LEVELS):
             value = float(minutes[row, column]) / hours if hours else float("nan")
-            yield Figure("exposure_by_region", region, f"rula_from_{level}", "min/h", value)
+            yield figure("exposure_by_region", region, f"rula_from_{level}", value)
 
 
 class Level(NamedTuple):
@@ -123,7 +123,7 @@ def _figures(kpi: str, cells: Ledger, subjects: list[str], hours: np.ndarray) ->
     for name in LEVEL_KPIS:
         for bound in bounds_of_level(name):
             for subject, value in zip(subjects, minutes(cells, name, bound) / there):
-                yield Figure(kpi, subject, name + bound, "min/h", value)
+                yield figure(kpi, subject, name + bound, value)
 
 
 def _subjects(plan: Plan) -> dict[str, Subjects]:
@@ -194,12 +194,12 @@ def exposure_levels(booking: Booking, log: EventLog, plan: Plan) -> Iterator[Fig
     """
     ledger, hours = booking.close(), present_s(log, plan) / SECONDS_PER_HOUR
     own, everyone = ledger.by("worker", np.arange(len(plan.workers))), ledger.together()
-    for kpi, unit, part, of_all, of_each in _values(own, everyone, hours):
-        yield Figure(kpi, "", part, unit, of_all)
+    for kpi, part, of_all, of_each in _values(own, everyone, hours):
+        yield figure(kpi, "", part, of_all)
         for worker, value in zip(plan.workers, of_each):
-            yield Figure(kpi, worker.name, part, unit, value)
+            yield figure(kpi, worker.name, part, value)
         if not part:
-            yield Figure(kpi, "", WORST, unit, _most(of_each))
+            yield figure(kpi, "", WORST, _most(of_each))
     yield from _evenness(own, hours)
     yield from exposure_by(ledger, plan, hours.sum(), log)
 
@@ -212,24 +212,24 @@ def measured_share(booking: Booking, plan: Plan) -> Iterator[Figure]:
     for name, of in (("", at_work.together()), *((w.name, own.where([rank])) for rank, w in enumerate(plan.workers))):
         spent_s = of.seconds[0]
         share = 1.0 - of.unmeasured_s[0] / spent_s if spent_s > 0 else np.nan
-        yield Figure("posture_measured_share", name, "", "share", share)
+        yield figure("posture_measured_share", name, "", share)
 
 
-def _values(own: Ledger, everyone: Ledger, hours: np.ndarray) -> Iterator[tuple[str, str, str, float, np.ndarray]]:
-    """KPI, unit, part, value of all together, (workers,) of each."""
+def _values(own: Ledger, everyone: Ledger, hours: np.ndarray) -> Iterator[tuple[str, str, float, np.ndarray]]:
+    """KPI, part, value of all together, (workers,) of each."""
     there, all_there = np.where(hours > 0, hours, np.nan), float(hours.sum()) or np.nan
     for name in LEVEL_KPIS:
         if not name.startswith("trunk"):
             for part, bound in _parts(name):
                 both = minutes(everyone, name, bound)[0] / all_there, minutes(own, name, bound) / there
-                yield f"{name}_min_per_h", "min/h", part, *both
+                yield f"{name}_min_per_h", part, *both
     for measure in ("rula", "reba"):
         for kpi, of in OF_SCORES.items():
             for part, bound in BOUNDS.items():
-                yield f"{measure}_{kpi}", "1", part, of(everyone, measure + bound)[0], of(own, measure + bound)
+                yield f"{measure}_{kpi}", part, of(everyone, measure + bound)[0], of(own, measure + bound)
     for part, bound in BOUNDS.items():
         dose, all_dose = _dose(own, bound), _dose(everyone, bound)
-        yield "posture_dose", "score h", part, all_dose[0], dose
+        yield "posture_dose", part, all_dose[0], dose
 
 
 def _parts(level: str) -> list[tuple[str, str]]:
@@ -246,8 +246,8 @@ def _evenness(own: Ledger, hours: np.ndarray) -> Iterator[Figure]:
     """Of those who were ever there."""
     there = hours > 0
     for name in LEVEL_KPIS:
-        yield Figure("exposure_gini", "", name, "1", gini((minutes(own, name)[there]) / hours[there]))
-    yield Figure("exposure_gini", "", "posture_dose", "1", gini(_dose(own, "")[there]))
+        yield figure("exposure_gini", "", name, gini((minutes(own, name)[there]) / hours[there]))
+    yield figure("exposure_gini", "", "posture_dose", gini(_dose(own, "")[there]))
 
 
 def _most(values: np.ndarray) -> float:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from opsim import log as kinds
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, in_window, inside_s, mean, units_each, window_length_s
 from opsim.log import BAD, FALSE_ALARM, FINISH, JOB_KINDS, REWORK, SCRAP, SENT_ON, STANDS, WORK, EventLog
 from opsim.plan import LinePlan, Plan
@@ -75,11 +75,11 @@ def crews(log: EventLog, plan: Plan) -> Iterator[Figure]:
         found = hand_overs(log, plan, crew)
         here = in_window(found.at_s, plan)
         rate = np.count_nonzero(here) / window_length_s(plan) * SECONDS_PER_HOUR
-        yield Figure("hand_overs_per_h", crew.name, "", "1/h", rate)
+        yield figure("hand_overs_per_h", crew.name, "", rate)
         for first, second in _pairs(crew):
             theirs = here & (found.before == first) & (found.after == second)
             names = f"{plan.workers[first].name} to {plan.workers[second].name}"
-            yield Figure("handoff_position", crew.name, names, "share", mean(found.position[theirs]))
+            yield figure("handoff_position", crew.name, names, mean(found.position[theirs]))
 
 
 def _pairs(crew: CrewPlan) -> Iterator[tuple[int, int]]:
@@ -113,10 +113,10 @@ def lines(log: EventLog, plan: Plan) -> Iterator[Figure]:
 def _incomplete(log: EventLog, plan: Plan, line: LinePlan) -> Iterator[Figure]:
     left = _left(log, plan, line)
     sent = (log["kind"] == SENT_ON) & np.isin(log["station"], line.stations)
-    yield Figure("incomplete_share", line.name, "", "share", _share(left, log["job"][sent]))
+    yield figure("incomplete_share", line.name, "", _share(left, log["job"][sent]))
     for rank in line.stations:
         here = log["job"][sent & (log["station"] == rank)]
-        yield Figure("incomplete_share", line.name, plan.stations[rank].name, "share", _share(left, here))
+        yield figure("incomplete_share", line.name, plan.stations[rank].name, _share(left, here))
 
 
 def _left(log: EventLog, plan: Plan, line: LinePlan) -> np.ndarray:
@@ -136,10 +136,10 @@ def _stood(log: EventLog, plan: Plan, line: LinePlan) -> Iterator[Figure]:
     rows = np.flatnonzero((log["kind"] == STANDS) & (log["station"] == line.stations[0]))
     seconds, length_s = inside_s(log, rows, plan), window_length_s(plan)
     stops = ~np.isin(log["cause"][rows], [WHY[part] for part in PLANNED])
-    yield Figure("line_stopped_share", line.name, "", "share", seconds[stops].sum() / length_s)
+    yield figure("line_stopped_share", line.name, "", seconds[stops].sum() / length_s)
     for part in possible(plan, line):
         share = seconds[log["cause"][rows] == WHY[part]].sum() / length_s
-        yield Figure("line_stopped_share", line.name, part, "share", share)
+        yield figure("line_stopped_share", line.name, part, share)
 
 
 def possible(plan: Plan, line: LinePlan) -> list[str]:
@@ -178,21 +178,21 @@ def quality(log: EventLog, plan: Plan) -> Iterator[Figure]:
     scrapped, finished, reworked = (_rows(log, plan, kind) for kind in (SCRAP, FINISH, REWORK))
     yield from _by_station("scrap_per_h", log, plan, scrapped, hours)
     n_scrapped, n_finished = (units[log["product"][rows]].sum() for rows in (scrapped, finished))
-    yield Figure("scrap_share", "", "", "share", _ratio(n_scrapped, n_scrapped + n_finished))
+    yield figure("scrap_share", "", "", _ratio(n_scrapped, n_scrapped + n_finished))
     if not leaves_defects:
         return
     good = finished[log["cause"][finished] != BAD]
     at_once = good[~np.isin(log["job"][good], log["job"][log["kind"] == REWORK])]
     n_good, n_at_once = (units[log["product"][rows]].sum() for rows in (good, at_once))
-    yield Figure("first_pass_yield", "", "", "share", _ratio(n_at_once, n_scrapped + n_finished))
-    yield Figure("defects_out_share", "", "", "share", _ratio(n_finished - n_good, n_finished))
+    yield figure("first_pass_yield", "", "", _ratio(n_at_once, n_scrapped + n_finished))
+    yield figure("defects_out_share", "", "", _ratio(n_finished - n_good, n_finished))
     if any(plan_of_station.back for plan_of_station in plan.quality):
         yield from _by_station("rework_per_h", log, plan, reworked, hours)
     turned_down = np.r_[scrapped, reworked]
     cause = log["cause"][turned_down]
     n_false, n_bad = (units[log["product"][turned_down[cause == kind]]].sum() for kind in (FALSE_ALARM, BAD))
     if any(plan_of_station.false_alarms for plan_of_station in plan.quality):
-        yield Figure("false_alarm_share", "", "", "share", _ratio(n_false, n_false + n_bad))
+        yield figure("false_alarm_share", "", "", _ratio(n_false, n_false + n_bad))
 
 
 def _rows(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
@@ -204,11 +204,11 @@ def _rows(log: EventLog, plan: Plan, kind: int) -> np.ndarray:
 def _by_station(kpi: str, log: EventLog, plan: Plan, rows: np.ndarray, hours: float) -> Iterator[Figure]:
     """Units an hour of some rows, in all and of each station that has some or could."""
     units = units_each(plan)[log["product"][rows]]
-    yield Figure(kpi, "", "", "1/h", units.sum() / hours)
+    yield figure(kpi, "", "", units.sum() / hours)
     stations = {one.station for one in plan.quality if one.inspects and (one.back or kpi == "scrap_per_h")}
     here = log["station"][rows]
     for rank in sorted(stations | set(here[here >= 0].tolist())):
-        yield Figure(kpi, plan.stations[rank].name, "", "1/h", units[here == rank].sum() / hours)
+        yield figure(kpi, plan.stations[rank].name, "", units[here == rank].sum() / hours)
 
 
 def _ratio(part: float, whole: float) -> float:

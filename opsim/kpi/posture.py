@@ -6,7 +6,7 @@ import numpy as np
 
 from opsim.ergonomics.trunk import DEGREES, Exposure, trunk_exposure
 from opsim.ergonomics.walking import Walked, walking_exposure
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR
 from opsim.kpi.workers import present_s
 from opsim.log import EventLog
@@ -58,14 +58,14 @@ def _of(subject: str, worked: Exposure, walked: Walked | None, rank: int, hours:
     for limit in LIMITS_DEG:
         for part, exposure in exposures.items():
             minutes = _minutes_beyond(exposure, rank, limit)
-            yield Figure(f"trunk_beyond_{limit}_min_per_h", subject, part, "min/h", minutes / hours)
+            yield figure(f"trunk_beyond_{limit}_min_per_h", subject, part, minutes / hours)
     for name, angle in (("mean", _mean_deg), ("p95", _p95_deg)):
         for part, exposure in exposures.items():
-            yield Figure(f"trunk_flexion_{name}_deg", subject, part, "deg", angle(exposure, rank))
+            yield figure(f"trunk_flexion_{name}_deg", subject, part, angle(exposure, rank))
     window_s = hours * SECONDS_PER_HOUR
     for part, spent_s in _spent(worked, walked, rank, window_s):
-        yield Figure("trunk_flexion_share", subject, part, "share", max(spent_s, 0.0) / window_s)
-    yield Figure("posture_measured_share", subject, "", "share", _measured_share(worked, rank))
+        yield figure("trunk_flexion_share", subject, part, max(spent_s, 0.0) / window_s)
+    yield figure("posture_measured_share", subject, "", _measured_share(worked, rank))
     if walked is not None:
         yield from _steps(subject, walked, rank, hours)
 
@@ -107,11 +107,11 @@ def _spent(worked: Exposure, walked: Walked | None, rank: int, window_s: float) 
 
 def _steps(subject: str, walked: Walked, rank: int, hours: float) -> Iterator[Figure]:
     minutes, steps = walked.exposure.measured_s[rank] / 60.0, walked.steps[rank]
-    yield Figure("walking_min_per_h", subject, "", "min/h", minutes / hours)
-    yield Figure("steps_per_h", subject, "", "1/h", steps / hours)
-    yield Figure("step_length_m", subject, "", "m", walked.metres[rank] / steps if steps > 0 else np.nan)
-    yield Figure("cadence_per_min", subject, "", "1/min", steps / minutes if minutes > 0 else np.nan)
-    yield Figure("walking_measured_share", subject, "", "share", _measured_share(walked.exposure, rank))
+    yield figure("walking_min_per_h", subject, "", minutes / hours)
+    yield figure("steps_per_h", subject, "", steps / hours)
+    yield figure("step_length_m", subject, "", walked.metres[rank] / steps if steps > 0 else np.nan)
+    yield figure("cadence_per_min", subject, "", steps / minutes if minutes > 0 else np.nan)
+    yield figure("walking_measured_share", subject, "", _measured_share(walked.exposure, rank))
 
 
 def _quantile(seconds_by_degree: np.ndarray, q: float) -> float:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, by_rank, created_s, in_window, inside_s, mean, window_length_s
 from opsim.log import (
     BLOCKED,
@@ -50,9 +50,9 @@ def tools(log: EventLog, plan: Plan) -> Iterator[Figure]:
     rows, length_s = np.flatnonzero(log["kind"] == TOOL), window_length_s(plan)
     spent_s = np.bincount(log["k"][rows], weights=inside_s(log, rows, plan), minlength=len(plan.tools))
     for tool, had_s in zip(plan.tools, spent_s):
-        yield Figure("tool_use", tool.name, "", "share", had_s / (tool.n * length_s))
+        yield figure("tool_use", tool.name, "", had_s / (tool.n * length_s))
     waiting = np.flatnonzero((log["kind"] == HELD) & (log["cause"] == NO_TOOL))
-    yield Figure("tools_waited_for", "", "", "jobs", inside_s(log, waiting, plan).sum() / length_s)
+    yield figure("tools_waited_for", "", "", inside_s(log, waiting, plan).sum() / length_s)
 
 
 def transporters(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -76,11 +76,11 @@ def transporters(log: EventLog, plan: Plan) -> Iterator[Figure]:
         }
         states["free"] = pool.n * length_s - sum(states.values())
         for part, seconds in states.items():
-            yield Figure("transporter_states", pool.name, part, "share", seconds / (pool.n * length_s))
-        yield Figure("driven_m", pool.name, "", "m", spent_s[~stands].sum() * pool.speed_m_per_s)
+            yield figure("transporter_states", pool.name, part, seconds / (pool.n * length_s))
+        yield figure("driven_m", pool.name, "", spent_s[~stands].sum() * pool.speed_m_per_s)
         waits_s = _waits_s(log, plan, {(leg.before, leg.after) for leg in pool.legs})
         if waits_s.size:
-            yield Figure("pickup_wait_s", pool.name, "", "s", mean(waits_s))
+            yield figure("pickup_wait_s", pool.name, "", mean(waits_s))
 
 
 def _rows(log: EventLog, first: int, n: int) -> np.ndarray:
@@ -120,7 +120,7 @@ def stores(log: EventLog, plan: Plan) -> Iterator[Figure]:
     for product in sorted({part for kit in plan.kits for part, _ in kit.parts}):
         units = int((log["product"][used] == product).sum()) * plan.products[product].lot
         per_h = units / (window_length_s(plan) / SECONDS_PER_HOUR)
-        yield Figure("parts_used_per_h", plan.products[product].name, "", "1/h", per_h)
+        yield figure("parts_used_per_h", plan.products[product].name, "", per_h)
 
 
 def conveyors(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -133,14 +133,14 @@ def conveyors(log: EventLog, plan: Plan) -> Iterator[Figure]:
         here = np.flatnonzero((log["station"] == rank) & (log["job"] >= 0) & np.isin(log["kind"], JOB_KINDS))
         blocked = here[log["kind"][here] == BLOCKED]
         length_s = window_length_s(plan)
-        yield Figure("on_conveyor", belt.name, "", "jobs", inside_s(log, here, plan).sum() / length_s)
-        yield Figure("conveyor_blocked", belt.name, "", "share", _any_s(log, plan, blocked) / length_s)
+        yield figure("on_conveyor", belt.name, "", inside_s(log, here, plan).sum() / length_s)
+        yield figure("conveyor_blocked", belt.name, "", _any_s(log, plan, blocked) / length_s)
 
 
 def _stock(log: EventLog, plan: Plan, rows: np.ndarray, store: str, product: str) -> Iterator[Figure]:
     length_s = window_length_s(plan)
-    yield Figure("stock", store, product, "jobs", inside_s(log, rows, plan).sum() / length_s)
-    yield Figure("stock_empty", store, product, "share", 1.0 - _any_s(log, plan, rows) / length_s)
+    yield figure("stock", store, product, inside_s(log, rows, plan).sum() / length_s)
+    yield figure("stock_empty", store, product, 1.0 - _any_s(log, plan, rows) / length_s)
 
 
 def _any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
@@ -166,8 +166,8 @@ def stored(log: EventLog, plan: Plan) -> Iterator[Figure]:
     for rank, (product, times_s) in enumerate(zip(plan.products, by_product)):
         if stores_of(plan, rank):
             per_h = times_s.size * product.lot / (window_length_s(plan) / SECONDS_PER_HOUR)
-            yield Figure("stored_per_h", product.name, "", "1/h", per_h)
-            yield Figure("time_to_store_s", product.name, "", "s", mean(times_s))
+            yield figure("stored_per_h", product.name, "", per_h)
+            yield figure("time_to_store_s", product.name, "", mean(times_s))
 
 
 KINDS_OF_STOP = {"breakdown": BREAKDOWN, "maintenance": MAINTENANCE}
@@ -224,12 +224,12 @@ def outages(log: EventLog, plan: Plan) -> Iterator[Figure]:
             n = int(((begins >= low) & (begins < high)).sum())
             ends = log["end_s"][here][stop.last]
             ended = (ends >= low) & (ends < high)
-            yield Figure("stops_per_h", place.name, part, "1/h", n / (window_length_s(plan) / SECONDS_PER_HOUR))
-            yield Figure("down_s", place.name, part, "s", mean((ends - begins)[ended]))
-            yield Figure("wait_for_repair_s", place.name, part, "s", mean(stop.waited_s[ended]))
+            yield figure("stops_per_h", place.name, part, n / (window_length_s(plan) / SECONDS_PER_HOUR))
+            yield figure("down_s", place.name, part, mean((ends - begins)[ended]))
+            yield figure("wait_for_repair_s", place.name, part, mean(stop.waited_s[ended]))
             if part == "breakdown":
                 up_s = window_length_s(plan) - inside_s(log, rows[station == rank], plan).sum()
-                yield Figure("mean_time_between_failures_s", place.name, "", "s", up_s / n if n else np.nan)
+                yield figure("mean_time_between_failures_s", place.name, "", up_s / n if n else np.nan)
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,7 +274,7 @@ def stops(log: EventLog, plan: Plan) -> Iterator[Figure]:
     for stop in plan.stops:
         station = plan.stations[stop.station].name
         part = stop.name.removeprefix(f"{station}: ")
-        yield Figure("stop_share", station, part, "share", stood_s[stop.task] / window_length_s(plan))
+        yield figure("stop_share", station, part, stood_s[stop.task] / window_length_s(plan))
     for rank, team in enumerate(plan.repair_teams):
         spent_s = sum(repaired_s[stop.task] for stop in plan.stops if stop.team == rank)
-        yield Figure("repair_team_use", team.name, "", "share", spent_s / (team.n * window_length_s(plan)))
+        yield figure("repair_team_use", team.name, "", spent_s / (team.n * window_length_s(plan)))

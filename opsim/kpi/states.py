@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from opsim import log as kinds
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.lines import possible as why_it_can_stand
 from opsim.kpi.resources import Stretches, outage_rows, outages_of, stops_of
 from opsim.kpi.window import by_rank, changes, closed_hours, inside_s, mean, open_time_s, window_length_s
@@ -57,9 +57,7 @@ def worker_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
     spent_s = np.bincount(cell, weights=inside_s(log, rows, plan), minlength=n_cells).reshape(-1, len(STATES))
     for worker, of_worker in zip(plan.workers, spent_s):
         for part in possible(plan):
-            yield Figure(
-                "worker_states", worker.name, part, "share", of_worker[STATES.index(part)] / window_length_s(plan)
-            )
+            yield figure("worker_states", worker.name, part, of_worker[STATES.index(part)] / window_length_s(plan))
 
 
 def states_of_rows(log: EventLog) -> tuple[np.ndarray, np.ndarray]:
@@ -120,12 +118,12 @@ def station_states(log: EventLog, plan: Plan) -> Iterator[Figure]:
         parts = _parts(log, plan, rank, rows_of[rank], stops)
         shares = {part: spent_s / (length_s * place.servers) for part, spent_s in parts.items()}
         for part, share in {**shares, "starved": 1.0 - sum(shares.values())}.items():
-            yield Figure("station_states", place.name, part, "share", share)
+            yield figure("station_states", place.name, part, share)
     for rank, place in stations:
         waits = rows_of[rank]
         waits = waits[np.isin(log["kind"][waits], (QUEUE, HELD))]
         waits = waits[~np.isin(log["cause"][waits], (kinds.AFTER, kinds.PICKUP, kinds.TAKT, kinds.LINE_STOP))]
-        yield Figure("queue_length", place.name, "", "jobs", inside_s(log, waits, plan).sum() / length_s)
+        yield figure("queue_length", place.name, "", inside_s(log, waits, plan).sum() / length_s)
 
 
 _STATES = (WORK, SETUP, BLOCKED, HELD, QUEUE)
@@ -273,7 +271,7 @@ def active_time(log: EventLog, plan: Plan) -> Iterator[Figure]:
     length_s = (periods.end_s - periods.start_s)[counted]
     for station, lengths_s in zip(plan.stations, by_rank(length_s, periods.station[counted], len(plan.stations))):
         if station.tasks:
-            yield Figure("active_period_s", station.name, "", "s", mean(lengths_s))
+            yield figure("active_period_s", station.name, "", mean(lengths_s))
 
 
 def bottleneck(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -300,9 +298,9 @@ def bottleneck(log: EventLog, plan: Plan) -> Iterator[Figure]:
     length_s = window_length_s(plan)
     for rank, station in enumerate(plan.stations):
         for part, spent_s in parts.items() if station.tasks else ():
-            yield Figure("bottleneck", station.name, part, "share", spent_s[rank] / length_s)
-    yield Figure("bottleneck", "", "shifting", "share", seconds[overlapping > 1].sum() / length_s)
-    yield Figure("bottleneck", "", "none", "share", 1.0 - seconds[anyone].sum() / length_s)
+            yield figure("bottleneck", station.name, part, spent_s[rank] / length_s)
+    yield figure("bottleneck", "", "shifting", seconds[overlapping > 1].sum() / length_s)
+    yield figure("bottleneck", "", "none", 1.0 - seconds[anyone].sum() / length_s)
 
 
 def longest_under_way(periods: Periods) -> tuple[np.ndarray, np.ndarray]:

@@ -27,7 +27,7 @@ from opsim.ergonomics.strain.lifting import Indices, Lifted, Lifts, composite_of
 from opsim.ergonomics.strain.posture_limits import ISO_11226, NOT_RECOMMENDED, ZONED, Still, begun, judged_static
 from opsim.ergonomics.strain.static_holds import REGIONS, hold_share
 from opsim.history import walk_rows
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, in_window, inside_s
 from opsim.kpi.workers import present_s
 from opsim.log import BREAK, SETUP, WALK, WORK, EventLog
@@ -60,10 +60,10 @@ def energy_spent(spent: Spent, log: EventLog, plan: Plan) -> Iterator[Figure]:
     together = (found.work_kcal + found.break_kcal[:, None]).sum(axis=0) / (minutes.sum() or np.nan)
     each = found.kcal_per_min
     for side, part in enumerate(PARTS):
-        yield Figure(ENERGY, "", part, "kcal/min", together[side])
+        yield figure(ENERGY, "", part, together[side])
         for worker, value in zip(plan.workers, each[:, side].tolist()):
-            yield Figure(ENERGY, worker.name, part, "kcal/min", value)
-    yield Figure(ENERGY, "", "worst", "kcal/min", _most(each[:, 0]))
+            yield figure(ENERGY, worker.name, part, value)
+    yield figure(ENERGY, "", "worst", _most(each[:, 0]))
 
 
 def rest_allowances(resting: Resting, log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -85,7 +85,7 @@ def rest_allowances(resting: Resting, log: EventLog, plan: Plan) -> Iterator[Fig
             "rohmert": rohmert[rank],
         }
         for part, value in values.items():
-            yield Figure(REST, worker.name, part, "share", float(value))
+            yield figure(REST, worker.name, part, float(value))
 
 
 def _energy(spent: Spent, log: EventLog, plan: Plan) -> Energy:
@@ -168,25 +168,23 @@ def holds(still: Still, log: EventLog, plan: Plan) -> Iterator[Figure]:
             "static_hold_min_per_h", region, still.held_s[:, place] / 60.0, there_s / SECONDS_PER_HOUR, plan
         )
         yield from _each("iso_11226_min_per_h", region, beyond / 60.0, there_s / SECONDS_PER_HOUR, plan)
-        yield Figure("longest_hold_s", "", region, "s", longest.max())
+        yield figure("longest_hold_s", "", region, longest.max())
         for worker, value in zip(plan.workers, longest.tolist()):
-            yield Figure("longest_hold_s", worker.name, region, "s", value)
+            yield figure("longest_hold_s", worker.name, region, value)
     for place, region in enumerate(ZONED):
         minutes = still.not_acceptable_s[:, place] / 60.0
         yield from _each("en_1005_4_min_per_h", region, minutes, there_s / SECONDS_PER_HOUR, plan)
         if region in ("trunk", "left_arm", "right_arm"):
             known_min = still.known_s[:, place] / 60.0
-            yield from _each("movements_per_min", region, still.moves[:, place], known_min, plan, "1/min")
+            yield from _each("movements_per_min", region, still.moves[:, place], known_min, plan)
     yield from repetitions(log, plan)
 
 
-def _each(
-    kpi: str, part: str, amount: np.ndarray, per: np.ndarray, plan: Plan, unit: str = "min/h"
-) -> Iterator[Figure]:
+def _each(kpi: str, part: str, amount: np.ndarray, per: np.ndarray, plan: Plan) -> Iterator[Figure]:
     """All together, and each worker."""
-    yield Figure(kpi, "", part, unit, amount.sum() / (per.sum() or np.nan))
+    yield figure(kpi, "", part, amount.sum() / (per.sum() or np.nan))
     for worker, one, of in zip(plan.workers, amount.tolist(), per.tolist()):
-        yield Figure(kpi, worker.name, part, unit, one / of if of > 0 else np.nan)
+        yield figure(kpi, worker.name, part, one / of if of > 0 else np.nan)
 
 
 def repetitions(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -199,8 +197,8 @@ def repetitions(log: EventLog, plan: Plan) -> Iterator[Figure]:
     for rank, worker in enumerate(plan.workers):
         times = np.bincount(log["task"][rows][log["worker"][rows] == rank], minlength=len(plan.tasks))
         per = minutes[rank] if minutes[rank] > 0 else np.nan
-        yield Figure(REPETITIONS, worker.name, "", "1/min", times.sum() / per)
-        yield Figure(REPETITIONS, worker.name, "most", "1/min", times.max() / per)
+        yield figure(REPETITIONS, worker.name, "", times.sum() / per)
+        yield figure(REPETITIONS, worker.name, "most", times.max() / per)
 
 
 def hold_sentences(figures: dict[tuple[str, str, str], float]) -> Iterator[str]:
@@ -234,11 +232,11 @@ def lifting(found: Lifted, log: EventLog, plan: Plan) -> Iterator[Figure]:
     for task in np.flatnonzero(loads_kg(plan) > 0).tolist():
         own, name = lifts.task == task, plan.tasks[task].name
         for side, part in enumerate(PARTS):
-            yield Figure(INDEX, name, part, "1", each.index[own, side].mean() if own.any() else np.nan)
-        yield Figure(INDEX, name, "most", "1", each.index[own, 1].max() if own.any() else np.nan)
-        yield Figure("lifts_per_h", name, "", "1/h", own.sum() / hours)
+            yield figure(INDEX, name, part, each.index[own, side].mean() if own.any() else np.nan)
+        yield figure(INDEX, name, "most", each.index[own, 1].max() if own.any() else np.nan)
+        yield figure("lifts_per_h", name, "", own.sum() / hours)
         share = each.out_of_range[own].mean() if own.any() else np.nan
-        yield Figure(OUT_OF_RANGE, name, "", "share", share)
+        yield figure(OUT_OF_RANGE, name, "", share)
     yield from _composite(lifts, each, plan)
 
 
@@ -249,11 +247,11 @@ def _composite(lifts: Lifts, each: Indices, plan: Plan) -> Iterator[Figure]:
         own = each.some(rows)
         found[rank] = composite_of(lifts.some(rows), own, plan)
         for part, value in zip(PARTS, found[rank].tolist()):
-            yield Figure(COMPOSITE, worker.name, part, "1", value)
+            yield figure(COMPOSITE, worker.name, part, value)
         share = 1.0 if too_often(lifts.some(rows), plan) else own.out_of_range.mean() if rows.size else np.nan
-        yield Figure(OUT_OF_RANGE, worker.name, "", "share", share)
+        yield figure(OUT_OF_RANGE, worker.name, "", share)
     worst = np.nanmax(found[:, 0]) if np.isfinite(found[:, 0]).any() else np.nan
-    yield Figure(COMPOSITE, "", "worst", "1", float(worst))
+    yield figure(COMPOSITE, "", "worst", float(worst))
 
 
 def lifting_sentences(figures: dict[tuple[str, str, str], float]) -> Iterator[str]:

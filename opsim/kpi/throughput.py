@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.cycle_times import cycle_times
 from opsim.kpi.window import (
     SECONDS_PER_HOUR,
@@ -49,10 +49,10 @@ def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
     units = np.bincount(product, minlength=len(plan.products)) * units_each(plan)
     calendar = window_length_s(plan) / SECONDS_PER_HOUR
     for name, hours in (("throughput_per_h", scheduled), ("throughput_per_calendar_h", calendar)):
-        yield Figure(name, "", "", "1/h", units.sum() / hours)
+        yield figure(name, "", "", units.sum() / hours)
     finished = [rank for rank in range(len(plan.products)) if finishes(plan, rank)]
     for rank in finished if len(finished) > 1 else ():
-        yield Figure("throughput_per_h", plan.products[rank].name, "", "1/h", units[rank] / scheduled)
+        yield figure("throughput_per_h", plan.products[rank].name, "", units[rank] / scheduled)
 
 
 def lost(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -61,8 +61,8 @@ def lost(log: EventLog, plan: Plan) -> Iterator[Figure]:
     if losing:
         n_lost, arrived = _ended(log, plan, LOST).size, _ended(log, plan, CREATE)
         n_arrived = int(np.isin(log["source"][arrived], losing).sum())
-        yield Figure("lost_per_h", "", "", "1/h", n_lost / (window_length_s(plan) / SECONDS_PER_HOUR))
-        yield Figure("lost_share", "", "", "share", n_lost / n_arrived if n_arrived else np.nan)
+        yield figure("lost_per_h", "", "", n_lost / (window_length_s(plan) / SECONDS_PER_HOUR))
+        yield figure("lost_share", "", "", n_lost / n_arrived if n_arrived else np.nan)
 
 
 def times_in_system(log: EventLog, plan: Plan) -> dict[str, np.ndarray]:
@@ -80,15 +80,15 @@ def time_in_system(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """
     by_product = times_in_system(log, plan)
     every_s = np.concatenate([*by_product.values(), np.array([])])
-    yield Figure("time_in_system_s", "", "", "s", mean(every_s))
+    yield figure("time_in_system_s", "", "", mean(every_s))
     for product, stay_s in by_product.items():
         if len(by_product) > 1:
-            yield Figure("time_in_system_s", product, "", "s", mean(stay_s))
-    yield from quantiles("time_in_system_quantile_s", "", "s", every_s)
+            yield figure("time_in_system_s", product, "", mean(stay_s))
+    yield from quantiles("time_in_system_quantile_s", "", every_s)
     for product, stay_s in by_product.items():
-        yield Figure("lead_time_s", product, "", "s", mean(stay_s))
+        yield figure("lead_time_s", product, "", mean(stay_s))
     for product, stay_s in by_product.items():
-        yield from quantiles("lead_time_quantile_s", product, "s", stay_s)
+        yield from quantiles("lead_time_quantile_s", product, stay_s)
 
 
 def work_in_progress(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -99,10 +99,10 @@ def work_in_progress(log: EventLog, plan: Plan) -> Iterator[Figure]:
     """
     length_s = window_length_s(plan)
     inside_s = _seconds_left(log, plan, CREATE) - _seconds_left(log, plan, *LEAVING_KINDS)
-    yield Figure("work_in_progress", "", "", "jobs", inside_s.sum() / length_s)
+    yield figure("work_in_progress", "", "", inside_s.sum() / length_s)
     for product, spent_s in zip(plan.products, inside_s):
         if len(plan.products) > 1:
-            yield Figure("work_in_progress", product.name, "", "jobs", spent_s / length_s)
+            yield figure("work_in_progress", product.name, "", spent_s / length_s)
 
 
 def _seconds_left(log: EventLog, plan: Plan, *kinds: int) -> np.ndarray:
@@ -129,9 +129,9 @@ def due_dates(log: EventLog, plan: Plan) -> Iterator[Figure]:
     by_product = by_rank(late_s, product, len(plan.products)) if len(plan.products) > 1 else []
     named = [("", late_s), *((made.name, part) for made, part in zip(plan.products, by_product) if part.size)]
     for subject, part_s in named:
-        yield Figure("late_share", subject, "", "share", mean((part_s > 0).astype(float)))
+        yield figure("late_share", subject, "", mean((part_s > 0).astype(float)))
     for subject, part_s in named:
-        yield Figure("tardiness_s", subject, "", "s", mean(np.maximum(part_s, 0.0)))
+        yield figure("tardiness_s", subject, "", mean(np.maximum(part_s, 0.0)))
 
 
 def has_due_dates(plan: Plan) -> bool:
@@ -171,8 +171,8 @@ def takt(log: EventLog, plan: Plan) -> Iterator[Figure]:
     takt_s = _takt_s(plan, open_s)
     if takt_s is None:
         return
-    yield Figure("takt_s", "", "", "s", takt_s)
-    yield Figure("takt_attainment", "", "", "share", mean(_gaps_s(log, plan, open_s) <= takt_s * _SLACK))
+    yield figure("takt_s", "", "", takt_s)
+    yield figure("takt_attainment", "", "", mean(_gaps_s(log, plan, open_s) <= takt_s * _SLACK))
 
 
 def _gaps_s(log: EventLog, plan: Plan, open_s: Spans | None) -> np.ndarray:
@@ -210,6 +210,6 @@ def line_balance(log: EventLog, plan: Plan) -> Iterator[Figure]:
     servers = np.array([n for n, _, _ in on_route])
     work_s = np.array([visits * mean(by_station[station]) for _, visits, station in on_route]) / servers
     efficiency = (servers * work_s).sum() / (servers.sum() * work_s.max())
-    yield Figure("line_balance_efficiency", "", "", "share", efficiency)
-    yield Figure("balance_loss", "", "", "share", 1.0 - efficiency)
-    yield Figure("smoothness_index_s", "", "", "s", np.sqrt((servers * (work_s.max() - work_s) ** 2).sum()))
+    yield figure("line_balance_efficiency", "", "", efficiency)
+    yield figure("balance_loss", "", "", 1.0 - efficiency)
+    yield figure("smoothness_index_s", "", "", np.sqrt((servers * (work_s.max() - work_s) ** 2).sum()))

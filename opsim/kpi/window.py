@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.log import CREATE, EventLog
 from opsim.plan import Plan
 from opsim.plan.calendar import Spans, at_least, both, total_s, without
@@ -72,14 +72,14 @@ def mean(values: np.ndarray) -> float:
     return float(values.mean()) if values.size else float("nan")
 
 
-def quantiles(kpi: str, subject: str, unit: str, values: np.ndarray) -> Iterator[Figure]:
+def quantiles(kpi: str, subject: str, values: np.ndarray) -> Iterator[Figure]:
     """A figure for each of ``QUANTILES``, linear between order statistics; nan where there is no value.
 
     Source: Hyndman & Fan 1996, Sample quantiles in statistical packages, The American Statistician 50(4), definition 7.
     """
     found = np.quantile(values, list(QUANTILES.values())) if values.size else np.full(len(QUANTILES), np.nan)
     for part, value in zip(QUANTILES, found):
-        yield Figure(kpi, subject, part, unit, float(value))
+        yield figure(kpi, subject, part, float(value))
 
 
 def open_hours(plan: Plan) -> float:

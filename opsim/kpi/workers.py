@@ -18,7 +18,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from opsim.history import FATES, FINISHED, Practice, Tiredness, job_pieces, on_grid_each, practice, tiredness, ways_m
-from opsim.kpi.catalogue import Figure
+from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, duty_hours, in_window, inside_s, open_time_s, window_length_s
 from opsim.log import ABSENT, BREAK, OFF, REST, SETUP, TRANSPORT, WALK, WORK, WORKER_KINDS, EventLog
 from opsim.plan import Plan
@@ -43,10 +43,10 @@ def duty(log: EventLog, plan: Plan) -> Iterator[Figure]:
     together = np.sum(list(found.values()), axis=0)
     for name, times_s in [("", together), *((plan.workers[rank].name, found[rank]) for rank in on_shifts)]:
         there_s, paused_s, busy_s, over_s, missed_s, planned_s = times_s.tolist()
-        yield Figure("on_duty_h", name, "", "h", there_s / SECONDS_PER_HOUR)
-        yield Figure("duty_use", name, "", "share", busy_s / (there_s - paused_s) if there_s > paused_s else np.nan)
-        yield Figure("overtime_h", name, "", "h", over_s / SECONDS_PER_HOUR)
-        yield Figure("absent_share", name, "", "share", missed_s / planned_s if planned_s else np.nan)
+        yield figure("on_duty_h", name, "", there_s / SECONDS_PER_HOUR)
+        yield figure("duty_use", name, "", busy_s / (there_s - paused_s) if there_s > paused_s else np.nan)
+        yield figure("overtime_h", name, "", over_s / SECONDS_PER_HOUR)
+        yield figure("absent_share", name, "", missed_s / planned_s if planned_s else np.nan)
 
 
 def _times_s(log: EventLog, plan: Plan, rows: np.ndarray, rank: int) -> np.ndarray:
@@ -101,13 +101,13 @@ def interruptions(log: EventLog, plan: Plan) -> Iterator[Figure]:
     cells = log["station"][rows].astype(np.int64) * len(FATES) + fates
     n = np.bincount(cells, minlength=len(plan.stations) * len(FATES)).reshape(-1, len(FATES))
     hours = window_length_s(plan) / SECONDS_PER_HOUR
-    yield Figure("interruptions_per_h", "", "", "1/h", n.sum() / hours)
+    yield figure("interruptions_per_h", "", "", n.sum() / hours)
     for name, counts in [
         ("", n.sum(axis=0)),
         *((place.name, n[r]) for r, place in enumerate(plan.stations) if place.tasks),
     ]:
         for fate, count in list(zip(FATES, counts))[1:]:
-            yield Figure("interruptions_per_h", name, fate, "1/h", count / hours)
+            yield figure("interruptions_per_h", name, fate, count / hours)
 
 
 def learned(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -122,14 +122,14 @@ def learned(log: EventLog, plan: Plan) -> Iterator[Figure]:
     found = _in_window(log, plan, practice(log, plan))
     share = found.multiplier / plan.human.learning.multiplier(1.0)
     worker, task = log["worker"][found.row], log["task"][found.row]
-    yield Figure("learned_share", "", "", "share", _mean(share))
+    yield figure("learned_share", "", "", _mean(share))
     for rank, person in enumerate(plan.workers):
         rows = np.flatnonzero(worker == rank)
-        yield Figure("learned_share", person.name, "", "share", _mean(share[rows]))
+        yield figure("learned_share", person.name, "", _mean(share[rows]))
         for at in np.unique(task[rows]).tolist():
             last = rows[task[rows] == at][-1]
-            yield Figure("learned_share", person.name, plan.tasks[at].name, "share", share[last])
-            yield Figure("experience", person.name, plan.tasks[at].name, "", found.repetition[last])
+            yield figure("learned_share", person.name, plan.tasks[at].name, share[last])
+            yield figure("experience", person.name, plan.tasks[at].name, found.repetition[last])
 
 
 def _in_window(log: EventLog, plan: Plan, found: Practice) -> Practice:
@@ -156,10 +156,10 @@ def fatigue(log: EventLog, plan: Plan) -> Iterator[Figure]:
     spent_s, worker = inside_s(log, found.row, plan), log["worker"][found.row]
     for name, rows in _of_whom(worker, plan):
         own = np.flatnonzero(rows & (spent_s > 0))
-        yield Figure("fatigue_mean", name, "", "share", _mean_fatigue(found, spent_s, own))
-        yield Figure("fatigue_most", name, "", "share", found.end[own].max() if own.size else np.nan)
+        yield figure("fatigue_mean", name, "", _mean_fatigue(found, spent_s, own))
+        yield figure("fatigue_most", name, "", found.end[own].max() if own.size else np.nan)
         for at, joint in enumerate(found.joints):
-            yield Figure("fatigue_most", name, joint, "share", found.by_joint[own, at].max() if own.size else np.nan)
+            yield figure("fatigue_most", name, joint, found.by_joint[own, at].max() if own.size else np.nan)
     if plan.human.rest is not None:
         yield from _rested(log, plan)
 
@@ -183,7 +183,7 @@ def _rested(log: EventLog, plan: Plan) -> Iterator[Figure]:
         ("", taken_s.sum(), there_s.sum()),
         *((person.name, taken_s[rank], there_s[rank]) for rank, person in enumerate(plan.workers)),
     ):
-        yield Figure("rest_taken_min_per_h", name, "", "min/h", 60.0 * rested / there if there > 0 else np.nan)
+        yield figure("rest_taken_min_per_h", name, "", 60.0 * rested / there if there > 0 else np.nan)
 
 
 def walked(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -196,7 +196,7 @@ def walked(log: EventLog, plan: Plan) -> Iterator[Figure]:
     share = np.minimum(1.0, inside_s(log, rows, plan) / whole_s)
     metres = np.bincount(worker, weights=way_m * share, minlength=len(plan.workers))
     for rank, person in enumerate(plan.workers):
-        yield Figure("walked_m", person.name, "", "m", metres[rank])
+        yield figure("walked_m", person.name, "", metres[rank])
 
 
 EMPTY_HANDED, WITH_A_JOB, DRIVEN = "empty_handed", "with_a_job", "driven"
@@ -216,7 +216,7 @@ def trips(log: EventLog, plan: Plan) -> Iterator[Figure]:
         pairs, counts = np.unique(start.astype(np.int64) * len(plan.places) + end, return_counts=True)
         for pair, count in zip(pairs.tolist(), counts.tolist()):
             a, b = divmod(pair, len(plan.places))
-            yield Figure("trips_per_h", subject_of_trip(plan.places[a], plan.places[b]), part, "1/h", count / hours)
+            yield figure("trips_per_h", subject_of_trip(plan.places[a], plan.places[b]), part, count / hours)
 
 
 def subject_of_trip(start: str, end: str) -> str:

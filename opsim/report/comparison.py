@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from opsim.files import write_text
+from opsim.kpi.parts import part_name
 from opsim.report.comparison_sentences import (
     BEST,
     CLEAR,
@@ -28,7 +29,6 @@ from opsim.report.comparison_sentences import (
 )
 from opsim.report.numbers import ABSENT, kpi_name, quantity, scale_of
 from opsim.report.plot.svg_chart import intervals_svg
-from opsim.report.sections.common import part_name
 from opsim.report.sections.pareto import frontier_section
 
 HERE = Path(__file__).parent

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from opsim.kpi.catalogue import LESS, MORE, better_of
+from opsim.kpi.parts import part_name
 from opsim.report.numbers import digits, half_digits, is_number, kpi_name, listing, scale_of
-from opsim.report.sections.common import part_name
 
 
 def comparison_cells(difference: Any, largest: float | None = None) -> dict[str, str]:

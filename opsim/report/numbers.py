@@ -11,89 +11,8 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from opsim.kpi import catalogue
+from opsim.kpi.catalogue import CATALOGUE
 
-NAMES = {
-    "throughput_per_h": "Throughput (good units)",
-    "throughput_per_calendar_h": "Throughput (good units) per calendar hour",
-    "lost_per_h": "Jobs turned away",
-    "lost_share": "Share of jobs turned away",
-    "time_in_system_s": "Time in system",
-    "cycle_time_s": "Work a job gets at the station",
-    "work_in_progress": "Jobs inside",
-    "worker_states": "State of worker",
-    "station_states": "State of station",
-    "queue_length": "Jobs waiting at the station",
-    "walked_m": "Walked",
-    "trips_per_h": "Trips",
-    "duration_s": "Duration of the task",
-    "time_in_system_quantile_s": "Time in system, quantiles",
-    "lead_time_s": "Lead time of the product",
-    "lead_time_quantile_s": "Lead time of the product, quantiles",
-    "cycle_time_quantile_s": "Work a job gets at the station, quantiles",
-    "late_share": "Jobs later than their due date",
-    "tardiness_s": "Tardiness, mean (0 where a job is early)",
-    "takt_s": "Takt that the release asks for",
-    "takt_attainment": "Jobs that follow the one before within takt",
-    "line_balance_efficiency": "Line balance efficiency",
-    "balance_loss": "Line balance loss",
-    "smoothness_index_s": "Smoothness index (0 s: every station has the same work)",
-    "oee": "Overall equipment effectiveness (OEE)",
-    "oee_factor": "Factors of OEE",
-    "active_period_s": "Active period of the station",
-    "bottleneck": "Time as the bottleneck",
-    "stops_per_h": "Stops of the station",
-    "down_s": "Time from a stop until the station runs again",
-    "wait_for_repair_s": "Time from a stop until its repair began",
-    "mean_time_between_failures_s": "Mean time between failures (MTBF)",
-    "stop_share": "Station stood because of",
-    "repair_team_use": "Use of the repair team",
-    "stock": "Jobs in the store",
-    "stock_empty": "Time in which the store was empty",
-    "stored_per_h": "Put into a store",
-    "time_to_store_s": "Time until it is in the store",
-    "parts_used_per_h": "Parts used",
-    "on_conveyor": "Jobs on the conveyor",
-    "conveyor_blocked": "Time in which the end of the conveyor found no room",
-    "transporter_states": "State of the vehicles",
-    "driven_m": "Driven by all vehicles",
-    "pickup_wait_s": "Wait of a job until it was loaded",
-    "scrap_per_h": "Scrap",
-    "scrap_share": "Share of scrap",
-    "first_pass_yield": "Good at the first go (first pass yield)",
-    "defects_out_share": "Finished with a defect that nobody found",
-    "rework_per_h": "Rework",
-    "false_alarm_share": "Good ones among what was turned down",
-    "tool_use": "Use of tools",
-    "tools_waited_for": "Jobs that wait for tools",
-    "hand_overs_per_h": "Hand-overs of the crew",
-    "handoff_position": "Where on the line a job is handed over (share of its work)",
-    "incomplete_share": "Jobs that left the line unfinished",
-    "line_stopped_share": "Time in which the line stood",
-    "on_duty_h": "On duty",
-    "duty_use": "Busy, of the time on duty without breaks",
-    "overtime_h": "Overtime, finishing included",
-    "absent_share": "Share of shifts missed",
-    "interruptions_per_h": "Work broken off",
-    "learned_share": "Time as a share of that of the first repetition",
-    "fatigue_mean": "Fatigue at work, from 0 (fresh) to 1",
-    "fatigue_most": "Most fatigue after a piece of work, from 0 (fresh) to 1",
-    "rest_taken_min_per_h": "Rest by need",
-    "experience": "Repetitions of the task behind somebody",
-    "trunk_beyond_60_min_per_h": "Trunk flexed 60° or more",
-    "trunk_beyond_20_min_per_h": "Trunk flexed 20° or more",
-    "trunk_flexion_mean_deg": "Trunk flexion at work, mean",
-    "trunk_flexion_p95_deg": "Trunk flexion at work, 95th percentile",
-    "trunk_flexion_share": "Time by trunk flexion",
-    "posture_measured_share": "Work whose posture is known",
-    "walking_min_per_h": "Walking",
-    "walking_measured_share": "Walking whose posture is known",
-    "steps_per_h": "Steps",
-    "step_length_m": "Step length",
-    "cadence_per_min": "Steps a minute of walking",
-    **catalogue.EXPOSURE_NAMES,
-    **catalogue.STRAIN_NAMES,
-}
 WITH_HOURS = {
     "throughput_per_h": "Throughput (good units), per scheduled hour",
     "throughput_per_calendar_h": "Throughput (good units), per calendar hour",
@@ -114,8 +33,8 @@ def kpi_name(kpi: str, hours: bool = False) -> str:
     """
     if hours and kpi in WITH_HOURS:
         return WITH_HOURS[kpi]
-    if kpi in NAMES:
-        return NAMES[kpi]
+    if kpi in CATALOGUE:
+        return CATALOGUE[kpi].title
     stem = next((kpi.removesuffix(ending) for ending in ENDINGS if kpi.endswith(ending)), kpi)
     return stem.replace("_", " ").strip().capitalize() or kpi
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from opsim.history import NOWHERE, on_grid_each, ways_m, whereabouts
-from opsim.kpi import catalogue
+from opsim.kpi.parts import PART_NAMES
 from opsim.kpi.window import SECONDS_PER_HOUR, duty_hours, in_window, inside_s, open_hours, open_time_s, window_length_s
 from opsim.log import REPAIR, SETUP, WALK, WORK, EventLog
 from opsim.plan import Plan, ProductPlan
@@ -107,29 +107,7 @@ def _parts_first(plan: Plan) -> list[int]:
 
 Row = Mapping[str, Any]
 AT_MOST = "at_most"
-WORDS = {
-    "interruptions_per_h": {
-        "resumed": "gone on with by the same one",
-        "by_another": "gone on with by another",
-        "handed_over": "handed over at once",
-        "restarted": "begun anew",
-        "open": "not gone on with",
-    },
-    "line_stopped_share": {
-        "unfinished": "a job was not done",
-        "full": "no room behind it",
-        "down": "a station was down",
-        "closed": "closed: a pause, not counted",
-        "away": "nobody there: a pause, not counted",
-    },
-    **catalogue.EXPOSURE_PARTS,
-    **catalogue.STRAIN_PARTS,
-    "fatigue_most": {
-        **{f"{side}_{joint}": f"{side} {joint}" for joint in ("shoulder", "elbow") for side in ("left", "right")},
-        **{"back": "low back", "hips": "hips", "knees": "knees"},
-    },
-}
-SHOWN_WHERE_ANY = tuple(WORDS)
+SHOWN_WHERE_ANY = tuple(PART_NAMES)
 """Figures of which only the total, and the parts that are there at all, are shown."""
 
 BY_PART = (
@@ -137,11 +115,6 @@ BY_PART = (
     *("movements_per_min", "rest_allowance_share"),
 )
 """Those of them that have parts alone: nothing but their parts can say that there was nothing, and 0 is an answer."""
-
-
-def part_name(kpi: str, part: str) -> str:
-    """A part in words; as it is written where there are none."""
-    return WORDS.get(kpi, {}).get(part, part)
 
 
 def is_shown(kpi: str, part: str, rows: Iterable[Row]) -> bool:

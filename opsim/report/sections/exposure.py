@@ -15,7 +15,8 @@ import numpy as np
 
 from opsim.ergonomics.shift.ledger import MINUTE_S, REGIONS, Minutes, Regions, Timeline
 from opsim.ergonomics.shift.worst import Worst, WorstSeen
-from opsim.kpi.catalogue import EXPOSURE, REGION_NAMES
+from opsim.kpi.catalogue import EXPOSURE
+from opsim.kpi.parts import REGION_NAMES
 from opsim.log import BREAK, EventLog
 from opsim.plan import Plan
 from opsim.report.material import Material

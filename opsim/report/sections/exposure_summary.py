@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from opsim.kpi.catalogue import REGION_NAMES
+from opsim.kpi.parts import REGION_NAMES
 from opsim.report.numbers import digits, is_number, listing
 from opsim.report.plot.plotly import FONT, INK, label, layout_of
 from opsim.report.sections.summary import find, with_interval

@@ -15,12 +15,12 @@ from html import escape
 from typing import Any
 
 from opsim.kpi.catalogue import MORE, AskedFigure, read_asked
+from opsim.kpi.parts import part_name
 from opsim.report.material import Material, Same
 from opsim.report.numbers import is_number, kpi_name, listing, scale_of
 from opsim.report.page import Block, Section, Svg, Words
 from opsim.report.plot.plotly import ACCENT, GRID, INK, MUTED
 from opsim.report.plot.svg_chart import Box, Place, places, shortened, ticks
-from opsim.report.sections.common import part_name
 from opsim.study.compare import NotComparable, scheduled_hours
 from opsim.study.pareto import Frontier, frontier_of
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from opsim.kpi.catalogue import REGION_NAMES
+from opsim.kpi.parts import REGION_NAMES
 from opsim.report.material import Material
 from opsim.report.numbers import TRUNK_SHARES, digits, is_number, listing, quantity
 from opsim.report.page import Chart, Section, Words

@@ -11,6 +11,7 @@ from functools import lru_cache
 from html import escape
 from typing import Any
 
+from opsim.kpi.parts import part_name
 from opsim.report.comparison_sentences import (
     CLEAR,
     NOT_PROVEN,
@@ -25,7 +26,6 @@ from opsim.report.material import Material, Same
 from opsim.report.numbers import kpi_name, largest_mean, plus_minus, scale_of
 from opsim.report.page import Block, Bullets, Chart, Folded, Grid, Panels, Section, Words
 from opsim.report.plot.plotly import ACCENT, FONT, INK, MUTED, label, layout_of
-from opsim.report.sections.common import part_name
 from opsim.study.compare import Comparison, Difference, NotComparable, compare
 from opsim.study.intervals import CONFIDENCE
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from opsim.kpi.catalogue import KINDS, kind_of
+from opsim.kpi.parts import part_name
 from opsim.kpi.window import in_window
 from opsim.log import CREATE, LEAVING_KINDS
 from opsim.plan.loads.flows import flows_of
@@ -33,7 +34,7 @@ from opsim.report.numbers import (
 )
 from opsim.report.page import Block, Caution, Chart, Folded, Grid, Section, Words
 from opsim.report.plot import plotly
-from opsim.report.sections.common import is_shown, part_name, without_again
+from opsim.report.sections.common import is_shown, without_again
 
 Row = Mapping[str, Any]
 

@@ -7,10 +7,10 @@ from plans import plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS, figures
+from opsim.kpi.catalogue import CATALOGUE
 from opsim.kpi.catalogue import KPIS as KPIS_of_fatigue
 from opsim.kpi.workers import learned
 from opsim.log import SETUP
-from opsim.report.numbers import NAMES
 from tests.opsim.kpi.made_logs import found, made, row, work
 from tests.opsim.laws.test_laws import PROGRESS_FLOOR as FLOOR
 from tests.opsim.laws.test_laws import piece
@@ -100,7 +100,7 @@ def test_muscles_have_a_figure_for_each_joint():
 def test_figures_are_there_only_where_people_tire():
     plan = planned(LINE)
     assert not set(MINE) & {kpi for kpi, _, _ in fatigue_found(run_plan(plan), plan)}
-    assert set(MINE) <= set(KPIS_of_fatigue) and set(MINE) <= set(NAMES)
+    assert set(MINE) <= set(KPIS_of_fatigue) and set(MINE) <= set(CATALOGUE)
 
 
 HOUR = FLOOR.replace("horizon: 100 s", "horizon: 2 h, warm_up: 1 h")

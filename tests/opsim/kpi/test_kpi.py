@@ -11,25 +11,10 @@ from plans import CELL, line, plan
 
 from opsim.engine.floor import run_plan
 from opsim.kpi import KPIS, figures, samples
-from opsim.kpi.catalogue import KPIS as KPIS_of_better
-from opsim.kpi.catalogue import KPIS as KPIS_of_subjects
-from opsim.kpi.catalogue import (
-    LESS,
-    LESS_IS_BETTER,
-    LESS_OF,
-    LESS_OF_LIMITS,
-    MORE,
-    MORE_IS_BETTER,
-    OF_EACH,
-    USUAL,
-    better_of,
-    read_asked,
-    subject_of,
-)
+from opsim.kpi.catalogue import CATALOGUE, DECLARED, KINDS, LESS, MORE, USUAL, better_of, read_asked, subject_of
 from opsim.kpi.catalogue import AskedFigure as Asked
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
 from opsim.plan.tasks import Handling
-from opsim.report.numbers import NAMES
 from tests.opsim.kpi.made_logs import found, made, row, tiled, work
 from tests.opsim.made_walks import walking
 
@@ -190,7 +175,7 @@ def test_a_log_after_itself_has_the_same_shares_and_all_its_metres():
 
 
 def test_every_figure_has_words_in_the_report():
-    assert set(NAMES) == set(KPIS)
+    assert set(CATALOGUE) == set(KPIS)
     assert set(USUAL) <= set(KPIS)
 
 
@@ -231,19 +216,19 @@ def test_what_is_read_is_written_as_it_was():
         assert (again.kpi, again.subject, again.part) == (asked.kpi, asked.subject, asked.part)
 
 
-def test_no_figure_is_better_both_ways_and_every_name_is_that_of_a_figure():
-    assert not set(MORE_IS_BETTER) & set(LESS_IS_BETTER)
-    assert set(MORE_IS_BETTER) | set(LESS_IS_BETTER) <= set(KPIS_of_better)
-    assert not [kpi for kpi in MORE_IS_BETTER if kpi.startswith((*LESS_OF, *LESS_OF_LIMITS))]
+def test_every_figure_is_declared_once_in_words_that_are_known():
+    assert len(CATALOGUE) == len(DECLARED) == len({one.title for one in DECLARED})
+    assert {one.better for one in DECLARED} == {MORE, LESS, ""} and {one.kind for one in DECLARED} == set(KINDS)
+    assert all(better_of(name) == one.better for name, one in CATALOGUE.items())
 
 
 def test_what_depends_on_who_asks_has_no_better_way():
     assert better_of("on_duty_h") == better_of("station_states") == better_of("posture_measured_share") == ""
 
 
-def test_every_figure_that_is_of_one_thing_each_exists_and_is_of_one_kind():
-    names = [name for kind in OF_EACH.values() for name in kind]
-    assert set(names) <= set(KPIS_of_subjects) and len(names) == len(set(names))
+def test_what_is_of_one_thing_each_is_of_something_that_a_floor_has():
+    things = {"worker", "station", "task", "product", "store", "conveyor", "line", "tool"}
+    assert {one.of for one in DECLARED} == {*things, ""}
 
 
 def test_what_is_of_the_whole_too_needs_no_subject():

@@ -9,13 +9,14 @@ from types import SimpleNamespace
 
 import pytest
 
+from opsim.kpi.parts import part_name
 from opsim.report import render as contents
 from opsim.report.page import HERE, StudyPage, Table, study_html
 from opsim.report.page import StudySection as Section
 from opsim.report.render import report_html, write_report
 from opsim.report.sections import scenarios as forest
 from opsim.report.sections import worker_timeline as days
-from opsim.report.sections.common import is_shown, part_name, without_again
+from opsim.report.sections.common import is_shown, without_again
 from opsim.report.sections.provenance import BOTH, RUN, YOURS, plotly_version
 from opsim.report.sections.provenance import stress_des_section as section
 from opsim.report.sections.provenance import stress_items as items_of
