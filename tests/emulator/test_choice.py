@@ -79,6 +79,7 @@ def test_auto_gives_one_of_the_schemes_and_says_why():
     assert ("scheme, chosen", report.methods["scheme"]) in report.rows()
 
 
+@pytest.mark.slow
 def test_auto_is_the_chosen_scheme_and_nothing_else():
     motions, _ = make("pick", 3, 4, seed=2)
     named = MotionEmulator.fit(motions, scheme=fitted().report.scheme, n_times=21, n_knots=8)

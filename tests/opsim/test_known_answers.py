@@ -58,6 +58,7 @@ def close_to_theory(case, runs):
     assert abs(interval.mean - case.answer()) <= 4 * standard_error + 1e-6 * case.answer()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", HERE, ids=lambda case: case.name)
 def test_theory_is_within_four_standard_errors(case, compiled):
     close_to_theory(case, compiled)

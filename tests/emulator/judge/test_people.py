@@ -75,6 +75,7 @@ def test_a_fit_without_somebody_that_leaves_too_few_is_passed_over_and_progress_
     assert n_steps(motions) == 1 + 4 + 2 and seen == [(step, 7) for step in range(1, 7)]
 
 
+@pytest.mark.slow
 def test_the_order_of_the_repetitions_decides_nothing(uneven):
     other = people_of(reach([8, 5, 4, 2, 0, 1]), QUICK)
     assert other.trials.tolist() == uneven.trials.tolist() and np.allclose(other.known, uneven.known, equal_nan=True)

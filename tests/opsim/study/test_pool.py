@@ -247,7 +247,10 @@ print(can_fork())
 def test_processes_end_with_their_parent_whatever_ends_it(tmp_path, number):
     (tmp_path / "script.py").write_text(BEGIN + WAITS)
     parent = subprocess.Popen(
-        [sys.executable, tmp_path / "script.py"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+        [sys.executable, tmp_path / "script.py"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background job has it ignored
     )
     children = [int(parent.stdout.readline()) for _ in range(2)]
     parent.send_signal(number)

@@ -62,6 +62,7 @@ def test_the_same_run_gives_the_same_bytes():
     assert first == second and json.dumps(one) == json.dumps(other)
 
 
+@pytest.mark.slow
 def test_what_is_told_is_plain_json_and_every_column_is_there():
     meta, data = packed_scene("two_shift_plant")
     assert json.loads(json.dumps(meta, allow_nan=False)) == meta
