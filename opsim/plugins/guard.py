@@ -191,8 +191,9 @@ def guarded_rule(found: Found, rule: Any, like: Callable) -> Callable[..., tuple
     def key_of(*numbers: float) -> tuple[float, ...]:
         with blamed(found, "failed as it chose"):
             key = rule(*numbers)
-        if not isinstance(key, tuple) or not all(isinstance(part, int | float) and part == part for part in key):
-            raise fault(found, f"expected a key, a tuple of numbers, found {repr(key)[:80]}")
+        sound = isinstance(key, tuple) and all(isinstance(part, int | float) and part == part for part in key)
+        if not sound or not key:
+            raise fault(found, f"expected a key, a tuple of one or more numbers, found {repr(key)[:80]}")
         return key
 
     return key_of

@@ -118,8 +118,9 @@ WRONG_RULES = {
     "first = 1\n": "expected something to call, found 1, a int",
     "def first(n_waiting, walk_s):\n    return ()\n": r"first takes \(n_waiting, walk_s\), expected \(n_waiting, old",
     RULE + "    return (1 / walk_s,)\n": "failed as it chose: ZeroDivisionError: float division by zero",
-    RULE + "    return walk_s\n": "expected a key, a tuple of numbers, found 0.0",
-    RULE + "    return (walk_s * float('nan'),)\n": r"a tuple of numbers, found \(nan,\)",
+    RULE + "    return walk_s\n": "expected a key, a tuple of one or more numbers, found 0.0",
+    RULE + "    return (walk_s * float('nan'),)\n": r"a tuple of one or more numbers, found \(nan,\)",
+    RULE + "    return ()\n": r"a tuple of one or more numbers, found \(\)",
 }
 
 
