@@ -5,11 +5,14 @@ The tables of ``opsim check``: loads of stations, people and what is shared, and
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from opsim.cli.app import mistakes
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 
 @click.command("check")
@@ -121,7 +124,7 @@ def print_loads(variant: str, loads: Any, without: str = "") -> None:
         click.echo(f"{variant}: {without}\n")
 
 
-def left_out(plan: Any) -> str:
+def left_out(plan: Plan) -> str:
     """Effects on people that are on and that mean times know nothing of; nothing where none is."""
     from opsim.plan.workers import EFFECTS
     from opsim.report.numbers import listing

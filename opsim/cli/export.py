@@ -17,11 +17,14 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from opsim.cli.app import mistakes
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 OCEL_JSON, OCEL_SQLITE, PARQUET, CSV, BVH = "ocel-json", "ocel-sqlite", "parquet", "csv", "bvh"
 FORMATS = (OCEL_JSON, OCEL_SQLITE, PARQUET, CSV, BVH)
@@ -262,7 +265,7 @@ def export_bvh(asked: Asked) -> Told:
     return Told((f"{asked.out}: {words}, {size(asked.out.stat().st_size)}",), plain)
 
 
-def _which(asked: Asked, log: Any, plan: Any) -> Any:
+def _which(asked: Asked, log: Any, plan: Plan) -> Any:
     from opsim.export.tables import at_time, performance_of, run_s, walk_of
 
     how = asked.options
@@ -273,7 +276,7 @@ def _which(asked: Asked, log: Any, plan: Any) -> Any:
     return performance_of(log, plan, how["worker"], how["task"], how["k"] or 0)
 
 
-def _performed(log: Any, plan: Any, which: Any, fps: float) -> tuple[Any, Any, str]:
+def _performed(log: Any, plan: Plan, which: Any, fps: float) -> tuple[Any, Any, str]:
     """(joints (T, J, 3), skeleton, what): all pieces as one, from where the worker began to where he left off."""
     from opsim.ergonomics.redraw import performance_again
 
@@ -286,7 +289,7 @@ def _performed(log: Any, plan: Any, which: Any, fps: float) -> tuple[Any, Any, s
     return whole.positions_m(times_s=times_s), whole.skeleton, whole.task
 
 
-def _walked(log: Any, plan: Any, which: Any, fps: float) -> tuple[Any, Any, str]:
+def _walked(log: Any, plan: Plan, which: Any, fps: float) -> tuple[Any, Any, str]:
     """As ``_performed``: a walk straight on, in the time it took."""
     import numpy as np
 

@@ -13,13 +13,16 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from opsim.cli.app import mistakes
 from opsim.cli.progress import engine_option, telling
 from opsim.engine.choice import SIMPY
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 
 @click.command("run")
@@ -223,7 +226,7 @@ def _refuse_other_runs(variants: dict[str, Any], out: Path, seed: int | None, wa
         raise ValueError("\n".join([*words, way_out]))
 
 
-def _run(name: str, loaded: Any, folder: Path, how: dict[str, Any], said: set[str] | None) -> Any:
+def _run(name: str, loaded: Loaded, folder: Path, how: dict[str, Any], said: set[str] | None) -> Any:
     from opsim.cli.app import stopped
     from opsim.cli.progress import progress
     from opsim.study import run_scenario

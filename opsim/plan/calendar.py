@@ -9,11 +9,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.clock import DAY_S, DAYS, WEEK_S
 from opsim.plan.tasks import ranked
 from opsim.problems import natural_key
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 OPEN = tuple[tuple[float, float], ...]
 """(from_s, to_s) of each time that something is open, in order, from 0 to the horizon."""
@@ -60,7 +63,7 @@ class ShiftPlan:
     overtime_s: float = 0.0
 
 
-def plan_shifts(scenario: Any) -> tuple[ShiftPlan, ...]:
+def plan_shifts(scenario: Scenario) -> tuple[ShiftPlan, ...]:
     """All shifts in natural order of names."""
     shifts = sorted(scenario.shifts.items(), key=lambda item: natural_key(item[0]))
     return tuple(
@@ -69,7 +72,7 @@ def plan_shifts(scenario: Any) -> tuple[ShiftPlan, ...]:
     )
 
 
-def plan_duties(scenario: Any, ranks: Any) -> dict[str, tuple[Duty, ...] | None]:
+def plan_duties(scenario: Scenario, ranks: Any) -> dict[str, tuple[Duty, ...] | None]:
     """By worker, his shifts within the run, in order; None where he is always there.
 
     Those who follow the same shifts share them: a year of a hundred workers would else take seconds.
@@ -81,7 +84,7 @@ def plan_duties(scenario: Any, ranks: Any) -> dict[str, tuple[Duty, ...] | None]
     return {name: None if one.shift is None else known[tuple(one.shift)] for name, one in scenario.workers.items()}
 
 
-def _duties(names: list[str], scenario: Any, ranks: Any) -> tuple[Duty, ...]:
+def _duties(names: list[str], scenario: Scenario, ranks: Any) -> tuple[Duty, ...]:
     shift_ranks, horizon_s = ranked(scenario.shifts), scenario.run.horizon_s
     return tuple(
         Duty(
@@ -97,7 +100,7 @@ def _duties(names: list[str], scenario: Any, ranks: Any) -> tuple[Duty, ...]:
     )
 
 
-def open_times(shifts: list[str] | None, scenario: Any) -> OPEN | None:
+def open_times(shifts: list[str] | None, scenario: Scenario) -> OPEN | None:
     """When something that is open in all of some shifts is open within the run; None where always."""
     if shifts is None:
         return None
@@ -116,7 +119,7 @@ def next_open(hours: OPEN, at_s: float) -> float:
     return next((max(at_s, from_s) for from_s, to_s in hours if at_s < to_s), inf)
 
 
-def begun(names: list[str], scenario: Any) -> Iterator[tuple[float, float, str, str]]:
+def begun(names: list[str], scenario: Scenario) -> Iterator[tuple[float, float, str, str]]:
     """(start_s, end_s, day, name) of each time that shifts, which follow each other week by week, come up in a run.
 
     In order of time, in seconds from the start of the run, the first of them perhaps begun before it. The first name is

@@ -9,10 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
+from typing import TYPE_CHECKING
 
 from opsim.clock import TICKS_PER_S, on_grid
 from opsim.plan.tasks import Ranks, ranked
 from opsim.problems import natural_key
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 INDEXED, MOVING = "indexed", "moving"
 STOP, SEND_ON = "stop", "send_on"
@@ -60,26 +64,26 @@ class LinePlan:
         return self.reach_s[at] * self.speed_m_per_s
 
 
-def plan_lines(scenario, ranks: Ranks) -> tuple[LinePlan, ...]:
+def plan_lines(scenario: Scenario, ranks: Ranks) -> tuple[LinePlan, ...]:
     """All paced lines in natural order of names."""
     lines = sorted(scenario.lines.items(), key=lambda item: natural_key(item[0]))
     return tuple(_line(name, line, scenario, ranks) for name, line in lines)
 
 
-def buffer_of(name: str, buffer: float, scenario) -> float:
+def buffer_of(name: str, buffer: float, scenario: Scenario) -> float:
     """Places in front of a station: none at one of an indexed line, any number on a stretch of a moving one."""
     kind = next((line.kind for line in scenario.lines.values() if name in line.stations), None)
     return {None: buffer, INDEXED: 0, MOVING: inf}[kind]
 
 
-def _line(name: str, line, scenario, ranks: Ranks) -> LinePlan:
+def _line(name: str, line, scenario: Scenario, ranks: Ranks) -> LinePlan:
     stations = tuple(ranks.stations[station] for station in line.stations)
     sends_on = line.unfinished == SEND_ON
     common = LinePlan(name, line.kind, stations, on_grid(line.takt_s), sends_on, *_andon(line, scenario))
     return _moving(common, line) if line.kind == MOVING else common
 
 
-def _andon(line, scenario) -> tuple[tuple[int, ...], float, bool]:
+def _andon(line, scenario: Scenario) -> tuple[tuple[int, ...], float, bool]:
     """Who is called, when, and whether he helps."""
     if line.andon is None:
         return (), NEVER_S, False
@@ -122,14 +126,14 @@ class CrewPlan:
     workers: tuple[int, ...]
 
 
-def kept_from(worker: str, scenario) -> set[str]:
+def kept_from(worker: str, scenario: Scenario) -> set[str]:
     """Stations where somebody does not work, skill or not: those of crews he is not in, and of a member all others."""
     theirs = {station for crew in scenario.crews.values() for station in crew.stations}
     own = {station for crew in scenario.crews.values() if worker in crew.workers for station in crew.stations}
     return set(scenario.stations) - own if own else theirs
 
 
-def plan_crews(scenario, ranks: Ranks) -> tuple[CrewPlan, ...]:
+def plan_crews(scenario: Scenario, ranks: Ranks) -> tuple[CrewPlan, ...]:
     """All crews in natural order of names."""
     people = ranked(scenario.workers)
     return tuple(
@@ -162,7 +166,7 @@ class SharePlan:
     filled: float
 
 
-def plan_shares(scenario, ranks: Ranks) -> tuple[SharePlan, ...]:
+def plan_shares(scenario: Scenario, ranks: Ranks) -> tuple[SharePlan, ...]:
     """All of them in natural order of stations."""
     shares = (
         SharePlan(

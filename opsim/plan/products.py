@@ -10,10 +10,14 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import accumulate
 from math import inf
+from typing import TYPE_CHECKING
 
 from opsim.clock import on_grid
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,7 @@ class ProductPlan:
         return (1.0,) * len(self.route) if in_a_row else _visits(self.start, self.onward)
 
 
-def plan_products(scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]:
+def plan_products(scenario: Scenario, stations: dict[str, int]) -> tuple[ProductPlan, ...]:
     """Products in natural order; ``stations`` maps names to ranks."""
     total = sum(product.share for product in scenario.products.values())
     return tuple(
@@ -157,7 +161,7 @@ class QualityPlan:
     by_worker: bool = False
 
 
-def plan_quality(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[QualityPlan, ...]:
+def plan_quality(scenario: Scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[QualityPlan, ...]:
     """Of the stations where anything can go wrong or is looked at, in natural order; products ``with_detours``."""
     by_hand = _by_worker(scenario)
     found = []
@@ -169,7 +173,7 @@ def plan_quality(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> t
     return tuple(sorted(found, key=lambda one: one.station))
 
 
-def _by_worker(scenario) -> set[str]:
+def _by_worker(scenario: Scenario) -> set[str]:
     """Stations where somebody leaves defects of his own, or whoever works there may, as he tires."""
     if scenario.human.errors is not None:
         manned = {name for name, task in scenario.tasks.items() if task.automatic is not True}
@@ -178,7 +182,7 @@ def _by_worker(scenario) -> set[str]:
     return {name for name, skill in skills if getattr(skill, "quality", 1.0) < 1}
 
 
-def with_detours(scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[ProductPlan, ...]:
+def with_detours(scenario: Scenario, ranks: Ranks, products: tuple[ProductPlan, ...]) -> tuple[ProductPlan, ...]:
     """The products, with a step more for each inspection whose rework is on no way of the product.
 
     It stands behind the last step of the route, no way leads to it but rework, and it leads back to the inspection.

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.layout import Matrix, road_distances_m
 from opsim.plan.tasks import Ranks, TaskPlan, ranked
 from opsim.problems import natural_key
 from opsim.task_model import TaskModel
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 NO_TEAM = -1
 """The repair begins at once: nobody has to come."""
@@ -57,7 +60,7 @@ class RepairTeamPlan:
     n: int
 
 
-def repair_tasks(scenario, model_of: Callable) -> tuple[TaskPlan, ...]:
+def repair_tasks(scenario: Scenario, model_of: Callable) -> tuple[TaskPlan, ...]:
     """Tasks that no station lists and nobody performs: what is done about each stop. ``variability`` leaves them."""
     return tuple(
         TaskPlan(name, _fixed(said) if isinstance(said, float) else model_of(said), 1, True)
@@ -65,7 +68,7 @@ def repair_tasks(scenario, model_of: Callable) -> tuple[TaskPlan, ...]:
     )
 
 
-def repairs_said(scenario) -> dict:
+def repairs_said(scenario: Scenario) -> dict:
     """What a scenario says of how long each stop lasts, by the stop's name: seconds, or a block of a time."""
     return {
         **{name: stop.repair for name, stop in _stops(scenario, "breakdowns")},
@@ -73,7 +76,7 @@ def repairs_said(scenario) -> dict:
     }
 
 
-def plan_breakdowns(scenario, ranks: Ranks, model_of: Callable) -> tuple[BreakdownPlan, ...]:
+def plan_breakdowns(scenario: Scenario, ranks: Ranks, model_of: Callable) -> tuple[BreakdownPlan, ...]:
     """Breakdowns of all stations, in natural order of "station: breakdown"."""
     return tuple(
         BreakdownPlan(name, *_at(name, stop, scenario, ranks), stop.by, _every(stop, model_of), stop.job)
@@ -81,7 +84,7 @@ def plan_breakdowns(scenario, ranks: Ranks, model_of: Callable) -> tuple[Breakdo
     )
 
 
-def plan_maintenance(scenario, ranks: Ranks) -> tuple[MaintenancePlan, ...]:
+def plan_maintenance(scenario: Scenario, ranks: Ranks) -> tuple[MaintenancePlan, ...]:
     """Planned stops of all stations, in natural order of "station: stop"."""
     return tuple(
         MaintenancePlan(
@@ -95,7 +98,7 @@ def plan_maintenance(scenario, ranks: Ranks) -> tuple[MaintenancePlan, ...]:
     )
 
 
-def plan_repair_teams(scenario) -> tuple[RepairTeamPlan, ...]:
+def plan_repair_teams(scenario: Scenario) -> tuple[RepairTeamPlan, ...]:
     """Repair teams in natural order."""
     teams = scenario.repair_teams
     return tuple(RepairTeamPlan(name, teams[name].n) for name in ranked(teams))
@@ -106,7 +109,7 @@ def stop_name(station: str, stop: str) -> str:
     return f"{station}: {stop}"
 
 
-def _stops(scenario, kind: str) -> Iterator[tuple[str, Any]]:
+def _stops(scenario: Scenario, kind: str) -> Iterator[tuple[str, Any]]:
     found = {
         stop_name(name, stop): said
         for name, station in scenario.stations.items()
@@ -115,7 +118,7 @@ def _stops(scenario, kind: str) -> Iterator[tuple[str, Any]]:
     yield from sorted(found.items(), key=lambda item: natural_key(item[0]))
 
 
-def _at(name: str, stop, scenario, ranks: Ranks) -> tuple[int, int, int]:
+def _at(name: str, stop, scenario: Scenario, ranks: Ranks) -> tuple[int, int, int]:
     """(station, task, team) of a stop."""
     station = ranks.stations[name.partition(":")[0]]
     return station, ranks.tasks[name], NO_TEAM if stop.team is None else ranked(scenario.repair_teams)[stop.team]
@@ -169,7 +172,7 @@ class TransporterPlan:
         return self.distance_m[start][end] / self.speed_m_per_s
 
 
-def plan_transporters(scenario, ranks: Ranks, distance_m: Matrix) -> tuple[TransporterPlan, ...]:
+def plan_transporters(scenario: Scenario, ranks: Ranks, distance_m: Matrix) -> tuple[TransporterPlan, ...]:
     """Transporters in natural order; ``distance_m`` are the ways of those without roads of their own."""
     return tuple(
         TransporterPlan(
@@ -188,12 +191,12 @@ def plan_transporters(scenario, ranks: Ranks, distance_m: Matrix) -> tuple[Trans
     )
 
 
-def _leg(before: str, after: str, scenario, ranks: Ranks) -> LegPlan:
+def _leg(before: str, after: str, scenario: Scenario, ranks: Ranks) -> LegPlan:
     place_from, place_to = ranks.places[_place(before, scenario, "end")], ranks.places[_place(after, scenario, "start")]
     return LegPlan(ranks.stations[before], ranks.stations[after], place_from, place_to)
 
 
-def _place(name: str, scenario, end: str) -> str:
+def _place(name: str, scenario: Scenario, end: str) -> str:
     """Where a point stands; of a conveyor the place of one of its ends."""
     if name in scenario.conveyors:
         return getattr(scenario.conveyors[name], end)

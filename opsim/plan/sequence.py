@@ -1,12 +1,18 @@
 """In which order waiting jobs go on, and what the rules look at to find it."""
 
+from __future__ import annotations
+
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from opsim.plan.products import ProductPlan, onward_probabilities
 from opsim.plan.sources import SourcePlan
 from opsim.plan.stations import StationPlan
 from opsim.plan.tasks import Ranks, TaskPlan
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 FIFO = "fifo"
 SHORTEST_QUEUE = "shortest_queue"
@@ -62,7 +68,7 @@ _BLIND_RULES = {FIFO, "edd", "least_setup"}
 _BLIND_ROUTING = {SHORTEST_QUEUE, "first_free", "in_order"}
 
 
-def plan_queues(scenario, ranks: Ranks, has_priorities: bool) -> tuple[QueuePlan, ...]:
+def plan_queues(scenario: Scenario, ranks: Ranks, has_priorities: bool) -> tuple[QueuePlan, ...]:
     """The queues that are not simply first come, first served, in natural order of stations."""
     stations = ((rank, scenario.stations[name]) for name, rank in ranks.stations.items() if name in scenario.stations)
     queues = [QueuePlan(rank, one.dispatch or scenario.flow.dispatch, one.preempt or "") for rank, one in stations]

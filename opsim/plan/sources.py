@@ -10,13 +10,16 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import accumulate
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.clock import on_grid
 from opsim.plan.calendar import OPEN, next_open, open_times
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
 from opsim.task_model import TaskModel
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 ANY = -1
 """The product of an order that does not say one: drawn from the mix of its source."""
@@ -210,7 +213,7 @@ def _seen(ranks: tuple[int, ...]) -> Mix:
     return tuple((rank, counts[rank] / len(ranks)) for rank in sorted(counts))
 
 
-def _ending_in(scenario: Any, store: str) -> str:
+def _ending_in(scenario: Scenario, store: str) -> str:
     """The product that goes into a store."""
     for name, product in scenario.products.items():
         steps = [*(product.route or ()), *(product.routing or ())]

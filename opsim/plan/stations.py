@@ -7,12 +7,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, hypot, inf
+from typing import TYPE_CHECKING
 
 from opsim.clock import on_grid
 from opsim.plan.calendar import OPEN, open_times
 from opsim.plan.lines import buffer_of
 from opsim.plan.tasks import Needs, Ranks, needs_of
 from opsim.problems import natural_key
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +36,7 @@ class ConveyorPlan:
     accumulating: bool
 
 
-def plan_conveyors(scenario, ranks: Ranks) -> tuple[ConveyorPlan, ...]:
+def plan_conveyors(scenario: Scenario, ranks: Ranks) -> tuple[ConveyorPlan, ...]:
     """Conveyors in natural order."""
     return tuple(
         ConveyorPlan(
@@ -92,7 +96,7 @@ class StationPlan:
         return self.servers + self.buffer
 
 
-def plan_stations(scenario, ranks: Ranks) -> tuple[StationPlan, ...]:
+def plan_stations(scenario: Scenario, ranks: Ranks) -> tuple[StationPlan, ...]:
     """All points of the flow in natural order."""
     points = {name: _station(name, station, scenario, ranks) for name, station in scenario.stations.items()}
     points |= {name: _store(name, store, ranks) for name, store in scenario.stores.items()}
@@ -100,7 +104,7 @@ def plan_stations(scenario, ranks: Ranks) -> tuple[StationPlan, ...]:
     return tuple(points[name] for name in sorted(points, key=natural_key))
 
 
-def _station(name: str, station, scenario, ranks: Ranks) -> StationPlan:
+def _station(name: str, station, scenario: Scenario, ranks: Ranks) -> StationPlan:
     buffer = buffer_of(name, inf if station.buffer is None else station.buffer, scenario)
     tasks = tuple(ranks.tasks[task] for task in station.tasks)
     before = (station.blocking or scenario.flow.blocking) == "before"
@@ -121,6 +125,6 @@ def _store(name: str, store, ranks: Ranks) -> StationPlan:
     return StationPlan(name, ranks.places[store.at], 0, capacity, (), STORE)
 
 
-def _conveyor(name: str, belt, scenario, ranks: Ranks) -> StationPlan:
+def _conveyor(name: str, belt, scenario: Scenario, ranks: Ranks) -> StationPlan:
     """A conveyor stands where jobs get on, and has room for those on it."""
     return StationPlan(name, ranks.places[belt.start], belt_capacity(belt, scenario.layout), 0, (), CONVEYOR)

@@ -11,13 +11,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.clock import on_grid
 from opsim.plan.products import ProductPlan
 from opsim.plan.sources import INSIDE, SourcePlan
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Batch, Scenario
 
 Pieces = tuple[tuple[int, int], ...]
 """(product rank, number), in natural order."""
@@ -32,7 +35,7 @@ class StorePlan:
     initial: Pieces
 
 
-def plan_stores(scenario, ranks: Ranks, source_ranks: dict[str, int]) -> tuple[StorePlan, ...]:
+def plan_stores(scenario: Scenario, ranks: Ranks, source_ranks: dict[str, int]) -> tuple[StorePlan, ...]:
     """Stores in natural order."""
     return tuple(
         StorePlan(ranks.stations[name], source_ranks.get(_source_name(name), -1), _initial(name, scenario, ranks))
@@ -40,7 +43,7 @@ def plan_stores(scenario, ranks: Ranks, source_ranks: dict[str, int]) -> tuple[S
     )
 
 
-def stock_sources(scenario, ranks: Ranks) -> list[SourcePlan]:
+def stock_sources(scenario: Scenario, ranks: Ranks) -> list[SourcePlan]:
     """A source for each store where something lies at the start."""
     stocks = {name: _initial(name, scenario, ranks) for name in scenario.stores}
     return [_source(name, stock, sum(n for _, n in stock)) for name, stock in stocks.items() if stock]
@@ -66,7 +69,7 @@ def _source(store: str, stock: Pieces, total: int) -> SourcePlan:
     return SourcePlan(_source_name(store), INSIDE, 0.0, "wait", tuple((rank, n / total) for rank, n in stock))
 
 
-def _initial(name: str, scenario, ranks: Ranks) -> Pieces:
+def _initial(name: str, scenario: Scenario, ranks: Ranks) -> Pieces:
     """What lies in a store at the start; a number alone is of the one product that ends there."""
     from opsim.scenario.schema.stations import ONLY
 
@@ -93,7 +96,7 @@ class SplitPlan:
     sources: tuple[tuple[int, int, int, int], ...]
 
 
-def split_sources(scenario, ranks: Ranks, sources: list[SourcePlan]) -> tuple[list[SourcePlan], Most]:
+def split_sources(scenario: Scenario, ranks: Ranks, sources: list[SourcePlan]) -> tuple[list[SourcePlan], Most]:
     """A source for each product that jobs of a source are split into, and for what these are split into again."""
     products = {rank: scenario.products[name] for name, rank in ranks.products.items()}
     made: dict[str, SourcePlan] = {}
@@ -110,7 +113,7 @@ def split_sources(scenario, ranks: Ranks, sources: list[SourcePlan]) -> tuple[li
     return list(made.values()), most
 
 
-def plan_splits(scenario, ranks: Ranks, source_ranks: dict[str, int], most: Most) -> tuple[SplitPlan, ...]:
+def plan_splits(scenario: Scenario, ranks: Ranks, source_ranks: dict[str, int], most: Most) -> tuple[SplitPlan, ...]:
     """Splits in natural order of products and stations."""
     return tuple(
         SplitPlan(rank, ranks.stations[station], pieces, _sources_of(pieces, source_ranks, most))
@@ -169,7 +172,7 @@ class Assembly:
     batches: tuple[BatchPlan, ...]
 
 
-def plan_assembly(scenario, ranks: Ranks, sources: tuple[SourcePlan, ...]) -> Assembly:
+def plan_assembly(scenario: Scenario, ranks: Ranks, sources: tuple[SourcePlan, ...]) -> Assembly:
     """``sources`` are those that the scenario names: they come first, then the others in natural order."""
     known = [*sources, *stock_sources(scenario, ranks)]
     pieces, most = split_sources(scenario, ranks, known)
@@ -185,7 +188,7 @@ def plan_assembly(scenario, ranks: Ranks, sources: tuple[SourcePlan, ...]) -> As
     )
 
 
-def _kits(scenario, ranks: Ranks) -> tuple[KitPlan, ...]:
+def _kits(scenario: Scenario, ranks: Ranks) -> tuple[KitPlan, ...]:
     return tuple(
         KitPlan(rank, ranks.stations[station], pieces_of(parts, ranks))
         for product, rank in ranks.products.items()
@@ -193,13 +196,12 @@ def _kits(scenario, ranks: Ranks) -> tuple[KitPlan, ...]:
     )
 
 
-def _batches(scenario, ranks: Ranks) -> tuple[BatchPlan, ...]:
-    stations = sorted(scenario.stations, key=natural_key)
-    return tuple(_batch(name, scenario, ranks) for name in stations if scenario.stations[name].batch is not None)
+def _batches(scenario: Scenario, ranks: Ranks) -> tuple[BatchPlan, ...]:
+    found = ((name, scenario.stations[name].batch) for name in sorted(scenario.stations, key=natural_key))
+    return tuple(_batch(name, batch, scenario, ranks) for name, batch in found if batch is not None)
 
 
-def _batch(name: str, scenario, ranks: Ranks) -> BatchPlan:
-    batch = scenario.stations[name].batch
+def _batch(name: str, batch: Batch, scenario: Scenario, ranks: Ranks) -> BatchPlan:
     classes = [_class(batch.of, product, scenario.products[product]) for product in ranks.products]
     number = {one: number for number, one in enumerate(dict.fromkeys(classes))}
     most_wait_s = inf if batch.most_wait_s is None else batch.most_wait_s and on_grid(batch.most_wait_s)
@@ -242,7 +244,7 @@ class CardPlan:
 
 
 def plan_cards(
-    scenario: Any, ranks: Ranks, products: tuple[ProductPlan, ...], sources: tuple[SourcePlan, ...]
+    scenario: Scenario, ranks: Ranks, products: tuple[ProductPlan, ...], sources: tuple[SourcePlan, ...]
 ) -> tuple[CardPlan, ...]:
     """All loops in natural order of names.
 

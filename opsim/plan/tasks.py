@@ -18,15 +18,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.ergonomics.options import Options, Thresholds
 from opsim.problems import natural_key
 from opsim.task_model import TaskModel
 from opsim.tasks.variability import switched
 
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario, Setup
 
-def plan_ergonomics(scenario) -> Options:
+
+def plan_ergonomics(scenario: Scenario) -> Options:
     """The options of a run."""
     said = scenario.ergonomics
     return Options(
@@ -68,7 +71,7 @@ class Ranks:
     products: dict[str, int]
 
 
-def ranks_of(scenario, tasks: Iterable[str]) -> Ranks:
+def ranks_of(scenario: Scenario, tasks: Iterable[str]) -> Ranks:
     """The ranks of a scenario's names; ``tasks`` are those of the Plan, which has some that no scenario names."""
     points = (*scenario.stations, *getattr(scenario, "stores", ()), *getattr(scenario, "conveyors", ()))
     return Ranks(ranked(scenario.layout.places), ranked(tasks), ranked(points), ranked(scenario.products))
@@ -108,18 +111,18 @@ class HoldPlan:
     end: Moment
 
 
-def plan_tools(scenario) -> tuple[ToolPlan, ...]:
+def plan_tools(scenario: Scenario) -> tuple[ToolPlan, ...]:
     """Tools in natural order."""
     return tuple(ToolPlan(name, scenario.tools[name].n) for name in ranked(scenario.tools))
 
 
-def needs_of(block, scenario) -> Needs:
+def needs_of(block, scenario: Scenario) -> Needs:
     """What a station or a task needs."""
     ranks = ranked(scenario.tools) if block.needs else {}
     return tuple(sorted((ranks[name], n) for name, n in block.needs.items()))
 
 
-def hold_of(task, scenario, model) -> HoldPlan | None:
+def hold_of(task, scenario: Scenario, model) -> HoldPlan | None:
     """What a task holds; its marks by the names that its model has for them. Raises ValueError for another name."""
     if task.hold is None:
         return None
@@ -179,7 +182,7 @@ class Handling:
 NOT_SAID = Handling()
 
 
-def handling_of(task, scenario, model) -> Handling:
+def handling_of(task, scenario: Scenario, model) -> Handling:
     """What a scenario says of a task; its marks by the names that the model has for them.
 
     Raises ValueError for another name. Tasks that no scenario names, such as repairs, have NOT_SAID.
@@ -229,7 +232,7 @@ class SetupPlan:
         return self.task[last][here], self.mean_s[last][here]
 
 
-def setup_tasks(scenario) -> dict:
+def setup_tasks(scenario: Scenario) -> dict:
     """Tasks that a scenario does not name: of set-ups that are said as a time."""
     from opsim.scenario.schema import Fixed
 
@@ -242,14 +245,13 @@ def setup_name(time_s: float) -> str:
     return f"setup: {time_s:.10g} s"
 
 
-def plan_setups(scenario, ranks: Ranks, tasks) -> tuple[SetupPlan, ...]:
+def plan_setups(scenario: Scenario, ranks: Ranks, tasks) -> tuple[SetupPlan, ...]:
     """Set-ups of all stations that have some, in natural order; ``tasks`` are those of the Plan."""
-    stations = sorted(scenario.stations, key=natural_key)
-    return tuple(_setup(name, scenario, ranks, tasks) for name in stations if scenario.stations[name].setup is not None)
+    found = ((name, scenario.stations[name].setup) for name in sorted(scenario.stations, key=natural_key))
+    return tuple(_setup(name, setup, scenario, ranks, tasks) for name, setup in found if setup is not None)
 
 
-def _setup(name: str, scenario, ranks: Ranks, tasks) -> SetupPlan:
-    setup = scenario.stations[name].setup
+def _setup(name: str, setup: Setup, scenario: Scenario, ranks: Ranks, tasks) -> SetupPlan:
     class_of = {product: class_name(scenario, setup, product) for product in ranks.products}
     here = [product for product in ranks.products if comes_to(scenario.products[product], name)]
     first = () if setup.first is None else (setup.first,)
@@ -265,7 +267,7 @@ def _setup(name: str, scenario, ranks: Ranks, tasks) -> SetupPlan:
     )
 
 
-def class_name(scenario, setup, product: str) -> str:
+def class_name(scenario: Scenario, setup, product: str) -> str:
     """What a product counts as: itself, or its family where set-ups go by families."""
     family = scenario.products[product].family
     return family if setup.by == "family" and family is not None else product
@@ -327,7 +329,7 @@ class TaskPlan:
         return self.repeat * self.model.mean_duration_s(worker)
 
 
-def plan_tasks(scenario, model_of, beside: Iterable[TaskPlan] = ()) -> tuple[TaskPlan, ...]:
+def plan_tasks(scenario: Scenario, model_of, beside: Iterable[TaskPlan] = ()) -> tuple[TaskPlan, ...]:
     """Tasks in natural order; ``model_of(task)`` finds a task's model, which the run's variability may switch.
 
     beside : tasks that are planned elsewhere, and are not switched
@@ -337,7 +339,7 @@ def plan_tasks(scenario, model_of, beside: Iterable[TaskPlan] = ()) -> tuple[Tas
     return tuple(sorted([*tasks, *beside], key=lambda task: natural_key(task.name)))
 
 
-def _task(name: str, task, scenario, model: TaskModel) -> TaskPlan:
+def _task(name: str, task, scenario: Scenario, model: TaskModel) -> TaskPlan:
     return TaskPlan(
         name,
         switched(model, scenario.run.variability),

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.engine.rules import in_turn
 from opsim.layout import given_out, turns_away
@@ -20,6 +20,9 @@ from opsim.plan.lines import kept_from
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
 from opsim.task_model import BODY_KEYS
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +72,7 @@ class WorkerPlan:
     quality: tuple[float, ...] = ()
 
 
-def plan_workers(scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
+def plan_workers(scenario: Scenario, ranks: Ranks) -> tuple[WorkerPlan, ...]:
     """Workers in natural order. Who has no ``home`` starts at the first of his stations in natural order."""
     duties = plan_duties(scenario, ranks)
     return tuple(
@@ -114,7 +117,7 @@ def _qualities(worker, ranks: dict[str, int]) -> tuple[float, ...]:
     return tuple(qualities) if min(qualities) < 1 else ()
 
 
-def start_place(worker, scenario) -> str:
+def start_place(worker, scenario: Scenario) -> str:
     """The name of the place where a worker stands at the start."""
     if worker.home is not None:
         return worker.home
@@ -157,7 +160,7 @@ NO_EFFECTS = HumanPlan()
 EFFECTS = ("learning", "forgetting", "fatigue", "state_pace", "circadian", "rest", "errors")
 
 
-def plan_human(scenario, ranks: Ranks) -> HumanPlan:
+def plan_human(scenario: Scenario, ranks: Ranks) -> HumanPlan:
     """The effects that a scenario names, each made by ``opsim.human``; NO_EFFECTS where it names none."""
     said = scenario.human
     named = {effect: getattr(said, effect) for effect in EFFECTS if getattr(said, effect) is not None}
@@ -177,7 +180,7 @@ def parameters(block: Any) -> dict[str, Any]:
     return {name: getattr(block, name) for name in type(block).model_fields if name != "model"}
 
 
-def _experience(scenario, ranks: Ranks) -> tuple[tuple[float, ...], ...]:
+def _experience(scenario: Scenario, ranks: Ranks) -> tuple[tuple[float, ...], ...]:
     """(workers, tasks), both in natural order; nothing where nobody has any."""
     workers = [worker for _, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))]
     if not any(worker.experience for worker in workers):
@@ -258,7 +261,7 @@ def _able(worker: WorkerPlan, post: Sequence[int]) -> bool:
     return not post or any(worker.rating[station] > 0 for station in post)
 
 
-def plan_rotations(scenario, ranks) -> tuple[RotationPlan, ...]:
+def plan_rotations(scenario: Scenario, ranks) -> tuple[RotationPlan, ...]:
     """All rotations in natural order of names."""
     numbers = {name: rank for rank, name in enumerate(sorted(scenario.workers, key=natural_key))}
     return tuple(

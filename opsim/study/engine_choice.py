@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.engine.choice import (
     AUTO,
@@ -31,12 +31,17 @@ from opsim.scenario.templates import without_likes
 from opsim.scenario.tree import Node, child, problem
 from opsim.study.replication import Timed, timed
 
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
+
 Chosen = Callable[[Choice], Told | None]
 """Is told which engine is used; what it gives back, if anything, is told how far the compiling is."""
 HINT = "--engine simpy runs it, and --engine auto finds that out by itself"
 
 
-def engine_of(asked: str | Choice, loaded: Any, plan: Plan, runs: int = 1, *, processes: int | None = None) -> Choice:
+def engine_of(
+    asked: str | Choice, loaded: Loaded, plan: Plan, runs: int = 1, *, processes: int | None = None
+) -> Choice:
     """The engine of one variant; a Choice stays what it is. Raises ScenarioError, ValueError for an unknown word."""
     if isinstance(asked, Choice):
         return asked
@@ -87,7 +92,7 @@ def problems_of(error: NotFast, tree: Node | None, file: Path, hint: str = HINT)
     return [one for refusal in error.refusals for one in _problems(refusal, tree, file, hint)]
 
 
-def tree_of(loaded: Any) -> Node | None:
+def tree_of(loaded: Loaded) -> Node | None:
     """What stands in the file of a variant, ``like`` filled in; None where the file is not there or is another now."""
     from opsim.scenario.read import variant_trees
 

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim import __version__
 from opsim.engine.choice import REFERENCE, SIMPY, Choice
@@ -32,6 +32,9 @@ from opsim.study.resolved_scenario import (
     resolved_text,
     with_run,
 )
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 
 class Busy(ValueError):
@@ -65,7 +68,7 @@ ENGINE = "engine"
 _NAMES_ONLY = ("scenario", "variant", "file", ENGINE)
 
 
-def manifest_of(loaded, seed: int) -> dict[str, Any]:
+def manifest_of(loaded: Loaded, seed: int) -> dict[str, Any]:
     """Everything that decides the bytes of the events files, and the versions that made them."""
     return {
         "opsim": __version__,
@@ -95,14 +98,14 @@ def digest(manifest: dict[str, Any]) -> str:
     return _hash(deciding(manifest))[:16]
 
 
-def library_files(loaded) -> dict[str, Path]:
+def library_files(loaded: Loaded) -> dict[str, Path]:
     """The file of each library, by the name tasks use."""
     from opsim.libraries import resolve_library
 
     return {name: resolve_library(file, loaded.folder) for name, file in loaded.scenario.libraries.items()}
 
 
-def recorded_files(loaded) -> dict[str, Path]:
+def recorded_files(loaded: Loaded) -> dict[str, Path]:
     """The files of recorded times, orders and sequences, by the name that stands in the scenario."""
     from opsim.csv_input import resolve_times
 
@@ -122,7 +125,7 @@ def _recorded(block: Any) -> Iterator[str]:
             yield from _recorded(value)
 
 
-def plugins_used(loaded) -> dict[str, str]:
+def plugins_used(loaded: Loaded) -> dict[str, str]:
     """The distribution and version behind each plug-in that the scenario uses, by the plug-in's name."""
     from opsim.plugins import plugins
     from opsim.plugins.registry import RULES
@@ -149,7 +152,7 @@ FINISHED = "finished.json"
 RESULTS = ("summary.json", "kpis.parquet")
 
 
-def finished(folder: Path, loaded, manifest: dict[str, Any], asks: dict[str, Any]) -> bool:
+def finished(folder: Path, loaded: Loaded, manifest: dict[str, Any], asks: dict[str, Any]) -> bool:
     """Whether the folder holds the whole results of this run.
 
     asks : what the run was given beside its scenario file
@@ -162,13 +165,15 @@ def finished(folder: Path, loaded, manifest: dict[str, Any], asks: dict[str, Any
         return False
 
 
-def say_finished(folder: Path, loaded, manifest: dict[str, Any], asks: dict[str, Any], replications: int) -> None:
+def say_finished(
+    folder: Path, loaded: Loaded, manifest: dict[str, Any], asks: dict[str, Any], replications: int
+) -> None:
     """Write of what run the results are; last of all, so that where it is there, the others are. Raises OSError."""
     events = [path.name for path in events_in(folder)[:replications]]
     write_json(folder / FINISHED, _says(folder, loaded, manifest, asks, events))
 
 
-def _says(folder: Path, loaded, manifest: dict[str, Any], asks: dict[str, Any], events: Any) -> dict[str, Any]:
+def _says(folder: Path, loaded: Loaded, manifest: dict[str, Any], asks: dict[str, Any], events: Any) -> dict[str, Any]:
     made_from = [manifest, {key: block for key, block in loaded.resolved.items() if key != STUDIES}]
     return {
         "run": _sha256_of(json.dumps([*made_from, sorted(loaded.given), asks]).encode()),
@@ -191,7 +196,9 @@ class OtherRun(ValueError):
     """The folder holds finished work of another run, which is not deleted unasked."""
 
 
-def open_folder(folder: Path, loaded, seed: int, replications: int, *, overwrite: bool = False) -> dict[str, Any]:
+def open_folder(
+    folder: Path, loaded: Loaded, seed: int, replications: int, *, overwrite: bool = False
+) -> dict[str, Any]:
     """Make a folder ready for a run and return the run's manifest.
 
     Finished replications of the same rows stay. overwrite : what the folder holds is removed first.
@@ -217,7 +224,7 @@ def clear_results(folder: Path) -> None:
     _remove(folder, RESULT_FILES)
 
 
-def say_replications(folder: Path, loaded, seed: int, replications: int) -> None:
+def say_replications(folder: Path, loaded: Loaded, seed: int, replications: int) -> None:
     """Write the resolved scenario, with the seed and the number of replications that are used."""
     write_text(folder / RESOLVED, resolved_text(with_run(loaded.resolved, seed, replications)))
 
@@ -238,7 +245,7 @@ def engine_said(folder: Path) -> dict[str, Any]:
     return held if isinstance(held, dict) else {"asked": SIMPY, "used": SIMPY, "why": REFERENCE.why}
 
 
-def other_run(folder: Path, loaded, seed: int) -> str | None:
+def other_run(folder: Path, loaded: Loaded, seed: int) -> str | None:
     """What the folder holds and in what it differs from this run, in words; None where the run may go on there."""
     n = len(events_in(folder))
     if not n and not any((folder / name).exists() for name in RESULT_FILES):
@@ -274,7 +281,7 @@ def _differences(folder: Path, held: dict[str, Any], manifest: dict[str, Any], r
     return words
 
 
-def _copy_inputs(folder: Path, loaded) -> None:
+def _copy_inputs(folder: Path, loaded: Loaded) -> None:
     """A user's own libraries and recorded times go along, so that the resolved scenario runs from the folder."""
     from opsim.shipped import shipped_folder
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.engine.choice import SIMPY, Choice
 from opsim.kpi.catalogue import read_asked
@@ -22,6 +22,9 @@ from opsim.study.engine_choice import Chosen, compiled_for, engine_of
 from opsim.study.intervals import FEWEST, MOST, Precision, replicate_until
 from opsim.study.replication import Once, Progress, Replicated, missing, replicate, together
 from opsim.study.results_folder import MANIFEST, RESOLVED, digest, manifest_of, say_engine
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 NEEDED = {"libraries": "the library", "recorded": "the file"}
 """What a manifest holds the hashes of, in words."""
@@ -56,7 +59,7 @@ class Reopened:
         return read_events(files[replication], digest(self.manifest))
 
 
-def opened(result: Result, loaded: Any) -> Reopened:
+def opened(result: Result, loaded: Loaded) -> Reopened:
     """A run that has just ended, as it was read. Raises OSError or ValueError where its manifest cannot be read."""
     return Reopened(result, loaded, _manifest(result.folder))
 
@@ -97,7 +100,7 @@ class EngineOfRun:
     """Ready for replications 0 .. n-1 of a folder: written down, told of and compiled, where any is to be made."""
 
     def __init__(
-        self, choice: Choice, loaded: Any, plan: Plan, folder: Path, processes: int | None, chosen: Chosen | None
+        self, choice: Choice, loaded: Loaded, plan: Plan, folder: Path, processes: int | None, chosen: Chosen | None
     ):
         """chosen : is told the engine before anything is run"""
         self._choice, self._loaded, self._plan, self._folder = choice, loaded, plan, folder
@@ -123,7 +126,7 @@ class EngineOfRun:
 
 
 def run_scenario(
-    loaded,
+    loaded: Loaded,
     *,
     folder: Path,
     processes: int | None = None,
@@ -196,7 +199,7 @@ def run_scenario(
     return Result.load(folder)
 
 
-def _outputs(loaded, precision: Sequence[Precision]) -> tuple[str, ...]:
+def _outputs(loaded: Loaded, precision: Sequence[Precision]) -> tuple[str, ...]:
     """Figures that are asked for anywhere."""
     frontier = (read_asked(text).kpi for text in loaded.scenario.frontier or ())
     return (*loaded.scenario.outputs, *(one.kpi for one in precision), *frontier)

@@ -1,8 +1,11 @@
 """Replications -> the table of intervals, histograms, tasks and assumptions that report and tables show."""
 
+from __future__ import annotations
+
 from array import array
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,13 +30,20 @@ from opsim.study.assumptions.sheet import (
 from opsim.study.intervals import CONFIDENCE, Reached, t_interval
 from opsim.study.replication import Replicated
 
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
+
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40
 KEY = ("kpi", "subject", "part", "unit")
 
 
 def summary_of(
-    loaded, plan: Plan, done: Sequence[Replicated], asked: Asked = NOTHING_ASKED, reached: Sequence[Reached] = ()
+    loaded: Loaded,
+    plan: Plan,
+    done: Sequence[Replicated],
+    asked: Asked = NOTHING_ASKED,
+    reached: Sequence[Reached] = (),
 ) -> dict:
     """The content of ``summary.json``; ``scheduled_h`` (hours of the window) only where the floor keeps hours.
 
@@ -65,7 +75,7 @@ def summary_of(
     }
 
 
-def _assumptions(loaded, plan: Plan, done: Sequence[Replicated], asked: Asked) -> list[Assumption]:
+def _assumptions(loaded: Loaded, plan: Plan, done: Sequence[Replicated], asked: Asked) -> list[Assumption]:
     measured = done and needs_postures(figure.kpi for figure in done[0].figures)
     return [*assumptions_of(loaded, plan, asked), *(posture_assumptions(plan) if measured else ())]
 

@@ -15,12 +15,15 @@ from functools import cached_property
 from html import escape
 from itertools import combinations
 from math import floor, log10
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.layout import Ways, ways
 from opsim.report.plot.floor_plan_lines import OTHER, STATION, STORE, Spot, belts_of, roads_of, spots_of
 from opsim.report.plot.plotly import INK, MUTED
 from opsim.report.plot.svg_chart import Box, places, shared, shortened
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 Point = tuple[float, float]
 Stretch = tuple[Point, Point]
@@ -147,13 +150,13 @@ class FloorMap:
         return [_box(*place, len(shortened(spot.name))) for place, spot in zip(self.label_places, self.signed)]
 
 
-def names_of(of: FloorMap, plan: Any, layout: Any) -> list[str]:
+def names_of(of: FloorMap, plan: Plan, layout: Any) -> list[str]:
     """What each place of a plan is called in words: by what stands there, as in the picture."""
     named = {spot.at: spot.name for spot in of.spots}
     return [shortened(named[tuple(layout.places[place])] or place) for place in plan.places]
 
 
-def floor_map(plan: Any, layout: Any, room: float = WIDE) -> FloorMap | None:
+def floor_map(plan: Plan, layout: Any, room: float = WIDE) -> FloorMap | None:
     """The floor of a plan; None where all of it is one point, so that there is nothing to draw."""
     if len({tuple(at) for at in layout.places.values()}) < 2:
         return None

@@ -9,9 +9,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot, inf
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 Point = tuple[float, float]
 BESIDE = (0.0, 7.0, -7.0, 13.0, -13.0)
@@ -118,7 +121,7 @@ class Spot:
         return ", ".join(self.names)
 
 
-def spots_of(plan: Any, layout: Any) -> tuple[Spot, ...]:
+def spots_of(plan: Plan, layout: Any) -> tuple[Spot, ...]:
     """One for each point, in the natural order of its places; what is only passed on a path has no name."""
     standing = _standing(plan)
     passed = {name for step in layout.path_steps for name in (step.start, step.end)}
@@ -136,13 +139,13 @@ def roads_of(layout: Any) -> tuple[Stretch, ...]:
     return tuple(dict.fromkeys((tuple(a), tuple(b)) for a, b in ends))
 
 
-def belts_of(plan: Any, layout: Any) -> tuple[Stretch, ...]:
+def belts_of(plan: Plan, layout: Any) -> tuple[Stretch, ...]:
     """From where jobs get on to where they get off."""
     ends = [(plan.stations[belt.station].place, belt.place_to) for belt in plan.conveyors]
     return tuple((tuple(layout.places[plan.places[a]]), tuple(layout.places[plan.places[b]])) for a, b in ends)
 
 
-def _standing(plan: Any) -> dict[str, list[tuple[str, str]]]:
+def _standing(plan: Plan) -> dict[str, list[tuple[str, str]]]:
     """(name, kind) of the stations and stores at each place that has some."""
     found: dict[str, list[tuple[str, str]]] = {}
     for station in plan.stations:
@@ -151,9 +154,10 @@ def _standing(plan: Any) -> dict[str, list[tuple[str, str]]]:
     return found
 
 
-def _homes(plan: Any) -> set[str]:
+def _homes(plan: Plan) -> set[str]:
     """Where people and vehicles begin."""
-    return {plan.places[one.place] for one in (*plan.workers, *plan.transporters)}
+    places = (*(worker.place for worker in plan.workers), *(vehicle.place for vehicle in plan.transporters))
+    return {plan.places[place] for place in places}
 
 
 def _names(here: list[tuple[str, str]]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from html import escape
 from itertools import combinations
 from math import hypot, isfinite, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.plan.model_warnings import has_body
 from opsim.report.material import Material
@@ -20,6 +20,9 @@ from opsim.report.plot.floor_plan import FOOT, FloorMap, around, floor_map, pict
 from opsim.report.plot.plotly import INK, MUTED
 from opsim.report.plot.svg_chart import Box, shared, shortened
 from opsim.report.sections.exposure_summary import FIVE, NOWHERE, PERHAPS, SEVEN, Bar, bars_by
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 LEAST_PX, MOST_PX, UNKNOWN_PX, FOOT_PX = 12.0, 34.0, 9.0, 20.0
 """Radius of the largest circle, by how near stations are to each other; of a sign for what is not known; of the largest
@@ -39,7 +42,7 @@ class Circle:
     open_tasks: tuple[str, ...] = ()
 
 
-def circles_of(bars: dict[str, Bar], plan: Any, layout: Any, on: FloorMap) -> list[Circle]:
+def circles_of(bars: dict[str, Bar], plan: Plan, layout: Any, on: FloorMap) -> list[Circle]:
     """One for each station at which people work; those at one place stand beside each other."""
     most = max(bar.most for name, bar in bars.items() if name != NOWHERE)
     largest = _largest(on)

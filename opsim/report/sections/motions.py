@@ -25,6 +25,7 @@ from opsim.report.plot.svg_canvas import figure_of
 from opsim.task_model import behind
 
 if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
     from opsim.task_model import TaskModel
 
 SAMPLES = 2
@@ -79,12 +80,13 @@ def _strip(material: Material, key: tuple[str, str], task: Task) -> bytes:
     return material.pictures[key]
 
 
-def _drawn(loaded: Any, task: Task) -> bytes:
+def _drawn(loaded: Loaded, task: Task) -> bytes:
     from opsim.libraries import load_library, resolve_library
+    from opsim.scenario.schema import Motions
     from opsim.tasks.from_scenario import motions_model
 
     said = loaded.scenario.tasks[task["task"]]
-    if hasattr(said, "motions"):
+    if isinstance(said, Motions):
         return draw_strips(motions_model(said, loaded), n_samples=SAMPLES, n_figures=MANY)
     model = load_library(resolve_library(task["library"], loaded.folder))[task["library_task"]]
     return draw_strips(model, n_samples=SAMPLES)

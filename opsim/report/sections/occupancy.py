@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, hypot
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,9 @@ from opsim.report.numbers import listing
 from opsim.report.page import Grid, Section, Svg, Words
 from opsim.report.plot.floor_plan import FloorMap, FloorWays, floor_map, names_of, picture
 from opsim.report.sections.common import Presence, presence, with_closed
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 Point = tuple[float, float]
 
@@ -103,7 +106,7 @@ def occupancy_section(material: Material) -> Section | None:
     return Section("presence", "Where people spend their time", [Words(said), drawn, _table(there, names)], "Presence")
 
 
-def density_of(there: Presence, plan: Any, ways: FloorWays, on: FloorMap) -> tuple[np.ndarray, HeatGrid]:
+def density_of(there: Presence, plan: Plan, ways: FloorWays, on: FloorMap) -> tuple[np.ndarray, HeatGrid]:
     """(rows, columns) minutes an hour on each square metre, and the grid they are of.
 
     The mean over the floor, times its area, is all the time that people were on the floor.
@@ -167,7 +170,7 @@ def _share(seconds: float, there: Presence) -> str:
     return "less than 1 %" if 0 < share < 0.95 else f"{share:.0f} %"
 
 
-def _caption(on: FloorMap, distance: str, plan: Any) -> str:
+def _caption(on: FloorMap, distance: str, plan: Plan) -> str:
     key = f" Places: {on.key}." if on.numbered else ""
     first = ", first along x" if distance == "rectilinear" else ""
     hours = " Hours are those in which the floor is open or somebody is on duty." if with_closed(plan) else ""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from html import escape
 from itertools import pairwise
 from math import hypot
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from opsim.report.plot.plotly import ACCENT, INK, MUTED
 from opsim.report.plot.svg_chart import Box, shared
 from opsim.report.sections.common import Pair, WalkedWays, walked_ways, with_closed
 from opsim.report.sections.walking import walk_sentences
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 Point = tuple[float, float]
 THICKEST, THINNEST, FEW = 13.0, 1.2, 6.0
@@ -241,7 +244,7 @@ def _caption(lines: int, on: FloorMap, distance: str, hours: str) -> str:
     )
 
 
-def _table(walked: WalkedWays, plan: Any, names: Sequence[str]) -> Grid:
+def _table(walked: WalkedWays, plan: Plan, names: Sequence[str]) -> Grid:
     pairs = walked.by_pair()
     rows = [
         (
@@ -258,7 +261,7 @@ def _table(walked: WalkedWays, plan: Any, names: Sequence[str]) -> Grid:
     return Grid(("Between", "Mostly by", "trips an hour", "m each", "m an hour"), rows, title, words=2, folded=True)
 
 
-def _by_whom(walked: WalkedWays, a: int, b: int, plan: Any) -> str:
+def _by_whom(walked: WalkedWays, a: int, b: int, plan: Plan) -> str:
     """The one who goes most there, and how much of it is his."""
     rank, share = next(walked.shares(a, b))
     return plan.workers[rank].name + ("" if share > 0.995 else f" ({100 * share:.0f} %)")

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import expm1, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +29,9 @@ from opsim.study.intervals import CONFIDENCE, Interval, paired, t_interval
 from opsim.study.labour.budget import BETWEEN, LEFT, WITHIN, FigureBudget
 from opsim.study.results_folder import RESOLVED
 from opsim.task_model import log_variance, within_cv
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 ROW, MOST_DRAWN = 36, 12
 COLOURS = {BETWEEN: ACCENT, WITHIN: "#E69F00"}
@@ -76,7 +79,7 @@ def time_spread_section(material: Material) -> Section | None:
     return Section("spread", "Why times differ", blocks, "Spread")
 
 
-def spreads(plan: Any, variability: str) -> list[Spread]:
+def spreads(plan: Plan, variability: str) -> list[Spread]:
     """Of tasks that people do whose model says it, those that vary most first, with what the run switches off."""
     left = LEFT[variability]
     found: list[Spread] = []

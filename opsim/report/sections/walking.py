@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from opsim.report.plot.body import LEFT, RIGHT, TRUNK, draw_person
 from opsim.report.plot.svg_canvas import SvgFigure
 from opsim.report.sections.common import WalkedWays, with_closed
 from opsim.report.sections.motions import LIMBS, origin_of
+
+if TYPE_CHECKING:
+    from opsim.plan import Plan
 
 PALE = "#6b737d"
 WIDE_IN, FEWEST_M = 12.0, 3.0
@@ -312,7 +315,7 @@ def words(walk: FootWalk) -> str:
     )
 
 
-def usual_walks(plan: Any, log: Any) -> tuple[list[FootWalk], int]:
+def usual_walks(plan: Plan, log: Any) -> tuple[list[FootWalk], int]:
     """A walk of each worker over his most usual way in the first replication; how many more workers walk."""
     from opsim.history import walks_of
 
@@ -324,10 +327,11 @@ def usual_walks(plan: Any, log: Any) -> tuple[list[FootWalk], int]:
     return [_walk(plan, log, walks, row) for row in chosen if row is not None], max(0, len(walkers) - MOST)
 
 
-def _usual(walks: Any, rows: np.ndarray, plan: Any) -> int | None:
+def _usual(walks: Any, rows: np.ndarray, plan: Plan) -> int | None:
     """The first walk over the way that some walks take most often (back or forth), of those that can be drawn."""
     from opsim.ergonomics.walking import drawable
 
+    assert plan.walking is not None  # there are walks to draw
     rows = rows[drawable(plan.walking.model, walks.distance_m[rows])]
     if not rows.size:
         return None
@@ -335,7 +339,7 @@ def _usual(walks: Any, rows: np.ndarray, plan: Any) -> int | None:
     return int(rows[first[np.argmax(counts)]])
 
 
-def _walk(plan: Any, log: Any, walks: Any, row: int) -> FootWalk:
+def _walk(plan: Plan, log: Any, walks: Any, row: int) -> FootWalk:
     """One of the walks, drawn again by its number."""
     from opsim.ergonomics.walking import walk_again
 
@@ -357,7 +361,7 @@ def _walk(plan: Any, log: Any, walks: Any, row: int) -> FootWalk:
 Row = Mapping[str, Any]
 
 
-def walk_sentences(walked: WalkedWays, plan: Any, names: Sequence[str], rows: Sequence[Row]) -> Iterator[str]:
+def walk_sentences(walked: WalkedWays, plan: Plan, names: Sequence[str], rows: Sequence[Row]) -> Iterator[str]:
     """rows : ``walked_m`` of the summary, a worker each, over all replications; walked : of the first; names : of
     places"""
     an_hour = f"an hour{with_closed(plan)}"

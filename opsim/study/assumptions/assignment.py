@@ -8,12 +8,16 @@ What the sheet says of crews.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from opsim.plan import Plan
 from opsim.plan.compile import LEAST_EXPOSED
 from opsim.plan.lines import BUCKET_BRIGADE
 from opsim.plan.workers import IN_TURN, RotationPlan
 from opsim.problems import listed
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 Line = tuple[str, str]
 
@@ -122,7 +126,7 @@ _HOW_CREWS_SHARE = {
 }
 
 
-def crews(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+def crews(loaded: Loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     """(topic, what is assumed) of each crew."""
     for crew in plan.crews:
         names = [plan.workers[worker].name for worker in crew.workers]

@@ -6,6 +6,7 @@ What figures of lifting, holding still, energy and rest take as given.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from opsim.ergonomics.anthropometry import HEIGHT_M, MASS_KG
 from opsim.ergonomics.options import NOT_SEEN, RULES, Options, Thresholds
@@ -29,10 +30,13 @@ from opsim.plan.model_warnings import has_body, lacking
 from opsim.plan.tasks import END, START, Handling, TaskPlan, leaves_open, unsaid
 from opsim.problems import listed
 
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
+
 Lines = Iterator[tuple[str, str]]
 
 
-def ergonomics(loaded, plan: Plan) -> Lines:
+def ergonomics(loaded: Loaded, plan: Plan) -> Lines:
     """(topic, what is assumed), where figures of scores are asked for, or somebody is sent by exposure."""
     if not plan.posture:
         yield "postures", "posture: off: nobody looks at postures, and there is no figure of them; times are as ever"
@@ -131,7 +135,7 @@ def _unsaid(tasks: list[TaskPlan]) -> Lines:
         yield "not said", f"{listed(names)}: {key.replace('_', ' ')}: {leaves_open(key)}"
 
 
-def strain(loaded, plan: Plan) -> Lines:
+def strain(loaded: Loaded, plan: Plan) -> Lines:
     """(topic, what is assumed), for those of these figures that are asked for."""
     if not plan.posture:
         return

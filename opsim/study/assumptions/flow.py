@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf
+from typing import TYPE_CHECKING
 
 from opsim.plan import LinePlan, Plan
 from opsim.plan.resources import BUSY, CLOCK, CYCLES, NO_TEAM
@@ -23,6 +24,9 @@ from opsim.plan.stations import STATION, STORE
 from opsim.problems import listed
 from opsim.study.assumptions.assignment import assignment, crews, qualities
 from opsim.study.assumptions.people import Line
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 _HOW = {POISSON: "at random (Poisson)", RENEWAL: "with gaps of their own distribution (renewal)"}
 
@@ -279,7 +283,7 @@ _IDLE = {
 }
 
 
-def flow(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+def flow(loaded: Loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     """(topic, what is assumed), most weighty first."""
     yield from _transport(plan)
     yield from station_model(plan)

@@ -6,7 +6,7 @@ How workers walk, where a scenario says it: what is assumed, and the recordings 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.ergonomics.anthropometry import HEIGHT_M, MASS_KG
 from opsim.human.catalogue import Entry, as_written, entry, name_written
@@ -16,6 +16,9 @@ from opsim.plan.model_warnings import shifted_by, unmoved
 from opsim.plan.workers import EFFECTS
 from opsim.problems import listed
 from opsim.task_model import behind, fit_report, keys_read
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 Lines = Iterator[tuple[str, str]]
 TOPIC = "human effects"
@@ -36,7 +39,7 @@ RESTS = (
 )
 
 
-def human(loaded, plan: Plan) -> Lines:
+def human(loaded: Loaded, plan: Plan) -> Lines:
     """(topic, what is assumed) of every effect that is on; nothing where none is."""
     said = loaded.scenario.human
     for effect in EFFECTS:
@@ -155,11 +158,12 @@ def _walking_bodies(plan: Plan, model: Any) -> Iterator[tuple[str, str]]:
         )
 
 
-def walking_source(loaded: Any, plan: Plan) -> dict[str, Any] | None:
+def walking_source(loaded: Loaded, plan: Plan) -> dict[str, Any] | None:
     """What stands behind the walks, as ``task_sources`` says it of a task; None where walking is time alone."""
-    if plan.walking is None:
+    said = loaded.scenario.walking
+    if plan.walking is None or said is None:
         return None
-    report, said = fit_report(plan.walking.model), loaded.scenario.walking
+    report = fit_report(plan.walking.model)
     return {
         "model": f"emulator {plan.walking.name}",
         "library": loaded.scenario.libraries[said.library],

@@ -6,6 +6,7 @@ What the assumption sheet says of workers: who they are, what is known of their 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from opsim.kpi.window import open_hours
 from opsim.plan import Plan
@@ -19,6 +20,9 @@ from opsim.streams import stream
 from opsim.study.assumptions.assignment import rotations
 from opsim.task_model import keys_read
 from opsim.worker_effects import worker_effect
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 _BROKEN_OFF = {
     "finish": "who has to go finishes the task under way first",
@@ -147,7 +151,7 @@ _ACROSS = {
 }
 
 
-def people(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+def people(loaded: Loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     """Lines of (topic, what is assumed)."""
     if not plan.workers:
         yield "workers", "none: every task is automatic"
@@ -271,7 +275,7 @@ def _recorded(plan: Plan) -> Iterator[tuple[str, str]]:
         )
 
 
-def _standing(loaded, plan: Plan) -> Iterator[tuple[str, str]]:
+def _standing(loaded: Loaded, plan: Plan) -> Iterator[tuple[str, str]]:
     workers = loaded.scenario.workers
     walkers = [worker.name for worker in plan.workers if _walks(plan, worker)]
     default_walk = [name for name in walkers if f"workers.{name}.walk" not in loaded.given]

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from opsim.ergonomics.trunk import has_trunk
 from opsim.ergonomics.walking import LOOKED_AT
@@ -23,6 +24,7 @@ from opsim.plan.model_warnings import unread
 from opsim.plan.resources import repairs_said
 from opsim.plan.tasks import setup_tasks
 from opsim.problems import listed
+from opsim.scenario.schema import Emulated, Motions
 from opsim.streams import stream
 from opsim.study.assumptions.ergonomics import ergonomics, strain
 from opsim.study.assumptions.flow import flow
@@ -31,6 +33,9 @@ from opsim.study.assumptions.people import asked_for_pace, people
 from opsim.study.replication import Replicated
 from opsim.task_model import behind, fit_report
 from opsim.tasks.from_scenario import emulators_of
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +52,7 @@ Assumption = tuple[str, str]
 """(topic, what is assumed)"""
 
 
-def assumptions_of(loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
+def assumptions_of(loaded: Loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
     lines = [line for part in PARTS for line in part(loaded, plan)]
     return [*lines, *_run(loaded, asked)]
@@ -62,7 +67,7 @@ _SWITCHED = {
 }
 
 
-def _switched(loaded, plan: Plan) -> Iterator[Assumption]:
+def _switched(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     variability = loaded.scenario.run.variability
     if variability != "full":
         paced = variability in ("within_only", "none") and asked_for_pace(plan)
@@ -70,23 +75,25 @@ def _switched(loaded, plan: Plan) -> Iterator[Assumption]:
         yield "variability", f"{variability}: {_SWITCHED[variability]}{pace}; arrivals and ways are drawn as ever"
 
 
-def _times(loaded, plan: Plan) -> Iterator[Assumption]:
+def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     tasks = loaded.scenario.tasks
     named = [task for task in plan.tasks if task.name in tasks]
     made_up = [task.name for task in named if hasattr(tasks[task.name], "dist") or hasattr(tasks[task.name], "fixed_s")]
     if made_up:
         yield "task times", f"{listed(made_up)}: from the scenario, not from recordings; no posture is known for them"
     for task in named:
-        if hasattr(tasks[task.name], "emulator"):
+        said = tasks[task.name]
+        if isinstance(said, Emulated):
             report = fit_report(task.model)
             yield (
                 "task times",
-                f"{task.name}: people here move and take their time as in {tasks[task.name].emulator} "
+                f"{task.name}: people here move and take their time as in {said.emulator} "
                 f"({behind(report.source, report.n_sequences, report.n_workers)})",
             )
     for task in named:
-        if hasattr(tasks[task.name], "motions"):
-            report, emulators = fit_report(task.model), listed(emulators_of(tasks[task.name], loaded))
+        said = tasks[task.name]
+        if isinstance(said, Motions):
+            report, emulators = fit_report(task.model), listed(emulators_of(said, loaded))
             yield (
                 "task times",
                 f"{task.name}: its motions follow one another without a pause, each a draw of its own, as in "
@@ -104,12 +111,12 @@ def _times(loaded, plan: Plan) -> Iterator[Assumption]:
         yield "loads", f"{listed(loads)}: the load is kept with the task; it does not change pace or posture"
 
 
-def _window(loaded, plan: Plan) -> Iterator[Assumption]:
+def _window(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     if plan.warm_up_s == 0:
         yield "window", "no warm-up: figures include the time in which the empty floor fills"
 
 
-def _run(loaded, asked: Asked) -> Iterator[Assumption]:
+def _run(loaded: Loaded, asked: Asked) -> Iterator[Assumption]:
     """Where the seed and the number of replications come from, where the file does not say them."""
     run = loaded.scenario.run
     if asked.why:
@@ -164,7 +171,7 @@ _MORE = "More of what they wait for helps: room ('buffer: unlimited'), tools, ca
 _REMEDY = "More room, 'buffer: unlimited' or 'when_blocked: free' helps"
 
 
-def task_sources(loaded, plan: Plan) -> list[dict]:
+def task_sources(loaded: Loaded, plan: Plan) -> list[dict]:
     """A row a task, in natural order: its model in words, and for an emulated one the recordings behind it."""
     unnamed = {**setup_tasks(loaded.scenario), **repairs_said(loaded.scenario)}
     return [
@@ -185,7 +192,7 @@ def _unnamed(plan: Plan, rank: int, said) -> dict:
     return row | {"model": f"fixed, {said:g} s" if isinstance(said, float) else said.words}
 
 
-def _source(loaded, plan: Plan, name: str, model) -> dict:
+def _source(loaded: Loaded, plan: Plan, name: str, model) -> dict:
     task = loaded.scenario.tasks[name]
     points = [station.name for station in plan.stations if station.name in loaded.scenario.stations]
     stations = [point for point in points if name in loaded.scenario.stations[point].tasks]
@@ -204,7 +211,7 @@ def _source(loaded, plan: Plan, name: str, model) -> dict:
     }
 
 
-def _of_emulator(loaded, task) -> dict:
+def _of_emulator(loaded: Loaded, task) -> dict:
     """Which task of which library one emulator is; nothing for other tasks."""
     if not hasattr(task, "emulator"):
         return {}
@@ -212,7 +219,7 @@ def _of_emulator(loaded, task) -> dict:
     return {"model": f"emulator {task.emulator}", "library": library, "library_task": task.library_task}
 
 
-def _of_motions(loaded, task) -> dict:
+def _of_motions(loaded: Loaded, task) -> dict:
     """Which emulators of which libraries the motions of a task are; nothing for other tasks."""
     if not hasattr(task, "motions"):
         return {}

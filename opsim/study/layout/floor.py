@@ -9,11 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.layout import Ways, ways
 from opsim.problems import did_you_mean, enumerated, natural_key, shown
 from opsim.scenario.read import Loaded
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 
 class NoLayout(ValueError):
@@ -164,7 +167,7 @@ def _unreached(floor: Floor, allowed: Sequence[str], things: Sequence[str]) -> I
             yield f"places: no path leads from {place} back to {seen_from}; add one to layout.paths, or leave it out"
 
 
-def _others(scenario: Any) -> Iterator[tuple[str, str]]:
+def _others(scenario: Scenario) -> Iterator[tuple[str, str]]:
     """(place, words) of what is not a station."""
     for name, store in scenario.stores.items():
         yield store.at, f"the store {name}"
@@ -227,7 +230,7 @@ def _flat(route: list[Any]) -> set[str]:
     return {name for step in route for name in (step if isinstance(step, list) else [step])}
 
 
-def _part_of(scenario: Any, like: str) -> Iterator[str]:
+def _part_of(scenario: Scenario, like: str) -> Iterator[str]:
     """What knows the station by name and would not know the new one."""
     for name, product in scenario.products.items():
         if product.routing is not None and (

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -41,6 +41,9 @@ from opsim.study.layout.evaluate import (
 )
 from opsim.study.layout.floor import Floor, Movable, NoLayout, floor_of, movable
 from opsim.study.layout.moves import Candidate, clash, what_ifs
+
+if TYPE_CHECKING:
+    from opsim.scenario.read import Loaded
 
 MOST_SAID, MOVE = 4, "move "
 
@@ -250,7 +253,7 @@ class LayoutFound:
         return losses(self.fresh, self.asked.best) if self.fresh else []
 
 
-def asked_of(varied: Varied, loaded: Any, block: Any, variant: str | None, seed: int | None = None) -> LayoutAsked:
+def asked_of(varied: Varied, loaded: Loaded, block: Any, variant: str | None, seed: int | None = None) -> LayoutAsked:
     """varied : the variant with its tree; loaded : the same, read. seed : instead of its own"""
     from opsim.scenario.tree import entries, text
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from opsim.study.sweep.designs import MORRIS_STEP, Sensitivity, morris_effects, 
 from opsim.study.sweep.effects import Best, Swing, best_of, effects_by_fit, main_effects, tornado
 from opsim.study.sweep.factors import AS_IT_IS, UNCHANGED, Factor, Points, points_of
 from opsim.study.sweep.response_surface import Response, block_error, fit_response
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
 
 AGAINST_BASE, OVER_OTHERS, BY_FIT = "base", "mean", "fit"
 
@@ -135,7 +138,7 @@ def kept_of(figures: Sequence[str] | None, outputs: Sequence[str]) -> tuple[str,
     return tuple(dict.fromkeys(read_asked(text).kpi for text in figures)) if figures else tuple(dict.fromkeys(outputs))
 
 
-def check_figures(figures: Sequence[str], scenario: Any) -> None:
+def check_figures(figures: Sequence[str], scenario: Scenario) -> None:
     """Raises ValueError with everything that is wrong with the figures, before anything is run."""
     wrong = [words for text in figures if (words := _wrong(read_asked(text), scenario))]
     if wrong:
@@ -165,7 +168,7 @@ def _found(asked: AskedFigure, keys: Sequence[Key]) -> tuple[Key, str]:
     raise ValueError(f"no figure {asked.name!r}; {remedy(asked.kpi, {key[0] for key in keys})}")
 
 
-def _wrong(asked: AskedFigure, scenario: Any) -> str:
+def _wrong(asked: AskedFigure, scenario: Scenario) -> str:
     """What is wrong with one figure; nothing where all is well."""
     if asked.kpi not in KPIS:
         return f"no figure {asked.kpi!r}; {did_you_mean(asked.kpi, KPIS)}"
