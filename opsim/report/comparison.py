@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.files import write_text
 from opsim.kpi.parts import part_name
@@ -31,19 +31,23 @@ from opsim.report.numbers import ABSENT, kpi_name, quantity, scale_of
 from opsim.report.plot.svg_chart import intervals_svg
 from opsim.report.sections.pareto import frontier_section
 
+if TYPE_CHECKING:
+    from opsim.study.compare import Comparison, Difference
+    from opsim.study.pareto import Frontier
+
 HERE = Path(__file__).parent
 MOST_ROWS = 60
 """Variants shown of each figure; of more, those that differ most, for the page to be read at all."""
 
 
-def write_comparison(comparison: Any, path: str | Path, title: str, frontier: Any = None) -> Path:
+def write_comparison(comparison: Comparison, path: str | Path, title: str, frontier: Frontier | None = None) -> Path:
     """Write the page of a Comparison and return where it is. frontier : of two figures, or None where nobody asked"""
     path = Path(path)
     write_text(path, comparison_html(comparison, title, frontier))
     return path
 
 
-def comparison_html(comparison: Any, title: str, frontier: Any = None) -> str:
+def comparison_html(comparison: Comparison, title: str, frontier: Frontier | None = None) -> str:
     """The page as text; names are escaped by jinja2, and in pictures by ``intervals_svg`` and ``frontier_svg``."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -105,7 +109,7 @@ class ScreenTable:
     left_out: tuple[str, ...]
 
 
-def screen_table(comparison: Any, width: int) -> ScreenTable:
+def screen_table(comparison: Comparison, width: int) -> ScreenTable:
     """Variants beside each other where there is room for them, else below each other with the first figures.
 
     width : characters of the screen
@@ -115,7 +119,7 @@ def screen_table(comparison: Any, width: int) -> ScreenTable:
     return _figures_down(comparison, variants) if len(variants) <= room else _variants_down(comparison, variants, room)
 
 
-def _figures_down(comparison: Any, variants: Sequence[str]) -> ScreenTable:
+def _figures_down(comparison: Comparison, variants: Sequence[str]) -> ScreenTable:
     found = _by_figure(comparison)
     same = [of for of in found if all(d.verdict == "identical" for d in of)]
     told = [of for of in found if of not in same and not _says_again(of, found)]
@@ -128,7 +132,7 @@ def _figures_down(comparison: Any, variants: Sequence[str]) -> ScreenTable:
     return ScreenTable(columns, tuple(rows), tuple(_left_out(len(told) - len(shown), same, comparison)))
 
 
-def _variants_down(comparison: Any, variants: Sequence[str], room: int) -> ScreenTable:
+def _variants_down(comparison: Comparison, variants: Sequence[str], room: int) -> ScreenTable:
     spoken = spoken_of(comparison)
     keys = list(dict.fromkeys(d.key for d in spoken))[:room]
     shown = [d.variant for d in best_of(spoken)] if len(variants) > max(BEST, MANY) else list(variants)
@@ -146,7 +150,7 @@ def _variants_down(comparison: Any, variants: Sequence[str], room: int) -> Scree
     return ScreenTable(columns, (first, *rows), (*out, *_left_out(n_left, [], comparison)))
 
 
-def _by_figure(comparison: Any) -> list[list[Any]]:
+def _by_figure(comparison: Comparison) -> list[list[Any]]:
     found: dict[Any, list[Any]] = {}
     for difference in comparison.differences:
         found.setdefault(difference.key, []).append(difference)
@@ -154,7 +158,7 @@ def _by_figure(comparison: Any) -> list[list[Any]]:
 
 
 def _figure_row(
-    of: Sequence[Any], found: Sequence[Any], variants: Sequence[str], comparison: Any, below: bool
+    of: Sequence[Any], found: Sequence[Any], variants: Sequence[str], comparison: Comparison, below: bool
 ) -> tuple[str, ...]:
     """below : whether the row above is of the same figure, whose name is then not said again"""
     kpi, subject, part, unit = of[0].key
@@ -172,7 +176,7 @@ def _with_unit(name: str, unit: str) -> str:
     return name if not unit or name.endswith(unit.split()[-1]) or name.lower().startswith(unit) else f"{name}, {unit}"
 
 
-def _cell(difference: Any, largest: float | None) -> str:
+def _cell(difference: Difference | None, largest: float | None) -> str:
     if difference is None or math.isnan(difference.interval.mean):
         return ABSENT
     text = signed(comparison_cells(difference, largest)["difference"])
@@ -198,7 +202,7 @@ def _says_again(of: Sequence[Any], found: Sequence[Any]) -> bool:
     return beside is not None and [(d.base, d.mean) for d in of] == [(d.base, d.mean) for d in beside]
 
 
-def _left_out(n: int, same: Sequence[Any], comparison: Any) -> list[str]:
+def _left_out(n: int, same: Sequence[Any], comparison: Comparison) -> list[str]:
     said = []
     if same:
         names = list(dict.fromkeys(spoken_name(of[0]) for of in same))

@@ -7,14 +7,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from opsim.kpi.catalogue import LESS, MORE, better_of
 from opsim.kpi.parts import part_name
 from opsim.report.numbers import digits, half_digits, is_number, kpi_name, listing, scale_of
 
+if TYPE_CHECKING:
+    from opsim.study.compare import Comparison, Difference
 
-def comparison_cells(difference: Any, largest: float | None = None) -> dict[str, str]:
+
+def comparison_cells(difference: Difference, largest: float | None = None) -> dict[str, str]:
     """The cells of one difference: base, variant, difference ± half-width, per cent of the base, pairing, verdict."""
     interval, unit = difference.interval, difference.key[3]
     factor, word = scale_of(unit, difference.base if largest is None else largest)
@@ -73,7 +76,7 @@ NO_GOAL = ("posture_measured_share", "walking_measured_share")
 """Figures that say how much is known, not how well the floor does: no sentence speaks of them."""
 
 
-def answer(comparison: Any) -> list[str]:
+def answer(comparison: Comparison) -> list[str]:
     """Sentences, the most important first. comparison : of ``opsim.study.compare``"""
     spoken = spoken_of(comparison)
     variants = list(dict.fromkeys(d.variant for d in spoken))
@@ -86,14 +89,14 @@ def answer(comparison: Any) -> list[str]:
     return [*said, *_unclear({name: by_variant[name] for name in variants if name not in clear}, comparison, spoken)]
 
 
-def spoken_of(comparison: Any) -> list[Any]:
+def spoken_of(comparison: Comparison) -> list[Any]:
     """The differences of which sentences speak: figures of the whole floor; all, where others alone were asked for."""
     aims = [d for d in comparison.differences if d.key[0] not in NO_GOAL]
     whole = [d for d in aims if not d.key[1] and not d.key[2]]
     return whole or aims or list(comparison.differences)
 
 
-def spoken_name(difference: Any, hours: bool = False) -> str:
+def spoken_name(difference: Difference, hours: bool = False) -> str:
     """A figure inside a sentence: ``throughput per calendar hour``, ``RULA 5 or more of ana``."""
     kpi, subject, part, _ = difference.key
     name = SPOKEN.get(kpi) or re.sub(r" \([^)]*\)", "", kpi_name(kpi)).split(",")[0]
@@ -103,7 +106,7 @@ def spoken_name(difference: Any, hours: bool = False) -> str:
     return " ".join(filter(None, (name, f"of {subject}" if subject else "", part_name(kpi, part))))
 
 
-def amount(difference: Any, spoken: Sequence[Any]) -> str:
+def amount(difference: Difference, spoken: Sequence[Any]) -> str:
     """``+13 ± 4 per hour, +2.9 %``; spoken : all that choose the common unit of this figure."""
     cells = comparison_cells(difference, largest_of([d for d in spoken if d.key[0] == difference.key[0]]))
     if cells["unit"] == "%":
@@ -118,7 +121,7 @@ def signed(text: str) -> str:
     return text if number.startswith("\N{MINUS SIGN}") or not re.search("[1-9]", number) else f"+{text}"
 
 
-def way_of(difference: Any) -> int:
+def way_of(difference: Difference) -> int:
     """1 where the variant is better, -1 where it is worse, 0 where nobody agrees which way is better."""
     better = better_of(difference.key[0], difference.key[2])
     rises = 1 if difference.interval.mean > 0 else -1
@@ -154,7 +157,7 @@ def _ways(some: Sequence[Any], spoken: Sequence[Any], hours: bool) -> str:
     return ", ".join(f"{word} in {_named(of, spoken, hours)}" for word, of in ways if of)
 
 
-def _falls_much(difference: Any) -> bool:
+def _falls_much(difference: Difference) -> bool:
     """Whether it is an output that is less by its mean, proven or not, so much that nothing better outweighs it."""
     whole = difference.key[0] in OUTPUT and not difference.key[1] and difference.verdict != "other hours"
     return bool(whole and difference.interval.mean < -MUCH * abs(difference.base))
@@ -175,7 +178,7 @@ def _rest(rest: Sequence[Any], spoken: Sequence[Any], hours: bool) -> str:
     return " ".join(said)
 
 
-def _unclear(by_variant: dict[str, Sequence[Any]], comparison: Any, spoken: Sequence[Any]) -> Iterator[str]:
+def _unclear(by_variant: dict[str, Sequence[Any]], comparison: Comparison, spoken: Sequence[Any]) -> Iterator[str]:
     """Variants of which nothing is clear, those with nothing but identical figures together."""
     same = [name for name, of in by_variant.items() if all(d.verdict == "identical" for d in of)]
     for name, of in by_variant.items():
@@ -187,7 +190,7 @@ def _unclear(by_variant: dict[str, Sequence[Any]], comparison: Any, spoken: Sequ
         yield f"{listing(same)} {verb} identical to {comparison.base} in every replication."
 
 
-def _counted(comparison: Any, spoken: Sequence[Any], variants: Sequence[str]) -> Iterator[str]:
+def _counted(comparison: Comparison, spoken: Sequence[Any], variants: Sequence[str]) -> Iterator[str]:
     """Many variants: how many are better and worse in the first figures, and the best."""
     hours = bool(comparison.hours)
     for key in list(dict.fromkeys(d.key for d in spoken))[:MOST_NAMED]:

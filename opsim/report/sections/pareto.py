@@ -27,7 +27,7 @@ from opsim.study.pareto import Frontier, frontier_of
 MOST_SAID, MOST_NAMED = 6, 10
 
 
-def frontier_sentences(frontier: Any) -> list[str]:
+def frontier_sentences(frontier: Frontier) -> list[str]:
     """Sentences, the most important first. frontier : of ``opsim.study.pareto``"""
     return [
         _front([point.variant for point in frontier.points if point.on_front]),
@@ -56,7 +56,7 @@ def _some(names: Sequence[str]) -> str:
     return listing(list(names) if more <= 0 else [*names[:MOST_NAMED], f"{more:,} more"])
 
 
-def _beaten(frontier: Any) -> Iterator[str]:
+def _beaten(frontier: Frontier) -> Iterator[str]:
     beaten = [point for point in frontier.points if point.clearly_behind]
     if beaten:
         yield (
@@ -65,7 +65,7 @@ def _beaten(frontier: Any) -> Iterator[str]:
         )
 
 
-def _behind(frontier: Any) -> Iterator[str]:
+def _behind(frontier: Frontier) -> Iterator[str]:
     unclear = [point for point in frontier.points if point.behind and not point.clearly_behind]
     if unclear:
         pairs = "one pair" if frontier.n == 1 else f"{frontier.n} pairs"
@@ -81,7 +81,7 @@ def _said(points: Sequence[Any], by: str) -> str:
     return f"{said}; and {len(points) - MOST_SAID} more" if len(points) > MOST_SAID else said
 
 
-def _absent(frontier: Any) -> Iterator[str]:
+def _absent(frontier: Frontier) -> Iterator[str]:
     """Variants without a figure, as where the effect behind it is off."""
     by_figures: dict[tuple[str, ...], list[str]] = {}
     for variant, figures in frontier.absent:
@@ -90,14 +90,14 @@ def _absent(frontier: Any) -> Iterator[str]:
         yield f"Not shown, as there is no {' and no '.join(figures)} there: {listing(variants)}."
 
 
-def _unknown(frontier: Any) -> Iterator[str]:
+def _unknown(frontier: Frontier) -> Iterator[str]:
     absent = dict(frontier.absent)
     unknown = [p.variant for p in frontier.points if (p.x.n == 0 or p.y.n == 0) and p.variant not in absent]
     if unknown:
         yield f"Not shown, as a figure was observed in no replication: {listing(unknown)}."
 
 
-def _hours(frontier: Any) -> Iterator[str]:
+def _hours(frontier: Frontier) -> Iterator[str]:
     if frontier.other_hours:
         yield (
             "The variants are open for different hours, and a figure is per scheduled hour: nothing is called clear "
@@ -162,7 +162,7 @@ class Mark:
     down: tuple[float, float]
 
 
-def frontier_section(frontier: Any, hours: bool = False) -> dict[str, Any]:
+def frontier_section(frontier: Frontier, hours: bool = False) -> dict[str, Any]:
     """What a page shows: ``title``, ``sentences``, ``picture`` (SVG text) and ``legend`` of (edge, fill, words).
 
     frontier : of ``opsim.study.pareto``; hours : whether the floor keeps hours
@@ -176,7 +176,7 @@ def frontier_section(frontier: Any, hours: bool = False) -> dict[str, Any]:
     }
 
 
-def frontier_svg(frontier: Any, hours: bool = False, here: str = "", least_px: int = 0) -> str:
+def frontier_svg(frontier: Frontier, hours: bool = False, here: str = "", least_px: int = 0) -> str:
     """The picture of a Frontier; variants of which a mean is not known are left out.
 
     here : the variant to mark, with a legend in the picture; "" for none; least_px : no narrower than this
@@ -233,7 +233,7 @@ def axis_name(key: Sequence[str], hours: bool = False) -> str:
     return " · ".join(filter(None, (kpi_name(kpi, hours), subject, part_name(kpi, part))))
 
 
-def _known(frontier: Any) -> list[Any]:
+def _known(frontier: Frontier) -> list[Any]:
     return [point for point in frontier.points if is_number(point.x.mean) and is_number(point.y.mean)]
 
 
@@ -310,7 +310,7 @@ def _name(mark: Mark, x: float, y: float, anchor: str) -> str:
     return _text(shortened(mark.name), x, y, INK, anchor, ' font-weight="600"' if mark.kind == FRONT else "")
 
 
-def _titles(frontier: Any, word_x: str, word_y: str, hours: bool) -> Iterator[str]:
+def _titles(frontier: Frontier, word_x: str, word_y: str, hours: bool) -> Iterator[str]:
     x, y = (
         f"{_with_unit(axis_name(key, hours), word)} ({better} is better)"
         for key, word, better in ((frontier.x, word_x, frontier.better_x), (frontier.y, word_y, frontier.better_y))

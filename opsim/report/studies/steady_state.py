@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,6 +38,9 @@ from opsim.report.plot.svg_chart import SmallChart, around, panels
 from opsim.study.long_run.batching import MOST_TIMES
 from opsim.study.long_run.diagnostics import AGAIN
 
+if TYPE_CHECKING:
+    from opsim.study.long_run.steady_state import LongRun
+
 MAIN = ("throughput_per_h", "time_in_system_s", "work_in_progress")
 """The figures of which sentences speak; the others are in the table."""
 _WHY = {
@@ -47,7 +50,7 @@ _WHY = {
 }
 
 
-def answer(run: Any) -> list[str]:
+def answer(run: LongRun) -> list[str]:
     """Sentences, the figures first, then whether they are to be believed. run : a LongRun"""
     told = [one for one in run.series if one.name in MAIN]
     known = [one for one in told if one.batches is not None]
@@ -65,7 +68,7 @@ def _mean(one: Any) -> str:
     return f"{mean_words(one)} (± not to be trusted)" if doubted else mean_words(one)
 
 
-def _after(run: Any, one: Any, known: Sequence[Any]) -> str:
+def _after(run: LongRun, one: Any, known: Sequence[Any]) -> str:
     if one is not known[0] or run.left_out_s <= 0:
         return ""
     return f" after leaving out the first {time_words(run.left_out_s)} ({_WHY[run.why]})"
@@ -86,7 +89,7 @@ def _flagged(told: Sequence[Any], code: str) -> list[tuple[Any, Any]]:
     return [(one, flag) for one in told for flag in one.flags if flag.code == code]
 
 
-def _doubts(run: Any, told: Sequence[Any]) -> Iterator[str]:
+def _doubts(run: LongRun, told: Sequence[Any]) -> Iterator[str]:
     for_good = _flagged(told, "unstable")
     if for_good:
         said = f"more comes than leaves, so that these keep growing: {_rates(for_good)}. No longer run helps."
@@ -112,7 +115,7 @@ def _rates(flagged: Sequence[tuple[Any, Any]]) -> str:
     return listing([f"{SERIES_NAMES[one.name].lower()} ({_per_day(one, flag.by)})" for one, flag in flagged])
 
 
-def _full(run: Any) -> Iterator[str]:
+def _full(run: LongRun) -> Iterator[str]:
     """What shows, apart from the growth itself, that more comes than leaves."""
     if run.full_stations:
         yield f"Never without a job: {listing(list(run.full_stations))}."
@@ -128,7 +131,7 @@ def _why_short(one: Any) -> str:
     return "there are not even ten independent batches"
 
 
-def _cares(run: Any, told: Sequence[Any]) -> Iterator[str]:
+def _cares(run: LongRun, told: Sequence[Any]) -> Iterator[str]:
     start = _flagged(told, "start_left")
     if start:
         said = listing([f"{SERIES_NAMES[one.name].lower()} ({_by(one, flag.by)})" for one, flag in start])
@@ -166,7 +169,7 @@ def _times(factor: float) -> str:
     return "About twice" if factor == 2 else f"About {math.ceil(factor)} times"
 
 
-def _horizon(run: Any, factor: float) -> str:
+def _horizon(run: LongRun, factor: float) -> str:
     """What to ask for: the warm-up and so many times the rest, rounded up to two digits of hours."""
     hours = (run.left_out_s + factor * (run.horizon_s - run.left_out_s)) / 3600
     step = 10.0 ** max(0, math.floor(math.log10(max(hours, 1.0))) - 1)
@@ -183,22 +186,22 @@ SETTLING_LEGEND = (
 BATCH_LEGEND = ((ACCENT, ACCENT, "mean of a batch"), (ACCENT, "#cfe3f0", "95 % interval of the mean"))
 
 
-def settling_svg(run: Any) -> str:
+def settling_svg(run: LongRun) -> str:
     """A chart a series that goes by time. run : a LongRun"""
     return panels(_settling(one, run) for one in run.series if one.curve.size)
 
 
-def batches_svg(run: Any) -> str:
+def batches_svg(run: LongRun) -> str:
     """A chart a series that has batches."""
     return panels(_batches(one) for one in run.series if one.batches is not None)
 
 
-def correlogram_svg(run: Any) -> str:
+def correlogram_svg(run: LongRun) -> str:
     """A chart a series that has batches."""
     return panels(_correlogram(one) for one in run.series if one.correlogram.size > 1)
 
 
-def _settling(one: Any, run: Any) -> SmallChart:
+def _settling(one: Any, run: LongRun) -> SmallChart:
     factor, unit = scale_of("s", run.horizon_s)
     values, word = _in_unit(one, one.curve)
     smooth, _ = _in_unit(one, one.smooth)
@@ -278,7 +281,7 @@ def _thinned(x: np.ndarray, y: np.ndarray) -> tuple[list[float], list[float]]:
 KIND = "long run"
 
 
-def long_run_page(run: Any) -> StudyPage:
+def long_run_page(run: LongRun) -> StudyPage:
     """run : a LongRun"""
     table = Table(("figure", "mean", "batches", "each", "neighbours", "check", "judged"), _rows(run), words=1)
     return StudyPage(
@@ -315,12 +318,12 @@ def long_run_page(run: Any) -> StudyPage:
     )
 
 
-def _what(run: Any) -> str:
+def _what(run: LongRun) -> str:
     noun = "1 replication" if run.replications == 1 else f"{run.replications} replications"
     return f"{noun} of {time_words(run.horizon_s)}, seed {run.seed}."
 
 
-def _rows(run: Any) -> list[tuple[str, ...]]:
+def _rows(run: LongRun) -> list[tuple[str, ...]]:
     return [_row(one) for one in run.series]
 
 

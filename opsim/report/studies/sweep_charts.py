@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from opsim.report.numbers import digits, is_number, scale_of
 from opsim.report.plot.plotly import ACCENT, GRID, INK, MUTED
 from opsim.report.plot.svg_chart import ticks
 from opsim.report.sections.pareto import Axis
+
+if TYPE_CHECKING:
+    from opsim.study.sweep.study import Found
 
 
 def shortened(words: str, most: int) -> str:
@@ -205,7 +208,7 @@ class Dot:
     half: float
 
 
-def curves_html(found: Any, points: Any, largest: float | None) -> str:
+def curves_html(found: Found, points: Any, largest: float | None) -> str:
     """A picture a factor, side by side where there is room. found : a Found; points : the Points"""
     numbers = points.numbers()
     dots = [list(_dots(found, points, numbers, column)) for column in range(len(points.factors))]
@@ -220,7 +223,7 @@ def curves_html(found: Any, points: Any, largest: float | None) -> str:
     return f'<div class="panels">{"".join(f"<div>{panel}</div>" for panel in panels)}</div>'
 
 
-def _dots(found: Any, points: Any, numbers: np.ndarray, column: int) -> Iterator[Dot]:
+def _dots(found: Found, points: Any, numbers: np.ndarray, column: int) -> Iterator[Dot]:
     """Of a grid the means of each level over all others, else the points themselves."""
     factor = points.factors[column]
     if found.how == "mean":
@@ -240,7 +243,7 @@ def _interval_half(interval: Any) -> float:
     return interval.half_width if is_number(interval.half_width) else 0.0
 
 
-def _fit(found: Any, numbers: np.ndarray, column: int) -> list[tuple[float, float]]:
+def _fit(found: Found, numbers: np.ndarray, column: int) -> list[tuple[float, float]]:
     """(factor's number, figure in SI) of the fitted response, averaged over the other factors of the points."""
     response = found.response
     if response is None:
