@@ -278,6 +278,9 @@ def _shared_parts(env: simpy.Environment, plan: Plan, parts: Mapping[str, Any]) 
         if not isinstance(container, simpy.Container):
             raise TypeError(f"{place}: expected a simpy.Container, found {shown(container)}")
         _check_shared(env, container, place)
+        lot = plan.products[sources[name][0]].lot
+        if container.capacity < lot:
+            raise ValueError(f"{place}: a lot is {lot} pieces, your container holds {container.capacity:g} at most")
         found.append(SharedParts(container, *sources[name]))
     return found
 

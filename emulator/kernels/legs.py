@@ -72,7 +72,7 @@ def leg_after(to, length_m, leg_bones, by, leg):
 def left_over(to, length_m, leg_bones, move, cosine, sine, by, leg, left):
     """Writes by how much an ankle (3,) misses its move (3,) after the leg of directions ``to`` (3B,) is bent.
 
-    by (6,), leg (3,) : room to work in, since making room costs as much as the rest
+    by (6,), leg (3,) : room to work in
     """
     bend_of(move, cosine, sine, by)
     reach = leg_after(to, length_m, leg_bones, by, leg)

@@ -199,6 +199,13 @@ def test_a_resource_smaller_than_the_scenarios_number_is_refused(guns):
         Floor(env, guns, tools={"fixture": simpy.Resource(env, 2)})
 
 
+def test_a_container_in_which_no_lot_has_room_is_refused(tmp_path):
+    env = simpy.Environment()
+    plan = planned(tmp_path, CARTS.replace("wheel: {route: [wheels]}", "wheel: {lot: 8, route: [wheels]}"))
+    with pytest.raises(ValueError, match="a lot is 8 pieces, your container holds 5 at most"):
+        Floor(env, plan, parts={"wheel": simpy.Container(env, capacity=5)})
+
+
 def test_parts_out_of_what_is_no_container_are_refused(tmp_path):
     env = simpy.Environment()
     with pytest.raises(TypeError, match=r"parts: wheel: expected a simpy.Container, found <"):
