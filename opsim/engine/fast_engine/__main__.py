@@ -7,23 +7,14 @@ from __future__ import annotations
 
 import sys
 
-from opsim.engine.fast_engine import lowering
 from opsim.engine.fast_engine.machine.steps import STEPS
-from opsim.engine.fast_engine.machine.table import lacking
-from opsim.engine.fast_engine.run import ready_for
+from opsim.engine.fast_engine.machine.table import complete
 
 
 def main() -> int:
-    """Every step that there is; how many were compiled."""
-
-    def told(done: int, total: int) -> None:
-        if done % 100 == 0 or done == total:
-            print(f"compiling the fast engine: {done} of {total}", flush=True)
-
-    lowering.know_all()
-    n_compiled = len(list(lacking(STEPS.values())))
-    ready_for(STEPS.values(), told)
-    print(f"{len(STEPS)} steps are ready, {n_compiled} of them compiled now")
+    """Every step that there is."""
+    complete()
+    print(f"{len(STEPS)} steps are ready")
     return 0
 
 

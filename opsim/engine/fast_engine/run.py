@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from contextlib import suppress
-from functools import partial
+from collections.abc import Callable
 from threading import local
 
 import numpy as np
@@ -14,12 +12,9 @@ from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.event_list import is_last_of_instant, pop_event
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.log_rows import Columns, flush_rows
-from opsim.engine.fast_engine.machine import TABLE, complete, here, line_of, needed, step
+from opsim.engine.fast_engine.machine import TABLE, complete, here, line_of, step
 from opsim.engine.fast_engine.machine.calling import Waiting, caller, signals_wait
-from opsim.engine.fast_engine.machine.code_cache import folder, is_marked, mark
-from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Told, n_helpers
-from opsim.engine.fast_engine.machine.steps import Step
-from opsim.engine.fast_engine.machine.table import lacking
+from opsim.engine.fast_engine.machine.table import is_ready, path_of
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.random_numbers import MOST_RANKS
 from opsim.engine.fast_engine.settle import close, happen, settle, start
@@ -91,60 +86,24 @@ close_floor = caller(close)
 """The rows that are open at the horizon."""
 
 
-STEP_S, LUCK_S, EMULATED_S = 0.07, 12.0, 3.0
-"""About so many CPU seconds are compiled for a step, what draws numbers and every floor's steps, emulators."""
-LUCK, EMULATED = "luck", "emulated"
-"""Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
+Told = Callable[[int, int], None]
+STEPS_S = 4.0
+"""About so many CPU seconds are compiled for the whole floor."""
 
 
 def compiling_s(plan: Plan) -> float:
     """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
-    n_steps = sum(1 for _ in lacking(needed(built(plan).steps.values())))
-    cpu_s = n_steps * STEP_S
-    if _luck():
-        cpu_s += LUCK_S
-    if _emulated(plan) and not is_marked(EMULATED):
-        cpu_s += EMULATED_S
-    return cpu_s / (1 + n_helpers() if n_steps >= WORTH_HELP else 1)
+    return 0.0 if is_ready() else STEPS_S
 
 
 def is_kept() -> bool:
     """Whether there is a place on disk for what is compiled."""
-    return folder() is not None
+    return path_of() is not None
 
 
 def ready(plan: Plan, told: Told | None = None) -> None:
     """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
-    emulated = [] if is_marked(EMULATED) else _emulated(plan)
-    ready_for(needed(built(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
-
-
-def ready_for(steps: Iterable[Step], told: Told | None = None, only_here: Iterable[Callable[[], object]] = ()) -> None:
-    """The same for some steps, and for what draws numbers; ``only_here``: what no other process knows of."""
-    luck = _luck()
-    complete(steps, told, luck, only_here)
-    if luck:
-        mark(LUCK)
-
-
-def _luck() -> list[Callable[[], object]]:
-    """What compiles all that draws numbers, where that is not done: the look at it that a first run takes anyway."""
-    return [] if is_marked(LUCK) or is_trusted.cache_info().currsize else [is_trusted]
-
-
-def _emulated(plan: Plan) -> list[int]:
-    """A task of each kind of the emulator's models, by rank: of others nothing is compiled."""
-    kinds = {type(task.model): rank for rank, task in enumerate(plan.tasks) if plan.workers}
-    return [rank for kind, rank in kinds.items() if kind.__module__.startswith("emulator.")]
-
-
-def _draw(plan: Plan, tasks: Iterable[int]) -> None:
-    """Performances of some tasks. NOTE: what a model has to say against it is raised by the run, where it belongs."""
-    luck, workforce = luck_of(plan), plan.workforce_of(0)
-    with suppress(Exception):
-        for task in tasks:
-            luck.of_worker(task, 0, workforce)(np.zeros(6, np.uint32), 0, 1)
-        mark(EMULATED)
+    complete(told)
 
 
 MOST_EVENTS = 1 << 17
@@ -159,7 +118,7 @@ class Machine:
         refuse_too_many(plan)
         self.plan, self.build = plan, built(plan)
         self.floor = self.build.floor
-        complete(needed(self.build.steps.values()), told)
+        complete(told)
         self.floor.table = TABLE.ctypes.data
         self.numbers = Numbers(plan, self.build.arena, self.floor)
         self.columns = Columns(self.build.arena, self.floor)

@@ -1,282 +1,678 @@
-"""numba's compiler with less around it: what steps and their helpers do not need is left out.
+"""Steps and what they are made of -> LLVM's text, from their syntax: kinds of values are found on the way, in one pass.
 
-A third of numba's time goes into passes for closures, arrays and literals, of which there are none here; another third
-into making machine code of helpers that is never run, as each is compiled into the steps that call it; then passes over
-declarations, checks of LLVM code, and helpers linked into helpers. NOTE: these are numba's inner parts, which may
-change from one version to the next: ``compiling`` goes on without them where they fail, and says so.
+A name of a function has one kind throughout. Where a later line widens it (a number becomes a float, nothing becomes a
+reference), the function is gone through once more. A helper without annotations is compiled for the kinds that it is
+given, as formulas are.
 """
 
 from __future__ import annotations
 
+import ast
+import builtins
+import struct
+from collections import ChainMap
 from collections.abc import Callable, Iterator
 from functools import cache
-from types import SimpleNamespace
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-import llvmlite.binding as llvm
-from numba.core import typed_passes, untyped_passes
-from numba.core.cgutils import normalize_ir_text
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, CompilerBase
-from numba.core.compiler_lock import global_compiler_lock
-from numba.core.compiler_machinery import PassManager, _pass_registry, register_pass
-from numba.core.environment import lookup_environment
-from numba.core.errors import NumbaError
-from numba.core.registry import CPUDispatcher
-from numba.core.runtime import rtsys
-from numba.core.sigutils import normalize_signature
+from opsim.engine.fast_engine.machine.intrinsics import BUILTINS, POWER, Intrinsic
+from opsim.engine.fast_engine.machine.structs import BOOL, FLOAT, INT, LAYOUTS, NONE, Kind, field_kind, said_kind
 
-from opsim.engine.fast_engine.machine.code_cache import Code, say
+Value = tuple[str, Kind]
+"""Its text in LLVM's language, and what it is."""
 
 
-class _Library(JITCodeLibrary):
-    """LLVM code of one function, of which numba makes no machine code."""
-
-    @property
-    def codegen(self) -> Any:
-        """For ``get_executable``, which would look for the environment of a function in the machine code."""
-        return SimpleNamespace(set_env=lambda _name, _environment: None)
-
-    def get_pointer_to_function(self, name: str) -> int:
-        """There is none."""
-        self._ensure_finalized()
-        return 0
-
-    def add_linking_library(self, library: Any) -> None:
-        """NOTE: but for numba's own runtime, which counts references to arrays, and of which nothing is used."""
-        if library is not rtsys.library:
-            super().add_linking_library(library)
-
-    def add_ir_module(self, ir_module: Any) -> None:
-        """NOTE: it is looked at once, when it is whole: numba does so for each part."""
-        module = llvm.parse_assembly(normalize_ir_text(str(ir_module)))
-        self._optimize_functions(module)
-        self._final_module.link_in(module)
+class NotSo(SyntaxError):
+    """Something in a step that cannot be compiled; it says the file and the line."""
 
 
-class HelperLibrary(_Library):
-    """Only ever linked into steps. NOTE: not into the helpers that call it, each step links all that it needs once."""
-
-    def _optimize_functions(self, module: Any) -> None:
-        """Once for all steps. NOTE: numba makes a row of passes for each function, and runs it on declarations too."""
-        module.data_layout = self._codegen._data_layout
-        builder = _pass_builder(self._codegen)
-        passes = builder.getFunctionPassManager()
-        for function in module.functions:
-            if not function.is_declaration:
-                passes.run(function, builder)
-
-    def finalize(self) -> None:
-        """Nothing is linked into it."""
-        self._raise_if_finalized()
-        self._finalized = True
-
-    def _get_module_for_linking(self) -> Any:
-        """For what numba compiles by all of its passes: with all that it needs in turn."""
-        if self._shared_module is None:
-            whole = self._final_module.clone()
-            for code in _all_linked(self):
-                whole.link_in(code, preserve=True)
-            for one in whole.functions:
-                if not one.is_declaration:
-                    one.linkage = llvm.Linkage.linkonce_odr
-            self._shared_module = whole
-        return self._shared_module
+class _Widened(Exception):
+    """A name is of a wider kind than was known before."""
 
 
-class StepLibrary(_Library):
-    """Of a step and all helpers compiled into it."""
+class Helper:
+    """A small function that is compiled into each step that calls it; ``always``: however long it is."""
 
-    machine_code: bytes
+    def __init__(self, function: Callable, *, always: bool = False):
+        self.function, self.always = function, always
 
-    def _optimize_functions(self, module: Any) -> None:
-        """Left to the passes over all of it."""
-        module.data_layout = self._codegen._data_layout
-
-    def finalize(self) -> None:
-        """Optimized once, by LLVM's second level: numba's three rounds and its third level took longer and ran no
-        faster.
-
-        NOTE: helpers become the step's own. Names of numba's count functions as a process meets them, so that helpers
-        of two processes could share one, and LLVM links all of a name to the first.
-        """
-        self._raise_if_finalized()
-        module = self._final_module
-        own = {one.name for one in module.functions if not one.is_declaration}
-        for code in _all_linked(self):
-            module.link_in(code, preserve=True)
-        for one in module.functions:
-            if not one.is_declaration and one.name not in own:
-                one.linkage = llvm.Linkage.internal
-        module.verify()
-        builder = _pass_builder(self._codegen)
-        builder.getModulePassManager().run(module, builder)
-        self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
-        self.machine_code = _machine(self._codegen).emit_object(module)
-        self._finalized = True
+    def __call__(self, *given: Any) -> Any:
+        return self.function(*given)
 
 
-def _all_linked(library: Any) -> Iterator[Any]:
-    """The code of all that is to be linked into a step: helpers, each once, then what numba has made by itself.
-
-    NOTE: in this order, as the code of the others is dropped where nobody calls it yet.
-    """
-    todo, seen, others = list(library._linking_libraries), set[Any](), dict[Any, None]()
-    while todo:
-        one = todo.pop()
-        if isinstance(one, HelperLibrary) and one not in seen:
-            seen.add(one)
-            todo += one._linking_libraries
-            yield one._final_module
-        elif not isinstance(one, HelperLibrary):
-            others[one] = None
-    yield from (one._get_module_for_linking() for one in others)
-
-
-def _pass_builder(codegen: Any) -> Any:
-    """LLVM's second level. NOTE: unrolled loops over a handful of jobs or stations are only longer."""
-    options = llvm.create_pipeline_tuning_options(speed_level=2)
-    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
-    return llvm.create_pass_builder(codegen._tm, options)
+METHODS: dict[tuple[str, str], Any] = {}
+"""What a formula calls of ``self``, by the struct that stands for it and the name."""
 
 
 @cache
-def _machine(codegen: Any) -> Any:
-    """Makes machine code as numba does for this processor, by LLVM's second level too, which ran as fast."""
-    options = {"opt": 2}
-    codegen._customize_tm_options(options)
-    return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(**options)
+def _functions_of(path: str) -> dict[tuple[int, str], ast.FunctionDef]:
+    tree = ast.parse(Path(path).read_text(encoding="utf-8"), path)
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    return {(min([n.lineno, *(one.lineno for one in n.decorator_list)]), n.name): n for n in found}
 
 
-ENVIRONMENT = "_ZN08NumbaEnv"
-"""How the names of pointers to Python's objects begin that compiled code may use; steps use none."""
-_Dispatcher: Any = CPUDispatcher
-
-PASSES: tuple[Any, ...] = (
-    *(untyped_passes.TranslateByteCode, untyped_passes.FixupArgs, untyped_passes.IRProcessing),
-    *(untyped_passes.GenericRewrites, untyped_passes.ReconstructSSA),
-    *(typed_passes.NopythonTypeInference, typed_passes.PreLowerStripPhis),
-    *(typed_passes.NoPythonSupportedFeatureValidation, typed_passes.IRLegalization),
-)
-"""Before the lowering. NOTE: GenericRewrites is what makes ``x ** 2`` a product, as in all that numba compiles."""
+def syntax_of(function: Callable) -> ast.FunctionDef:
+    code = function.__code__
+    return _functions_of(code.co_filename)[code.co_firstlineno, code.co_name]
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-class StepLowering(typed_passes.NativeLowering):
-    """To machine code, of which an object file can be kept."""
+class Module:
+    """The text of all functions that some steps need. STEPS know their lines of the table."""
 
-    _name = "step_lowering"
+    def __init__(self, steps: dict[int, Any], step_of: Callable[[Any], Any]):
+        self.steps, self.step_of = steps, step_of
+        self.texts: list[str] = []
+        self.declared: dict[str, None] = {}
+        self.errors: dict[tuple[Any, str], int] = {}
+        self._helpers: dict[Any, tuple[str, Kind]] = {}
 
-    def run_pass(self, state: Any) -> bool:
-        state.library = StepLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        return bool(super().run_pass(state))
+    def whole(self, roots: Iterator[Any]) -> str:
+        for one in roots:
+            self.texts.append(Body(self, one.function, one.kinds, one.answer, one.symbol, "").text())
+        return "\n".join([*self.declared, *self.texts])
 
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class HelperLowering(typed_passes.NativeLowering):
-    """To LLVM code, and no further."""
-
-    _name = "helper_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        state.library = HelperLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        return bool(super().run_pass(state))
-
-
-class Passes(PassManager):
-    """Run one after the other. NOTE: numba's own way writes down what each is given, for those who listen: nobody."""
-
-    def run(self, state: Any) -> None:
-        for kind, _ in self.passes:
-            one = _pass_registry.get(kind).pass_inst
-            one.analysis = self._analysis
-            for part in (one.run_initialization, one.run_pass, one.run_finalizer):
-                part(state)
+    def helper(self, function: Any, always: bool, kinds: tuple[Kind, ...]) -> tuple[str, Kind]:
+        """Its name, and what it answers, for some kinds of arguments."""
+        key = function, kinds, always
+        if key not in self._helpers:
+            name = f'@"{function.__qualname__}.{len(self._helpers)}"'
+            answer = said_kind(function.__annotations__.get("return", "Any"))
+            body = Body(self, function, kinds, answer, name, "alwaysinline" if always else "internal")
+            self.texts.append(body.text())
+            assert body.answer is not None
+            self._helpers[key] = name, body.answer
+        return self._helpers[key]
 
 
-def _passes(name: str, lowering: Any) -> list[PassManager]:
-    manager = Passes(name)
-    for one in (*PASSES, lowering, typed_passes.NoPythonBackend):
-        manager.add_pass(one)
-    manager.finalize()
-    return [manager]
+class Body:
+    """Of one function for some kinds of arguments; ``answer``: None where it is to be found."""
 
+    def __init__(self, module: Module, function: Any, kinds: Any, answer: Kind | None, name: str, how: str):
+        self.module, self.function, self.kinds, self.name, self.how = module, function, kinds, name, how
+        self.answer, self.node = answer, syntax_of(function)
+        self.names: dict[str, Kind] = {}
+        self.widest: Kind | None = answer
+        cells = {n: c.cell_contents for n, c in zip(function.__code__.co_freevars, function.__closure__ or ())}
+        self.known = ChainMap(cells, function.__globals__, vars(builtins))
 
-HELPER_PASSES, STEP_PASSES = _passes("helper", HelperLowering), _passes("step", StepLowering)
-
-
-class HelperCompiler(CompilerBase):
-    def define_pipelines(self) -> list[PassManager]:
-        return HELPER_PASSES
-
-
-class StepCompiler(CompilerBase):
-    def define_pipelines(self) -> list[PassManager]:
-        return STEP_PASSES
-
-
-class Helper(_Dispatcher):
-    """A function that is compiled into others, without numba's timers, which would be told of each by all around it."""
-
-    @global_compiler_lock
-    def compile(self, sig: Any) -> Any:
-        args, answer = normalize_signature(sig)
-        found = self.overloads.get(tuple(args))
-        if found is None:
-            if not self._can_compile:
-                raise RuntimeError("compilation disabled")
-            with self._compiling_counter:
-                found = self._made(args, answer)
-                self.add_overload(found)
-        return found.entry_point
-
-    def _made(self, args: Any, answer: Any) -> Any:
-        """With all passes, where the few are not enough."""
-        try:
-            return self._compiler._compile_core(args, answer)
-        except (NumbaError, NotImplementedError) as error:
-            few, self._compiler.pipeline_class = self._compiler.pipeline_class, Compiler
+    def text(self) -> str:
+        while True:
             try:
-                made = self._compiler._compile_core(args, answer)
-            finally:
-                self._compiler.pipeline_class = few
-            say(self.py_func.__qualname__, "compiled by all of numba's passes, which takes longer", error)
-            return made
+                return self._text()
+            except _Widened:
+                continue
+
+    def _text(self) -> str:
+        self.n, self.lines, self.loops, self.at, self.open = 0, list[str](), list[tuple[str, str]](), "entry", True
+        given = self.node.args
+        names = [one.arg for one in given.args]
+        for number, (name, kind) in enumerate(zip(names, self.kinds)):
+            self._assign(name, (f"%a{number}", kind))
+        if given.vararg is not None:
+            rest = [(f"%a{number}", kind) for number, kind in enumerate(self.kinds)][len(names) :]
+            self._assign(given.vararg.arg, self._tuple(rest))
+        for name, default in zip(names[len(self.kinds) :], given.defaults[len(self.kinds) - len(names) :]):
+            self._assign(name, self.value(default))
+        self.body(self.node.body)
+        answer = self.answer or self.widest or NONE
+        if self.open:
+            self.end("ret void" if answer == NONE else f"ret {answer.llvm} {_zero(answer)}")
+        if self.answer is None:
+            self.answer = answer
+        kinds = ", ".join(f"{kind.llvm} %a{number}" for number, kind in enumerate(self.kinds))
+        slots = [f"%v.{name} = alloca {kind.llvm}" for name, kind in self.names.items()]
+        linkage, how = ("internal ", self.how.replace("internal", "")) if self.how else ("", "")
+        kind = "void" if answer == NONE else answer.llvm
+        lines = ["entry:", *slots, *self.lines]
+        return f"define {linkage}{kind} {self.name}({kinds}) nounwind {how} {{\n" + "\n".join(lines) + "\n}\n"
+
+    # ---- what is put down
+    def put(self, line: str) -> None:
+        self.lines.append(line)
+
+    def op(self, line: str) -> str:
+        self.n += 1
+        self.lines.append(f"%x{self.n} = {line}")
+        return f"%x{self.n}"
+
+    def label(self) -> str:
+        self.n += 1
+        return f"l{self.n}"
+
+    def end(self, line: str) -> None:
+        self.put(line)
+        self.open = False
+
+    def go(self, label: str) -> None:
+        if self.open:
+            self.end(f"br label %{label}")
+
+    def begin(self, label: str) -> None:
+        self.go(label)
+        self.put(f"{label}:")
+        self.at, self.open = label, True
+
+    def declare(self, line: str) -> None:
+        self.module.declared[line] = None
+
+    def wrong(self, node: Any, words: str) -> NotSo:
+        where = self.function.__code__.co_filename, node.lineno, node.col_offset + 1, ast.unparse(node)
+        return NotSo(words, where)
+
+    # ---- kinds
+    def common(self, one: Kind, other: Kind) -> Kind:
+        if one == other:
+            return one
+        if one.is_pointer and other.is_pointer:
+            return other if one == NONE or one.of == "Any" else one
+        if one.kind == other.kind == "tuple" and len(one.items) == len(other.items):
+            return Kind("tuple", "", tuple(map(self.common, one.items, other.items)))
+        if {one.kind, other.kind} <= {"int", "float", "bool"}:
+            return FLOAT if FLOAT in (one, other) else INT
+        raise TypeError(f"{one} and {other} in one place")
+
+    def cast(self, value: Value, kind: Kind) -> str:
+        text, found = value
+        if found == kind or (found.is_pointer and kind.is_pointer):
+            return text
+        if kind == FLOAT and found in (INT, BOOL):
+            if text.lstrip("-").isdigit():
+                return _float(float(text))
+            return self.op(f"{'si' if found == INT else 'ui'}tofp {found.llvm} {text} to double")
+        if kind == INT and found == BOOL:
+            return {"true": "1", "false": "0"}.get(text) or self.op(f"zext i1 {text} to i64")
+        if kind == INT and found == FLOAT:
+            return self.op(f"fptosi double {text} to i64")
+        if kind == BOOL:
+            return self.truth(value)
+        if kind.kind == found.kind == "tuple":
+            return self._tuple([(self.cast(v, k), k) for v, k in zip(self.items(value), kind.items)])[0]
+        raise TypeError(f"{found} is no {kind}")
+
+    def truth(self, value: Value) -> str:
+        text, kind = value
+        if kind == BOOL:
+            return text
+        if kind == NONE:
+            return "false"
+        if kind == FLOAT:
+            return self.op(f"fcmp une double {text}, 0.0")
+        if kind.kind == "list":
+            text, kind = BUILTINS[len](self, value)
+        return self.op(f"icmp ne {kind.llvm} {text}, {_zero(kind)}")
+
+    def items(self, value: Value) -> list[Value]:
+        text, kind = value
+        return [(self.op(f"extractvalue {kind.llvm} {text}, {i}"), one) for i, one in enumerate(kind.items)]
+
+    def _tuple(self, values: list[Value]) -> Value:
+        kind, made = Kind("tuple", "", tuple(one[1] for one in values)), "undef"
+        for i, (text, item) in enumerate(values):
+            made = self.op(f"insertvalue {kind.llvm} {made}, {item.llvm} {text}, {i}")
+        return made, kind
+
+    # ---- statements
+    def body(self, statements: list[ast.stmt]) -> None:
+        for node in statements:
+            if not self.open:
+                return
+            try:
+                getattr(self, "on_" + type(node).__name__, self._unknown)(node)
+            except (TypeError, KeyError, AttributeError, ValueError) as error:
+                raise self.wrong(node, f"{type(error).__name__}: {error}") from error
+
+    def _unknown(self, node: Any) -> Any:
+        raise self.wrong(node, f"no {type(node).__name__} in a step")
+
+    def _assign(self, name: str, value: Value) -> None:
+        before = self.names.get(name)
+        kind = value[1] if before is None else self.common(before, value[1])
+        self.names[name] = kind
+        if before not in (None, kind):
+            raise _Widened
+        self.put(f"store {kind.llvm} {self.cast(value, kind)}, ptr %v.{name}")
+
+    def on_Pass(self, node: ast.Pass) -> None:
+        pass
+
+    def on_Expr(self, node: ast.Expr) -> None:
+        if not isinstance(node.value, ast.Constant):
+            self.value(node.value, False)
+
+    def on_Assign(self, node: ast.Assign) -> None:
+        target, given = node.targets[0], node.value
+        if isinstance(target, ast.Tuple) and isinstance(given, ast.Tuple):
+            values = [self.value(one) for one in given.elts]
+            for one, value in zip(target.elts, values, strict=True):
+                self.store(one, value)
+            return
+        value = self.value(given)
+        for one in node.targets:
+            self.store(one, value)
+
+    def on_AnnAssign(self, node: ast.AnnAssign) -> None:
+        assert node.value is not None
+        self.store(node.target, self.value(node.value))
+
+    def on_AugAssign(self, node: ast.AugAssign) -> None:
+        before = self.value(_loaded(node.target))
+        self.store(node.target, self.binary(type(node.op), before, self.value(node.value), node))
+
+    def store(self, target: ast.expr, value: Value) -> None:
+        if isinstance(target, ast.Name):
+            self._assign(target.id, value)
+        elif isinstance(target, ast.Tuple):
+            for one, item in zip(target.elts, self.items(value), strict=True):
+                self.store(one, item)
+        else:
+            at, kind = self.place(target)
+            self.put(f"store {kind.llvm} {self.cast(value, kind)}, ptr {at}")
+
+    def place(self, node: Any) -> Value:
+        """Where a field or an item is, and its kind."""
+        of, kind = self.value(node.value)
+        if isinstance(node, ast.Attribute):
+            field = LAYOUTS[kind.of].fields[node.attr]
+            return self.op(f"getelementptr inbounds i8, ptr {of}, i64 {field.at}"), field_kind(field)
+        index = self.cast(self.value(node.slice), INT)
+        if kind.kind == "list":
+            data, first = self.op(f"load ptr, ptr {of}"), self.op(f"getelementptr inbounds i64, ptr {of}, i64 1")
+            of = self.op(f"getelementptr i64, ptr {data}, i64 {self.op(f'load i64, ptr {first}')}")
+        elif kind.kind != "array":
+            raise TypeError(f"{kind} has no items")
+        return self.op(f"getelementptr inbounds i64, ptr {of}, i64 {index}"), kind.item
+
+    def on_Delete(self, node: ast.Delete) -> None:
+        of = node.targets[0]
+        if len(node.targets) > 1 or not isinstance(of, ast.Subscript):
+            raise self.wrong(node, "'del' takes one item out of a list in a step")
+        self.machine("drop_at", [self.value(of.value), self.value(of.slice)])
+
+    def on_Return(self, node: ast.Return) -> None:
+        value = ("null", NONE) if node.value is None else self.value(node.value)
+        if self.answer is None:
+            wider = value[1] if self.widest is None else self.common(self.widest, value[1])
+            before, self.widest = self.widest, wider
+            if before not in (None, wider):
+                raise _Widened
+        wanted = self.answer or self.widest
+        assert wanted is not None
+        self.end("ret void" if wanted == NONE else f"ret {wanted.llvm} {self.cast(value, wanted)}")
+
+    def on_Raise(self, node: ast.Raise) -> None:
+        said = node.exc
+        kind = self.static(said.func if isinstance(said, ast.Call) else said)
+        words = said.args[0].value if isinstance(said, ast.Call) else ""  # type: ignore[attr-defined]
+        self.fail(kind, words)
+        self.open = False
+
+    def fail(self, kind: Any, words: str) -> None:
+        number = self.module.errors.setdefault((kind, words), len(self.module.errors))
+        self.put(f"call void @fail(i64 {number})\nunreachable")
+
+    def on_If(self, node: ast.If) -> None:
+        yes, no, after = self.label(), self.label(), self.label()
+        self.jump(node.test, yes, no)
+        self.begin(yes)
+        self.body(node.body)
+        self.go(after)
+        self.begin(no)
+        self.body(node.orelse)
+        self.go(after)
+        self.begin(after)
+
+    def on_While(self, node: ast.While) -> None:
+        if node.orelse:
+            self._unknown(node)
+        again, inside, after = self.label(), self.label(), self.label()
+        self.begin(again)
+        self.jump(node.test, inside, after)
+        self._loop(node.body, inside, again, after)
+
+    def _loop(self, body: list[ast.stmt], inside: str, again: str, after: str) -> None:
+        self.begin(inside)
+        self.loops.append((again, after))
+        self.body(body)
+        self.loops.pop()
+        self.go(again)
+        self.begin(after)
+
+    def on_Break(self, node: ast.Break) -> None:
+        self.go(self.loops[-1][1])
+
+    def on_Continue(self, node: ast.Continue) -> None:
+        self.go(self.loops[-1][0])
+
+    def on_For(self, node: ast.For) -> None:
+        if node.orelse or not isinstance(node.target, ast.Name):
+            raise self.wrong(node, "'for' takes the items of one list, each by a name, and has no 'else' in a step")
+        counted = isinstance(node.iter, ast.Call) and isinstance(node.iter.func, ast.Name) and node.iter.func.id == "range"
+        if counted:
+            given = [self.cast(self.value(one), INT) for one in node.iter.args]  # type: ignore[attr-defined]
+            first, last, by = {1: ["0", *given, "1"], 2: [*given, "1"], 3: given}[len(given)]
+        else:
+            items = self.value(node.iter)
+            if items[1].kind != "list":
+                raise TypeError("'for' goes through a list")
+            first, last, by = "0", "", "1"
+        self.n += 1
+        counter = f".{self.n}"
+        self._assign(counter, (first, INT))
+        top, inside, again, after = (self.label() for _ in range(4))
+        self.begin(top)
+        at = self.op(f"load i64, ptr %v.{counter}")
+        goes = last or BUILTINS[len](self, items)[0]
+        goes_on = self.op(f"icmp {'sgt' if by.startswith('-') else 'slt'} i64 {at}, {goes}")
+        self.end(f"br i1 {goes_on}, label %{inside}, label %{after}")
+        self.begin(inside)
+        if counted:
+            self._assign(node.target.id, (at, INT))
+        else:
+            self._assign(node.target.id, self.item(items, at))
+        self.loops.append((again, after))
+        self.body(node.body)
+        self.loops.pop()
+        self.begin(again)
+        following = self.op(f"add i64 {self.op(f'load i64, ptr %v.{counter}')}, {by}")
+        self.put(f"store i64 {following}, ptr %v.{counter}")
+        self.go(top)
+        self.begin(after)
+
+    def item(self, items: Value, at: str) -> Value:
+        of, kind = items
+        data, first = self.op(f"load ptr, ptr {of}"), self.op(f"getelementptr inbounds i64, ptr {of}, i64 1")
+        of = self.op(f"getelementptr i64, ptr {data}, i64 {self.op(f'load i64, ptr {first}')}")
+        return self.load(self.op(f"getelementptr inbounds i64, ptr {of}, i64 {at}"), kind.item)
+
+    def load(self, at: str, kind: Kind) -> Value:
+        return (at if kind.kind == "list" else self.op(f"load {kind.llvm}, ptr {at}")), kind
+
+    # ---- conditions
+    def jump(self, node: ast.expr, yes: str, no: str) -> None:
+        """Go one way or the other."""
+        if isinstance(node, ast.BoolOp):
+            both = isinstance(node.op, ast.And)
+            for one in node.values[:-1]:
+                more = self.label()
+                self.jump(one, *((more, no) if both else (yes, more)))
+                self.begin(more)
+            self.jump(node.values[-1], yes, no)
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+            self.jump(node.operand, no, yes)
+        else:
+            self.end(f"br i1 {self.truth(self.value(node))}, label %{yes}, label %{no}")
+
+    def either(self, test: Callable[[str, str], None], parts: tuple[Callable[[], Value], Callable[[], Value]]) -> Value:
+        """The one value or the other."""
+        labels, after = (self.label(), self.label()), self.label()
+        test(*labels)
+        ends = []
+        for label, part in zip(labels, parts):
+            self.begin(label)
+            value = part()
+            ends.append((value, self.at, len(self.lines)))
+            self.open = False
+        (one, _, first), (other, _, _) = ends
+        kind = self.common(one[1], other[1])
+        found = [self.cast(other, kind)]
+        ends[1] = other, self.at, 0
+        self.put(f"br label %{after}")
+        rest, self.lines = self.lines[first:], self.lines[:first]
+        found.insert(0, self.cast(one, kind))
+        self.put(f"br label %{after}")
+        self.lines += [*rest, f"{after}:"]
+        self.at, self.open = after, True
+        ways = ", ".join(f"[ {text}, %{at} ]" for text, (_, at, _) in zip(found, ends))
+        return self.op(f"phi {kind.llvm} {ways}"), kind
+
+    # ---- values
+    def value(self, node: ast.expr, wanted: bool = True) -> Value:
+        if isinstance(node, ast.Call):
+            return self.call(node, wanted)
+        return getattr(self, "of_" + type(node).__name__, self._unknown)(node)
+
+    def of_Constant(self, node: ast.Constant) -> Value:
+        return self.constant(node.value)
+
+    def constant(self, value: Any) -> Value:
+        if isinstance(value, bool):
+            return str(value).lower(), BOOL
+        if isinstance(value, int):
+            return str(int(value)), INT
+        if isinstance(value, float):
+            return _float(value), FLOAT
+        if isinstance(value, tuple):
+            return self._tuple([self.constant(one) for one in value])
+        if value is None:
+            return "null", NONE
+        raise TypeError(f"{value!r} is no value of a step")
+
+    def of_Name(self, node: ast.Name) -> Value:
+        if node.id in self.names:
+            kind = self.names[node.id]
+            return self.op(f"load {kind.llvm}, ptr %v.{node.id}"), kind
+        return self.constant(self.known[node.id])
+
+    def static(self, node: Any) -> Any:
+        """What a name stands for when this is compiled; NotImplemented: nothing that is known then."""
+        if isinstance(node, ast.Name) and node.id not in self.names:
+            return self.known[node.id]
+        if isinstance(node, ast.Attribute):
+            of = self.static(node.value)
+            return getattr(of, node.attr) if isinstance(of, (ModuleType, type)) else NotImplemented
+        return NotImplemented
+
+    def of_Attribute(self, node: ast.Attribute) -> Value:
+        known = self.static(node)
+        return self.constant(known) if known is not NotImplemented else self.load(*self.place(node))
+
+    def of_Subscript(self, node: ast.Subscript) -> Value:
+        if isinstance(node.slice, ast.Constant):
+            of = self.value(node.value)
+            if of[1].kind == "tuple":
+                return self.items(of)[node.slice.value]
+        return self.load(*self.place(node))
+
+    def of_Tuple(self, node: ast.Tuple) -> Value:
+        values: list[Value] = []
+        for one in node.elts:
+            values += self.items(self.value(one.value)) if isinstance(one, ast.Starred) else [self.value(one)]
+        return self._tuple(values)
+
+    def of_IfExp(self, node: ast.IfExp) -> Value:
+        parts = (lambda: self.value(node.body)), (lambda: self.value(node.orelse))
+        return self.either(lambda yes, no: self.jump(node.test, yes, no), parts)
+
+    def of_BoolOp(self, node: ast.BoolOp) -> Value:
+        first = self.value(node.values[0])
+        rest = node.values[1:]
+        more: Any = rest[0] if len(rest) == 1 else ast.BoolOp(node.op, rest)
+
+        def test(yes: str, no: str) -> None:
+            self.end(f"br i1 {self.truth(first)}, label %{yes}, label %{no}")
+
+        parts = (lambda: self.value(more)), (lambda: first)
+        if isinstance(node.op, ast.Or):
+            return self.either(test, parts[::-1])
+        return self.either(test, parts)
+
+    def of_UnaryOp(self, node: ast.UnaryOp) -> Value:
+        value = self.value(node.operand)
+        if isinstance(node.op, ast.Not):
+            return self.op(f"xor i1 {self.truth(value)}, true"), BOOL
+        if isinstance(node.op, ast.Invert):
+            return self.op(f"xor i64 {self.cast(value, INT)}, -1"), INT
+        if value[1] == FLOAT:
+            return self.op(f"fneg double {value[0]}"), FLOAT
+        text = self.cast(value, INT)
+        return (f"-{text}" if text.isdigit() else self.op(f"sub i64 0, {text}")), INT
+
+    def of_BinOp(self, node: ast.BinOp) -> Value:
+        return self.binary(type(node.op), self.value(node.left), self.value(node.right), node)
+
+    def binary(self, sign: Any, left: Value, right: Value, node: Any) -> Value:
+        kind = FLOAT if sign is ast.Div else self.common(left[1], right[1])
+        kind = INT if kind == BOOL else kind
+        if sign is ast.Pow:
+            return self._power(left, right)
+        a, b = self.cast(left, kind), self.cast(right, kind)
+        if sign in (ast.Div, ast.FloorDiv, ast.Mod):
+            self._not_zero(b, kind)
+        if sign in (ast.FloorDiv, ast.Mod):
+            name = f"{'floor_of' if sign is ast.FloorDiv else 'rest_of'}_{kind.kind}s"
+            return self.machine(name, [(a, kind), (b, kind)])
+        word = _WORDS[sign]
+        if kind == FLOAT:
+            return self.op(f"f{word} double {a}, {b}"), FLOAT
+        return self.op(f"{word} i64 {a}, {b}"), INT
+
+    def _not_zero(self, text: str, kind: Kind) -> None:
+        if text.lstrip("-").isdigit() or text.startswith("0x"):
+            return
+        bad, fine = self.label(), self.label()
+        zero = self.op(f"fcmp oeq double {text}, 0.0" if kind == FLOAT else f"icmp eq i64 {text}, 0")
+        self.end(f"br i1 {zero}, label %{bad}, label %{fine}")
+        self.begin(bad)
+        self.fail(ZeroDivisionError, "division by zero")
+        self.open = False
+        self.begin(fine)
+
+    def _power(self, left: Value, right: Value) -> Value:
+        """Of a whole number that is known: a product, as numba has it."""
+        if right[1] == INT and right[0].isdigit() and int(right[0]) in (2, 3):
+            square = self.binary(ast.Mult, left, left, None)
+            return square if right[0] == "2" else self.binary(ast.Mult, square, left, None)
+        return POWER(self, left, right)
+
+    def of_Compare(self, node: ast.Compare) -> Value:
+        left = self.value(node.left)
+        found: list[str] = []
+        for sign, one in zip(node.ops, node.comparators):
+            if isinstance(sign, (ast.In, ast.NotIn)):
+                found.append(self._in(left, one, isinstance(sign, ast.NotIn)))
+                continue
+            right = self.value(one)
+            found.append(self.compare(_SIGNS[type(sign)], left, right))
+            left = right
+        text = found[0]
+        for more in found[1:]:  # NOTE: all are looked at, which nobody can tell
+            text = self.op(f"and i1 {text}, {more}")
+        return text, BOOL
+
+    def compare(self, sign: str, left: Value, right: Value) -> str:
+        kind = self.common(left[1], right[1])
+        if kind.kind == "tuple":
+            return self._compare_tuples(sign, self.items(left), self.items(right))
+        a, b = self.cast(left, kind), self.cast(right, kind)
+        if kind == FLOAT:
+            return self.op(f"fcmp {'une' if sign == 'ne' else 'o' + sign} double {a}, {b}")
+        word = sign if sign in ("eq", "ne") else "s" + sign
+        return self.op(f"icmp {word} {kind.llvm} {a}, {b}")
+
+    def _compare_tuples(self, sign: str, left: list[Value], right: list[Value]) -> str:
+        """By the first items that differ."""
+        last = self.compare(sign, left[-1], right[-1])
+        for one, other in reversed(list(zip(left[:-1], right[:-1]))):
+            same = self.compare("eq", one, other)
+            first = {"eq": "false", "ne": "true"}.get(sign) or self.compare(sign[0] + "t", one, other)
+            last = self.op(f"select i1 {same}, i1 {last}, i1 {first}")
+        return last
+
+    def _in(self, value: Value, node: ast.expr, is_not: bool) -> str:
+        known = self.static(node)
+        if isinstance(node, ast.Tuple) or isinstance(known, tuple):
+            ones = [self.value(one) for one in node.elts] if isinstance(node, ast.Tuple) else map(self.constant, known)
+            text = "false"
+            for one in ones:
+                text = self.op(f"or i1 {text}, {self.compare('eq', value, one)}")
+        else:
+            text = self.machine("has", [self.value(node), value])[0]
+        return self.op(f"xor i1 {text}, true") if is_not else text
+
+    # ---- calls
+    def machine(self, name: str, values: list[Value]) -> Value:
+        """A function of ``lists``, which every step knows."""
+        from opsim.engine.fast_engine.machine import lists
+
+        return self.called(getattr(lists, name), values)
+
+    def call(self, node: ast.Call, wanted: bool) -> Value:
+        given: list[Value] = []
+        known = self.static(node.func)
+        if known is NotImplemented:
+            assert isinstance(node.func, ast.Attribute), "a call of what is not known"
+            return self._method(node, node.func, wanted)
+        for one in node.args:
+            given += self.items(self.value(one.value)) if isinstance(one, ast.Starred) else [self.value(one)]
+        return self.called(known, given, {one.arg: self.value(one.value) for one in node.keywords})
+
+    def called(self, known: Any, given: list[Value], named: dict[Any, Value] | None = None) -> Value:
+        if isinstance(known, Intrinsic):
+            return known.emit(self, *given)  # type: ignore[return-value]
+        if (emit := BUILTINS.get(known)) is not None:
+            return emit(self, *given)
+        one = self.module.step_of(known)
+        if one is not None:
+            return self._invoke(one.symbol, one.answer, [(self.cast(v, k), k) for v, k in zip(given, one.kinds, strict=True)])
+        function, always = (known.function, known.always) if isinstance(known, Helper) else (known, False)
+        names = [parameter.arg for parameter in syntax_of(function).args.args]
+        given += [named[name] for name in names[len(given) :] if named and name in named]
+        values = []
+        for number, value in enumerate(given):
+            said = said_kind(function.__annotations__.get(names[number], "Any")) if number < len(names) else None
+            kind = said if said is not None and names[number] != "self" else value[1]
+            values.append((self.cast(value, kind), kind))
+        name, answer = self.module.helper(function, always, tuple(kind for _, kind in values))
+        return self._invoke(name, answer, values)
+
+    def _invoke(self, name: str, answer: Kind, values: list[Value]) -> Value:
+        given = ", ".join(f"{kind.llvm} {text}" for text, kind in values)
+        if answer == NONE:
+            self.put(f"call void {name}({given})")
+            return "null", NONE
+        return self.op(f"call {answer.llvm} {name}({given})"), answer
+
+    def _method(self, node: ast.Call, func: ast.Attribute, wanted: bool) -> Value:
+        if func.attr == "line" or func.attr.endswith("_line"):
+            line = self.cast(self.value(func), INT)
+            values = [self.value(one) for one in node.args]
+            table = self.op(f"load ptr, ptr {values[0][0]}")
+            function = self.op(f"load ptr, ptr {self.op(f'getelementptr ptr, ptr {table}, i64 {line}')}")
+            values = [(self.cast(one, INT), INT) if one[1] == BOOL else one for one in values]
+            return self._invoke(function, INT if wanted else NONE, values)
+        of, given = self.value(func.value), [self.value(one) for one in node.args]
+        if of[1].kind != "list":
+            return self.called(METHODS[of[1].of, func.attr], [of, *given])
+        if func.attr == "pop":
+            return self.machine("pop_first" if given else "pop_last", [of])
+        floor = [self.value(ast.Name("floor", ast.Load()))] if func.attr in ("append", "insert") else []
+        return self.machine({"append": "push"}.get(func.attr, func.attr), [*floor, of, *given])
 
 
-def options(**more: bool) -> dict[str, Any]:
-    """As ``numba.njit`` gives them to a function that Python does not call."""
-    said = {"nopython": True, "nogil": True, "boundscheck": None}
-    return {**said, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, **more}
+_WORDS = {
+    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.BitAnd: "and", ast.BitOr: "or",
+    ast.BitXor: "xor", ast.LShift: "shl", ast.RShift: "ashr",
+}  # fmt: skip
+_SIGNS = {
+    ast.Eq: "eq", ast.Is: "eq", ast.NotEq: "ne", ast.IsNot: "ne", ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt",
+    ast.GtE: "ge",
+}  # fmt: skip
 
 
-def helper(**more: bool) -> Callable[[Callable], Any]:
-    """What makes of a function one that is compiled into each that calls it."""
-
-    def made(function: Callable) -> Any:
-        return Helper(py_func=function, locals={}, targetoptions=options(**more), pipeline_class=HelperCompiler)
-
-    return made
+def _loaded(node: Any) -> ast.expr:
+    """A target as a value."""
+    made = type(node)(**{name: getattr(node, name) for name in node._fields})
+    made.ctx = ast.Load()
+    return ast.copy_location(made, node)
 
 
-def compiled_step(signature: Any, function: Callable) -> Code:
-    """The machine code of a function compiled for one signature.
-
-    Raises LookupError where it refers to something of this process: such code cannot be kept.
-    """
-    made = Helper(py_func=function, locals={}, targetoptions=options(), pipeline_class=StepCompiler)
-    made.compile(signature)
-    return _code(made.overloads[tuple(signature.args)])
+def _zero(kind: Kind) -> str:
+    if kind.kind == "tuple":
+        return "zeroinitializer"
+    return {"int": "0", "float": "0.0", "bool": "false"}.get(kind.kind, "null")
 
 
-def _code(result: Any) -> Code:
-    """Machine code that refers to nothing of this process but functions known by their names."""
-    library, name = result.library, result.fndesc.llvm_func_name
-    module = library._final_module
-    outside = [one.name for one in (*module.functions, *module.global_variables) if one.is_declaration]
-    environments = [one.name for one in module.global_variables if one.name.startswith(ENVIRONMENT)]
-    known = [found for name in environments if (found := lookup_environment(name)) is not None]
-    if library.has_dynamic_globals or any(one.consts for one in known):
-        raise LookupError(f"{name} refers to objects of Python")
-    return Code(name, tuple(one for one in outside if not one.startswith("llvm.")), library.machine_code)
+def _float(value: float) -> str:
+    return f"0x{int.from_bytes(struct.pack('>d', value), 'big'):016X}"

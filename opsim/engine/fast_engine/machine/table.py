@@ -1,144 +1,181 @@
-"""The table of addresses: steps are compiled, or their machine code is found on disk, when a floor needs them first."""
+"""The table of addresses: all steps are compiled together, or found on disk, when a floor needs them first.
+
+Machine code is one object file for each stamp of the sources, Python, llvmlite and processor. It is written beside and
+then moved to its name, so that a reader finds it whole or not at all, and two processes may write the same one.
+"""
 
 from __future__ import annotations
 
-import gc
+import ctypes
+import json
+import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
-from functools import partial
-from importlib import import_module
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
 from pathlib import Path
 from threading import RLock
+from typing import Any
+from uuid import uuid4
 
+import llvmlite
+import llvmlite.binding as llvm
 import numpy as np
 
-from opsim.engine.fast_engine.machine.code_cache import can_link, folder, is_kept, keep, link, path_of, read, used
-from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Job, Told, Work, by_numba, compiled, helped
-from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
+from opsim.engine.fast_engine.machine.steps import LINES, STEPS, step_of
 
+ENGINE = Path(__file__).parents[1]
+OPSIM = ENGINE.parents[1]
+COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
+SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "layout", "log", "streams", "threads"))
+"""Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
 TABLE = np.zeros(LINES, dtype=np.int64)
-FIRST = ("opsim.engine.fast_engine.settle",)
-"""Files whose steps take longest to compile: nobody is left waiting for them at the end."""
-_ALIVE: list[object] = []
+MOST_KEPT = 6
+"""Object files. Those not used for longest are removed when another one is written."""
+LEVEL = int(os.environ.get("TRIAL_LEVEL", "2"))
+THRESHOLD = int(os.environ.get("TRIAL_THRESHOLD", "225"))
 _LOCK = RLock()
+FAILURES: list[tuple[str, str]] = []
+"""Exceptions that compiled code raises, by their numbers: the name of the class, and what it says."""
+ENTRY = """
+@jump = global [64 x i64] zeroinitializer, align 16
+@failed = global i64 0
+declare i32 @_setjmp(ptr) returns_twice
+declare void @longjmp(ptr, i32) noreturn
+define void @fail(i64 %number) noreturn noinline cold {
+ store i64 %number, ptr @failed
+ call void @longjmp(ptr @jump, i32 1)
+ unreachable
+}
+define i64 @enter(ptr %function, ptr %answer, ptr %floor, i64 %given) {
+ %again = call i32 @_setjmp(ptr @jump) returns_twice
+ %first = icmp eq i32 %again, 0
+ br i1 %first, label %go, label %raised
+go:
+ %found = call i64 %function(ptr %floor, i64 %given)
+ store i64 %found, ptr %answer
+ ret i64 -1
+raised:
+ %number = load i64, ptr @failed
+ ret i64 %number
+}
+"""
+"""NOTE: what is raised goes back to where compiled code was entered, past all functions between."""
 
 
-def complete(
-    steps: Iterable[Step],
-    told: Told | None = None,
-    more: Iterable[Callable[[], object]] = (),
-    only_here: Iterable[Callable[[], object]] = (),
-) -> None:
-    """Have every one of some steps in the table; ``told(done, total)`` of those that have to be compiled.
-
-    more : functions of modules that compile something else, to disk, and are called here or in another process
-    only_here : what no other process knows of, and is called in this one, first
-    """
+def complete(told: Callable[[int, int], None] | None = None) -> None:
+    """Have every step in the table; ``told(done, total)`` where they have to be compiled."""
     with _LOCK:
-        new = _linked(sorted((one for one in steps if not TABLE[one.line]), key=_place_in_order))
-        jobs = [*(Job("", one) for one in only_here), *(Job(_name(one), partial(_put, one)) for one in new)]
-        jobs += [Job(f"{one.__module__}:{one.__qualname__}", one) for one in more]
-        if jobs:
-            shared = len(jobs) >= WORTH_HELP and folder() is not None
-            work = Work(jobs)
-            with no_garbage_looked_for(), helped(work, ["-m", __name__]) if shared else nullcontext():
-                _work_off(work, len(jobs), told)
-            for one in _linked([one for one in new if not TABLE[one.line]]):
-                _put(one)  # was done elsewhere, and could not be kept
+        if FAILURES:
+            return
+        from opsim.engine.fast_engine import lowering
+
+        lowering.know_all()
+        lines = sorted(STEPS)
+        if (found := _read()) is None:
+            if told is not None:
+                told(0, len(lines))
+            found = compiled(lines)
+            _keep(*found)
+            if told is not None:
+                told(len(lines), len(lines))
+        _link(lines, *found)
 
 
-def _place_in_order(one: Step) -> tuple[bool, str, int]:
-    """File by file."""
-    return one.function.__module__ not in FIRST, one.function.__module__, one.line
+def is_ready() -> bool:
+    """Whether all is compiled, here or on disk."""
+    return bool(FAILURES) or (path := path_of()) is not None and path.is_file()
 
 
-def _name(one: Step) -> str:
-    return f"{one.function.__module__}:{one.line}"
+def compiled(lines: list[int]) -> tuple[list[tuple[str, str]], bytes]:
+    """What it may raise, and an object file."""
+    from opsim.engine.fast_engine.machine.compiler import Module
+
+    made = Module(STEPS, step_of)
+    text = made.whole(STEPS[line] for line in lines)
+    addresses = ", ".join(f"ptr {STEPS[line].symbol}" for line in lines)
+    module = llvm.parse_assembly(f"{ENTRY}@addresses = constant [{len(lines)} x ptr] [{addresses}]\n{text}")
+    module.verify()
+    machine = _machine()
+    options = llvm.create_pipeline_tuning_options(speed_level=LEVEL)
+    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
+    options.inlining_threshold = THRESHOLD
+    builder = llvm.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(module, builder)
+    return [(kind.__name__, words) for kind, words in made.errors], machine.emit_object(module)
 
 
-def _work_off(work: Work, total: int, told: Told | None) -> None:
-    told = told or (lambda _done, _total: None)
-    while (job := work.first()) is not None:
-        told(total - work.n_open - 1, total)
-        job.here()
-    told(total, total)
+@cache
+def _machine() -> Any:
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    target = llvm.Target.from_triple(llvm.get_process_triple())
+    features = llvm.get_host_cpu_features().flatten()
+    return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=min(LEVEL, 2), jit=True)
 
 
-@contextmanager
-def no_garbage_looked_for() -> Iterator[None]:
-    """While it is compiled all is kept by somebody: to look through it again and again took a tenth of the time."""
-    before = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if before:
-            gc.enable()
+@cache
+def _linker() -> Any:
+    """NOTE: what it has linked lives as long as the process, as the table leads to it."""
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
 
 
-def _linked(lacking: Sequence[Step]) -> list[Step]:
-    """Put into the table what is kept on disk, all at once. What is left."""
-    found = {one: code for one in lacking if (code := read(_path(one))) is not None and can_link(code)}
-    if found:
-        used(_path(lacking[0]))
-        for one, at in zip(found, link(found.values()), strict=True):
-            TABLE[one.line] = at
-    return [one for one in lacking if one not in found]
+def _link(lines: list[int], failures: list[tuple[str, str]], code: bytes) -> None:
+    linker = _linker()
+    linker.add_object_file(llvm.ObjectFileRef.from_data(code))
+    linker.finalize_object()
+    found: Any = (ctypes.c_int64 * len(lines)).from_address(linker.get_global_value_address("addresses"))
+    TABLE[lines] = np.frombuffer(found, np.int64)
+    FAILURES[:] = [tuple(one) for one in failures] or [("", "")]
 
 
-def _put(one: Step) -> None:
-    """Have a step in the table: from disk, where another process has compiled it meanwhile."""
-    if _linked([one]):
-        TABLE[one.line] = _made(one)
+def entry() -> int:
+    """The address of what enters compiled code."""
+    return int(_linker().get_function_address("enter"))
 
 
-def _made(one: Step) -> int:
-    """Compile a step, and keep it. Its address."""
-    made = compiled(one.signature, one.function)
-    if made.code is not None and not can_link(made.code):
-        made = by_numba(one.signature, one.function)
-    if made.code is None:
-        _ALIVE.append(made.alive)
-        return made.at
-    keep(_path(one), made.code)
-    return link([made.code])[0]
+def sources() -> list[Path]:
+    """The files that count."""
+    return sorted([*(path for folder in COMPILED_TOO for path in folder.rglob("*.py")), *SINGLE])
 
 
-def _path(one: Step) -> Path | None:
-    return path_of(one.function, one.line)
+@cache
+def _key() -> str:
+    told = [f"{path.relative_to(OPSIM)} {blake2b(path.read_bytes()).hexdigest()}" for path in sources()]
+    processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
+    versions = sys.implementation.cache_tag, sys.version, llvmlite.__version__, THRESHOLD
+    return blake2b(repr((told, processor, versions, LEVEL)).encode(), digest_size=8).hexdigest()
 
 
-def lacking(steps: Iterable[Step]) -> Iterator[Step]:
-    """Those of some steps that would have to be compiled."""
-    return (one for one in steps if not (TABLE[one.line] or is_on_disk(one)))
+@cache
+def path_of() -> Path | None:
+    """Where the machine code of these sources is, or will be; None: nothing can be written there."""
+    where = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent / "__pycache__")
+    with suppress(OSError):
+        where.mkdir(parents=True, exist_ok=True)
+        return where / f"steps-{_key()}.o"
+    return None
 
 
-def is_on_disk(one: Step) -> bool:
-    """Whether the machine code of a step is kept."""
-    return is_kept(_path(one))
+def _read() -> tuple[list[tuple[str, str]], bytes] | None:
+    with suppress(OSError, ValueError, TypeError):
+        data = path_of().read_bytes()  # type: ignore[union-attr]
+        digest, head, code = data[:16], *data[16:].split(b"\n", 1)
+        if digest == blake2b(data[16:], digest_size=16).digest():
+            return json.loads(head), code
+    return None
 
 
-def help_out(names: Iterable[str]) -> None:
-    """In another process: do each job that is named, to disk, and say so by a line."""
-    print(flush=True)
-    with no_garbage_looked_for():
-        for name in names:
-            do_elsewhere(name.strip())
-            print(flush=True)
-
-
-def do_elsewhere(name: str) -> None:
-    """A step ``module:line`` that is not on disk yet, or a function ``module:name``."""
-    module, _, what = name.rpartition(":")
-    found = import_module(module)
-    if not what.isdigit():
-        getattr(found, what)()
-    elif not is_on_disk(one := STEPS[int(what)]):
-        made = compiled(one.signature, one.function)
-        if made.code is not None and can_link(made.code):
-            keep(_path(one), made.code)
-
-
-if __name__ == "__main__":
-    help_out(sys.stdin)
+def _keep(failures: list[tuple[str, str]], code: bytes) -> None:
+    path = path_of()
+    if path is None:
+        return
+    told = json.dumps(failures).encode() + b"\n" + code
+    beside = path.with_name(f"{path.name}.{uuid4().hex[:12]}")
+    with suppress(OSError):
+        beside.write_bytes(blake2b(told, digest_size=16).digest() + told)
+        os.replace(beside, path)
+        others = sorted(path.parent.glob("steps-*.o"), key=lambda one: one.stat().st_mtime)
+        for one in others[:-MOST_KEPT]:
+            one.unlink()
