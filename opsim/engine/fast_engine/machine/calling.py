@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 from opsim.engine.fast_engine.machine.steps import step_of
 from opsim.engine.fast_engine.machine.table import FAILURES, TABLE, entry
 
-FINE = -1
 _POINTER, _NUMBER = ctypes.c_void_p, ctypes.c_int64
 
 
@@ -29,8 +28,8 @@ def caller(call: Any) -> Callable[..., int]:
     def called(floor: int, given: int = 0) -> int:
         answer = _NUMBER(0)
         state = made(entry())(int(TABLE[line]), ctypes.byref(answer), floor, given)
-        if state != FINE:
-            name, words = FAILURES[state]
+        if state:
+            name, words = FAILURES[state - 1]
             raise getattr(builtins, name)(*([words] if words else []))
         return answer.value
 

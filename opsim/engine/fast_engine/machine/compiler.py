@@ -8,10 +8,11 @@ given, as formulas are.
 from __future__ import annotations
 
 import ast
+import os
 import builtins
 import struct
 from collections import ChainMap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -33,15 +34,16 @@ class _Widened(Exception):
 
 
 class Helper:
-    """A small function that is compiled into each step that calls it; ``always``: however long it is."""
+    """A function that is compiled into those that call it where it is small; ``how`` : LLVM's word where it differs."""
 
-    def __init__(self, function: Callable, *, always: bool = False):
-        self.function, self.always = function, always
+    def __init__(self, function: Callable, how: str = ""):
+        self.function, self.how = function, how
 
     def __call__(self, *given: Any) -> Any:
         return self.function(*given)
 
 
+HOT = frozenset(os.environ.get("TRIAL_HOT", "").split())
 METHODS: dict[tuple[str, str], Any] = {}
 """What a formula calls of ``self``, by the struct that stands for it and the name."""
 
@@ -66,31 +68,45 @@ class Module:
         self.texts: list[str] = []
         self.declared: dict[str, None] = {}
         self.errors: dict[tuple[Any, str], int] = {}
-        self._helpers: dict[Any, tuple[str, Kind]] = {}
+        self._helpers: dict[Any, Body] = {}
 
-    def whole(self, roots: Iterator[Any]) -> str:
+    def whole(self, roots: Iterable[Any]) -> str:
+        """NOTE: every step can fail, as who calls by the table does not know which of them it is."""
         for one in roots:
-            self.texts.append(Body(self, one.function, one.kinds, one.answer, one.symbol, "").text())
+            self.texts.append(
+                Body(
+                    self, one.function, one.kinds, one.answer, one.symbol, os.environ.get("TRIAL_STEP", ""), fails=True
+                ).text()
+            )
         return "\n".join([*self.declared, *self.texts])
 
-    def helper(self, function: Any, always: bool, kinds: tuple[Kind, ...]) -> tuple[str, Kind]:
-        """Its name, and what it answers, for some kinds of arguments."""
-        key = function, kinds, always
+    def helper(self, function: Any, how: str, kinds: tuple[Kind, ...]) -> Body:
+        """A function for some kinds of arguments."""
+        key = function, kinds, how
         if key not in self._helpers:
             name = f'@"{function.__qualname__}.{len(self._helpers)}"'
             answer = said_kind(function.__annotations__.get("return", "Any"))
-            body = Body(self, function, kinds, answer, name, "alwaysinline" if always else "internal")
-            self.texts.append(body.text())
-            assert body.answer is not None
-            self._helpers[key] = name, body.answer
+            self._helpers[key] = made = Body(self, function, kinds, answer, name, f"internal {how}")
+            self.texts.append(made.text())
         return self._helpers[key]
 
 
 class Body:
     """Of one function for some kinds of arguments; ``answer``: None where it is to be found."""
 
-    def __init__(self, module: Module, function: Any, kinds: Any, answer: Kind | None, name: str, how: str):
+    def __init__(
+        self,
+        module: Module,
+        function: Any,
+        kinds: Any,
+        answer: Kind | None,
+        name: str,
+        how: str,
+        *,
+        fails: bool = False,
+    ):
         self.module, self.function, self.kinds, self.name, self.how = module, function, kinds, name, how
+        self.fails = fails
         self.answer, self.node = answer, syntax_of(function)
         self.names: dict[str, Kind] = {}
         self.widest: Kind | None = answer
@@ -105,7 +121,8 @@ class Body:
                 continue
 
     def _text(self) -> str:
-        self.n, self.lines, self.loops, self.at, self.open = 0, list[str](), list[tuple[str, str]](), "entry", True
+        self.passes_on = False
+        self.n, self.lines, self.loops, self.at, self.open = 0, list[Any](), list[tuple[str, str]](), "entry", True
         given = self.node.args
         names = [one.arg for one in given.args]
         for number, (name, kind) in enumerate(zip(names, self.kinds)):
@@ -118,15 +135,36 @@ class Body:
         self.body(self.node.body)
         answer = self.answer or self.widest or NONE
         if self.open:
-            self.end("ret void" if answer == NONE else f"ret {answer.llvm} {_zero(answer)}")
-        if self.answer is None:
-            self.answer = answer
+            self.give("0" if answer == NONE else _zero(answer))
+        if self.passes_on:
+            self.put("failed:")
+            self.give_up(self.op("load i64, ptr %state"))
+        self.answer = answer
         kinds = ", ".join(f"{kind.llvm} %a{number}" for number, kind in enumerate(self.kinds))
         slots = [f"%v.{name} = alloca {kind.llvm}" for name, kind in self.names.items()]
-        linkage, how = ("internal ", self.how.replace("internal", "")) if self.how else ("", "")
-        kind = "void" if answer == NONE else answer.llvm
-        lines = ["entry:", *slots, *self.lines]
-        return f"define {linkage}{kind} {self.name}({kinds}) nounwind {how} {{\n" + "\n".join(lines) + "\n}\n"
+        slots += ["%state = alloca i64"] if self.passes_on else []
+        linkage, _, how = self.how.partition(" ")
+        lines = [one if isinstance(one, str) else self._ended(number, *one) for number, one in enumerate(self.lines)]
+        head = f"define {linkage} {self.returned} {self.name}({kinds}) nounwind {how} {{"
+        return "\n".join([head, "entry:", *slots, *lines, "}", ""])
+
+    @property
+    def returned(self) -> str:
+        """LLVM's word for what is answered: where it may fail, with 0 for fine, or the number of the failure and 1."""
+        assert self.answer is not None
+        if not self.fails:
+            return "void" if self.answer == NONE else self.answer.llvm
+        return f"{{{'i64' if self.answer == NONE else self.answer.llvm}, i64}}"
+
+    def _ended(self, number: int, at: int, text: str) -> str:
+        """The end of it: with an answer (at 0), or a failure (at 1)."""
+        assert self.answer is not None
+        if not self.fails:
+            return "ret void" if self.answer == NONE else f"ret {self.answer.llvm} {text}"
+        kind = "i64" if self.answer == NONE else self.answer.llvm
+        empty = f"{{{kind}, i64}} {{{kind} poison, i64 0}}"
+        given = f"i64 {text}" if at else f"{kind} {text}"
+        return f"%r{number} = insertvalue {empty}, {given}, {at}\nret {self.returned} %r{number}"
 
     # ---- what is put down
     def put(self, line: str) -> None:
@@ -144,6 +182,14 @@ class Body:
     def end(self, line: str) -> None:
         self.put(line)
         self.open = False
+
+    def give(self, text: str) -> None:
+        self.lines.append((0, text))
+        self.open = False
+
+    def give_up(self, text: str) -> None:
+        self.lines.append((1, text))
+        self.open, self.fails = False, True
 
     def go(self, label: str) -> None:
         if self.open:
@@ -299,18 +345,17 @@ class Body:
                 raise _Widened
         wanted = self.answer or self.widest
         assert wanted is not None
-        self.end("ret void" if wanted == NONE else f"ret {wanted.llvm} {self.cast(value, wanted)}")
+        self.give("0" if wanted == NONE else self.cast(value, wanted))
 
     def on_Raise(self, node: ast.Raise) -> None:
         said = node.exc
         kind = self.static(said.func if isinstance(said, ast.Call) else said)
         words = said.args[0].value if isinstance(said, ast.Call) else ""  # type: ignore[attr-defined]
         self.fail(kind, words)
-        self.open = False
 
     def fail(self, kind: Any, words: str) -> None:
         number = self.module.errors.setdefault((kind, words), len(self.module.errors))
-        self.put(f"call void @fail(i64 {number})\nunreachable")
+        self.give_up(str(number + 1))
 
     def on_If(self, node: ast.If) -> None:
         yes, no, after = self.label(), self.label(), self.label()
@@ -348,7 +393,9 @@ class Body:
     def on_For(self, node: ast.For) -> None:
         if node.orelse or not isinstance(node.target, ast.Name):
             raise self.wrong(node, "'for' takes the items of one list, each by a name, and has no 'else' in a step")
-        counted = isinstance(node.iter, ast.Call) and isinstance(node.iter.func, ast.Name) and node.iter.func.id == "range"
+        counted = (
+            isinstance(node.iter, ast.Call) and isinstance(node.iter.func, ast.Name) and node.iter.func.id == "range"
+        )
         if counted:
             given = [self.cast(self.value(one), INT) for one in node.iter.args]  # type: ignore[attr-defined]
             first, last, by = {1: ["0", *given, "1"], 2: [*given, "1"], 3: given}[len(given)]
@@ -533,10 +580,9 @@ class Body:
             return
         bad, fine = self.label(), self.label()
         zero = self.op(f"fcmp oeq double {text}, 0.0" if kind == FLOAT else f"icmp eq i64 {text}, 0")
-        self.end(f"br i1 {zero}, label %{bad}, label %{fine}")
+        self.end(f"br i1 {zero}, label %{bad}, label %{fine}, !prof !0")
         self.begin(bad)
         self.fail(ZeroDivisionError, "division by zero")
-        self.open = False
         self.begin(fine)
 
     def _power(self, left: Value, right: Value) -> Value:
@@ -615,8 +661,11 @@ class Body:
             return emit(self, *given)
         one = self.module.step_of(known)
         if one is not None:
-            return self._invoke(one.symbol, one.answer, [(self.cast(v, k), k) for v, k in zip(given, one.kinds, strict=True)])
-        function, always = (known.function, known.always) if isinstance(known, Helper) else (known, False)
+            return self._invoke(
+                one.symbol, one.answer, [(self.cast(v, k), k) for v, k in zip(given, one.kinds, strict=True)]
+            )
+        function, how = (known.function, known.how) if isinstance(known, Helper) else (known, "")
+        how = how or ("inlinehint" if function.__name__ in HOT else "")
         names = [parameter.arg for parameter in syntax_of(function).args.args]
         given += [named[name] for name in names[len(given) :] if named and name in named]
         values = []
@@ -624,15 +673,25 @@ class Body:
             said = said_kind(function.__annotations__.get(names[number], "Any")) if number < len(names) else None
             kind = said if said is not None and names[number] != "self" else value[1]
             values.append((self.cast(value, kind), kind))
-        name, answer = self.module.helper(function, always, tuple(kind for _, kind in values))
-        return self._invoke(name, answer, values)
+        made = self.module.helper(function, how, tuple(kind for _, kind in values))
+        assert made.answer is not None
+        return self._invoke(made.name, made.answer, values, fails=made.fails)
 
-    def _invoke(self, name: str, answer: Kind, values: list[Value]) -> Value:
+    def _invoke(self, name: str, answer: Kind, values: list[Value], *, fails: bool = True) -> Value:
         given = ", ".join(f"{kind.llvm} {text}" for text, kind in values)
-        if answer == NONE:
+        if not fails and answer == NONE:
             self.put(f"call void {name}({given})")
             return "null", NONE
-        return self.op(f"call {answer.llvm} {name}({given})"), answer
+        if not fails:
+            return self.op(f"call {answer.llvm} {name}({given})"), answer
+        kind = f"{{{'i64' if answer == NONE else answer.llvm}, i64}}"
+        both, fine = self.op(f"call {kind} {name}({given})"), self.label()
+        state = self.op(f"extractvalue {kind} {both}, 1")
+        self.put(f"store i64 {state}, ptr %state")
+        self.passes_on = self.fails = True
+        self.end(f"br i1 {self.op(f'icmp ne i64 {state}, 0')}, label %failed, label %{fine}, !prof !0")
+        self.begin(fine)
+        return ("null" if answer == NONE else self.op(f"extractvalue {kind} {both}, 0")), answer
 
     def _method(self, node: ast.Call, func: ast.Attribute, wanted: bool) -> Value:
         if func.attr == "line" or func.attr.endswith("_line"):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from collections.abc import Callable
 from math import copysign, fmod
 
 from opsim.engine.fast_engine.machine.compiler import Helper
@@ -23,9 +24,15 @@ from opsim.engine.fast_engine.machine.intrinsics import (
     word,
     words_at,
 )
-from opsim.engine.fast_engine.machine.structs import Array, size_of, struct
+from opsim.engine.fast_engine.machine.structs import Array, List, size_of, struct
 
 inlined = Helper
+
+
+def apart(function: Callable) -> Any:
+    """A helper that is called, as it is seldom needed."""
+    return Helper(function, "noinline cold")
+
 
 SMALL, CLASSES = 128, 192
 """Sizes below SMALL x 16 bytes have a list of their own of what was given back; larger ones one for each power of 2,
@@ -145,8 +152,8 @@ DATA, FIRST, N, ROOM = range(4)
 """The words of a list. NOTE: its items lie from the FIRST on, so that taking the first one moves nothing."""
 
 
-@inlined
-def _make_room(floor: Any, items: Any) -> None:
+@apart
+def _make_room(floor: Any, items: List[Any]) -> None:
     """Room for one more behind the last: by moving up to the beginning, or in twice as much memory."""
     data, first, n = word(items, DATA), word(items, FIRST), word(items, N)
     room: int = word(items, ROOM)

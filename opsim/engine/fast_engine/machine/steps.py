@@ -87,5 +87,5 @@ def line_of(call: Any) -> int:
 
 def here(call: F) -> F:
     """The function of a step, to be compiled into the step that calls it: faster, where that happens all the time."""
-    made: Any = Helper(step_of(call).function, always=True)
+    made: Any = Helper(step_of(call).function, "alwaysinline")
     return made
