@@ -177,7 +177,7 @@ def dispatch(floor: Floor) -> None:
     for _ in range(MOST_ROUNDS):
         if floor.stirred:
             _admit(floor)
-        if floor.saturated:
+        if floor.saturated and not floor.entries_full:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)
