@@ -141,7 +141,7 @@ if hasattr(os, "register_at_fork"):
 @contextmanager
 def without_collecting() -> Iterator[None]:
     """Around what reads or plans: to look for cycles meanwhile costs a fifth of the time, and more in a process that
-    holds much else.
+    holds much else. What was made inside counts as old afterwards, so that not all of it is looked through at once.
     """
     was_on = gc.isenabled()
     gc.disable()
@@ -149,4 +149,7 @@ def without_collecting() -> Iterator[None]:
         yield
     finally:
         if was_on:
+            if gc.get_freeze_count() == 0:  # else somebody keeps things apart, as processes of a pool do
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()
