@@ -19,7 +19,7 @@ from opsim.engine.floor.machine import step, struct
 from opsim.engine.floor.state import Job, Station
 from opsim.engine.floor.station import begin_setup
 from opsim.kpi.catalogue import LESS, STATIONS, Figure, Kpi, figure
-from opsim.log import BLOCKED, HELD, SETUP, WORK, EventLog
+from opsim.log import HELD, PICKUP, SETUP, WORK, EventLog
 from opsim.plan import Plan, Ranks
 from opsim.plugins import Subject
 from opsim.scenario.fields import Seconds
@@ -69,7 +69,7 @@ def tasks(said: Said) -> dict[str, dict[str, Any]]:
     return {task_name(one): {"fixed": f"{one.for_s!r} s", "automatic": True} for one in said.values()}
 
 
-def plan(said: Said, _scenario: Any, ranks: Ranks) -> tuple[CoolingPlan, ...]:
+def plan_cooling(said: Said, _scenario: Any, ranks: Ranks) -> tuple[CoolingPlan, ...]:
     """By rank of the station, so that the order in the file decides nothing."""
     made = (
         CoolingPlan(ranks.stations[n], ranks.tasks[task_name(one)], one.after_s, one.for_s) for n, one in said.items()
@@ -132,28 +132,28 @@ def install(build: Any, part: tuple[CoolingPlan, ...]) -> None:
 
 
 # ------------------------------------------------------------------------------------------------------- laws, figures
-def cooled(log: EventLog, _plan: Plan, part: tuple[CoolingPlan, ...]) -> Iterator[str]:
+def cooled(log: EventLog, plan: Plan, part: tuple[CoolingPlan, ...]) -> Iterator[str]:
     """Who takes the server of a station that was idle for too long has its cool-down first, and nobody else has one."""
     for one in part:
         idle_since_s = 0.0
-        for job, rows in _stays(log, one.station):
+        for job, rows in _operations(log, one.station):
             kind, begin_s, end_s = log["kind"][rows], log["start_s"][rows], log["end_s"][rows]
             cooling = (kind == SETUP) & (log["task"][rows] == one.task)
-            cooled_s, works = float((end_s - begin_s)[cooling].sum()), np.flatnonzero(kind == WORK)
+            cooled_s = float((end_s - begin_s)[cooling].sum())
             asked_s = one.for_s if begin_s[0] - idle_since_s > one.after_s else 0.0
-            if works.size and abs(cooled_s - asked_s) > 1e-5:
+            if WORK in kind and abs(cooled_s - asked_s) > 1e-5:
                 yield (
-                    f"job {job} at {_plan.stations[one.station].name}: a cool-down of {cooled_s:g} s at "
+                    f"job {job} at {plan.stations[one.station].name}: a cool-down of {cooled_s:g} s at "
                     f"{begin_s[0]:g} s, expected {asked_s:g} s as the station was idle since {idle_since_s:g} s"
                 )
-            idle_since_s = float(end_s[works[-1]] if works.size else end_s[-1])
+            idle_since_s = float(end_s[-1])
 
 
-def _stays(log: EventLog, station: int) -> Iterator[tuple[int, np.ndarray]]:
-    """(job, numbers of its rows) of each time that a job had the one server of a station, in time."""
-    rows = np.flatnonzero(
-        (log["station"] == station) & np.isin(log["kind"], (WORK, SETUP, HELD, BLOCKED)) & (log["job"] >= 0)
-    )
+def _operations(log: EventLog, station: int) -> Iterator[tuple[int, np.ndarray]]:
+    """(job, numbers of its rows) from each taking of the one server to the end of the operation there, in time."""
+    kind, waits_to_leave = log["kind"], log["cause"] == PICKUP
+    mine = (log["station"] == station) & (log["job"] >= 0) & np.isin(kind, (WORK, SETUP, HELD)) & ~waits_to_leave
+    rows = np.flatnonzero(mine)
     rows = rows[np.argsort(log["start_s"][rows], kind="stable")]
     job, begin_s, end_s = log["job"][rows], log["start_s"][rows], log["end_s"][rows]
     cuts = np.flatnonzero((job[1:] != job[:-1]) | (begin_s[1:] != end_s[:-1])) + 1
@@ -184,7 +184,7 @@ COOLING = Subject(
     example="{after: 10 min, for: 90 s}",
     mistakes=mistakes,
     tasks=tasks,
-    plan=plan,
+    plan=plan_cooling,
     install=install,
     laws={"a station that was idle for too long cools down before its next operation": cooled},
     kpis=(Kpi("cool_downs_per_h", "Cool-downs of the station", "1/h", LESS, STATIONS, of="station"),),
