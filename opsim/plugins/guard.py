@@ -256,7 +256,8 @@ def guarded_subject(found: Found, subject: Any) -> Subject:
         for name in ("plan", "install", "mistakes", "tasks", "figures", "assumptions")
     }
     laws = {sentence: _owned(found, "failed in a law", law) for sentence, law in subject.laws.items()}
-    return replace(subject, laws=laws, **own)
+    sections = tuple(_owned(found, "failed in a section of the report", make) for make in subject.sections)
+    return replace(subject, laws=laws, sections=sections, **own)
 
 
 def _owned(found: Found, doing: str, function: Callable) -> Callable:

@@ -39,6 +39,7 @@ class Subject:
     kpis     : the figures that it has, as the catalogue declares them
     figures  : (log, plan, what the plan keeps) -> their values, see ``opsim.kpi.catalogue.figure``
     assumptions : (plan, what the plan keeps) -> (topic, what is assumed), lines of the assumption sheet
+    sections : each (``Material`` of the report, what the plan keeps) -> ``opsim.report.page.Section``, or None
     """
 
     words: type[Any]
@@ -53,6 +54,7 @@ class Subject:
     kpis: tuple[Kpi, ...] = ()
     figures: Callable[[Any, Any, Any], Iterable[Figure]] = nothing
     assumptions: Callable[[Any, Any], Iterable[tuple[str, str]]] = nothing
+    sections: tuple[Callable[[Any, Any], Any], ...] = ()
 
 
 @cache

@@ -17,7 +17,7 @@ from opsim.kpi.catalogue import CATALOGUE
 from opsim.laws import CHECKS, BrokenLog, audit
 from opsim.log import SETUP, WORK
 from opsim.plugins import PluginError
-from opsim.plugins.subjects import installed
+from opsim.plugins.subjects import installed, subjects_of
 from opsim.scenario.json_schema import json_schema
 from opsim.scenario.schema.subjects import scenario_model
 from opsim.study.assumptions.sheet import assumptions_of, task_sources
@@ -289,6 +289,7 @@ def test_rows_are_the_same_from_one_process_or_two_whole_or_resumed(cooling, tmp
     assert before.items() <= rows(tmp_path / "one" / "base").items()
     assert rows(tmp_path / "on") == rows(tmp_path / "one") == rows(tmp_path / "two")
     assert "Cool-downs of the station" in said["one"]
+    assert '<section id="cooling"' in (tmp_path / "one" / "base" / "report.html").read_text()
 
 
 # ------------------------------------------------------------------------------------------------------ somebody else's
@@ -327,6 +328,10 @@ FAULTS = {
     "plan": ({"more": "mistakes=lambda said, scenario: 1 / 0"}, "failed in mistakes: ZeroDivisionError"),
     "install": ({"install": "1 / 0"}, "failed in install: ZeroDivisionError"),
     "step": ({"step": "1 / 0"}, "failed on the floor: ZeroDivisionError"),
+    "section": (
+        {"more": "sections=(lambda material, part: 1 / 0,)"},
+        "failed in a section of the report: ZeroDivisionError",
+    ),
     "law": (
         {"more": 'laws={"no": lambda log, plan, part: (1 / 0 for _ in "a")}'},
         "failed in a law: ZeroDivisionError",
@@ -339,7 +344,9 @@ def test_a_subject_that_is_wrong_is_named_with_its_distribution(changed, said, c
     counting(**changed)
     key = changed.get("key", "counting")
     with pytest.raises(PluginError) as caught:
-        ran(COUNTED.replace("counting", key))
+        log, made = ran(COUNTED.replace("counting", key))
+        for subject, part in subjects_of(made):
+            [make(log, part) for make in subject.sections]
     assert said in str(caught.value)
     assert str(caught.value).startswith(f"plug-in {key!r} of their-part 2.1: ")
     assert f"entry point opsim.subjects: {key} = " in str(caught.value)

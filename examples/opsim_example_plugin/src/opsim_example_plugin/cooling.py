@@ -178,6 +178,20 @@ def assumptions(plan: Plan, part: tuple[CoolingPlan, ...]) -> Iterator[tuple[str
         )
 
 
+def cooling_section(material: Any, part: tuple[CoolingPlan, ...]) -> Any:
+    """A table of the report: when each station cooled down in the first replication, of which rows are kept."""
+    from opsim.report.page import Grid, Section
+
+    log, plan = material.log, material.plan
+    if log is None:
+        return None
+    rows = [(one, np.flatnonzero((log["station"] == one.station) & (log["task"] == one.task))) for one in part]
+    times = [(plan.stations[one.station].name, log["start_s"][some]) for one, some in rows]
+    cells = [(name, str(at_s.size), f"{at_s[0]:.0f} s" if at_s.size else "never") for name, at_s in times]
+    table = Grid(("Station", "Cool-downs", "First at"), cells, "Cool-downs of the first replication")
+    return Section("cooling", "Cool-downs", [table], nav="Cool-downs")
+
+
 COOLING = Subject(
     words=Cooling,
     help="what idling costs: a time that passes on the server before the next job is begun; absent: nothing",
@@ -190,4 +204,5 @@ COOLING = Subject(
     kpis=(Kpi("cool_downs_per_h", "Cool-downs of the station", "1/h", LESS, STATIONS, of="station"),),
     figures=cool_downs,
     assumptions=assumptions,
+    sections=(cooling_section,),
 )
