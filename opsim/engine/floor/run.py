@@ -19,6 +19,7 @@ from opsim.engine.floor.event_list import awaited_event
 from opsim.engine.floor.settle import close, happen, settle, start
 from opsim.log import EventLog, LogWriter, names_of
 from opsim.plan import Plan
+from opsim.plugins.subjects import steps_blamed
 from opsim.threads import one_blas_thread
 
 AFTER_EVERYTHING = 2
@@ -153,7 +154,8 @@ def run_plan(plan: Plan, replication: int = 0, *, processes: bool = False) -> Ev
         try:
             env = simpy.Environment()
             one.open(env, replication, processes=processes)
-            run_until(env, plan.horizon_s)
+            with steps_blamed(plan):
+                run_until(env, plan.horizon_s)
             return one.close(replication)
         finally:
             one.running = False
