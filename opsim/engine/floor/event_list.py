@@ -37,6 +37,7 @@ class Coming(Event):
 
     __slots__ = ("_defused", "callbacks")
     _ok, _value = True, None
+    callbacks: Any
 
 
 def new_event(_floor: Any) -> Coming:

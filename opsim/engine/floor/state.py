@@ -41,7 +41,8 @@ class Station:
     switched : told when the station closes (True) or opens
     clear   : told of each finished job that has to go on, which may leave its server; put_away : those that have
 
-    has_seated : whether seated jobs are known; is_entry : whether a saturated source is kept from it; luck, next_k : by task, of automatic runs
+    has_seated : whether seated jobs are known; is_entry : whether a saturated source is kept from it
+    luck, next_k : by task, of automatic runs
     """
 
     rank: int
