@@ -130,7 +130,6 @@ AT = "tasks: [glue], "
 TWO = ("route: [press]}}", "route: [press], share: 0.5}, big: {route: [press], share: 0.5, priority: 2}}")
 BY_HAND = [(", automatic: true", ""), ("release:", "workers: {ana: {skills: {press: 1.1}}}\nrelease:")]
 TROUBLES = {
-    "another job takes its server": [(AT, AT + "preempt: restart, "), TWO],
     "it breaks down": [(AT, AT + f"breakdowns: {{{JAM.format(every='5 min', fate='by: clock, job: scrap')}}}, ")],
     "it begins anew": [(AT, AT + f"breakdowns: {{{JAM.format(every='60 s', fate='by: busy, job: restart')}}}, ")],
     "it is set up": [(AT, AT + "setup: {otherwise: 20 s, attended: false}, "), TWO],
@@ -203,6 +202,7 @@ WRONG = {
     "missing": ([(", for: 90 s", "")], ["press.cooling: 'for' is missing", "add e.g. 'for: 90 s'"]),
     "no block": ([(COOLING, "cooling: 3 min")], ["expected a block of keys, found '3 min'", "such as {after:"]),
     "servers": ([("at: hall", "at: hall, servers: 2")], ["press.cooling: cooling is of one server, found 2"]),
+    "preemption": ([("at: hall", "at: hall, preempt: resume")], ["one job after another: no batches, preemption"]),
     "figure": ([("cool_downs_per_h", "cool_down_per_h")], ["unknown output", "did you mean 'cool_downs_per_h'?"]),
     "two at once": (
         [("after: 300 s", "after: 300 kg"), ("products:", "product:")],

@@ -43,8 +43,8 @@ def mistakes(said: Said, scenario: Any) -> Iterator[tuple[tuple[str, ...], str, 
         station, path = scenario.stations[name], ("stations", name, "cooling")
         if station.servers > 1:
             yield path, f"cooling is of one server, found {station.servers}", "make a station of each server"
-        if station.batch is not None or name in on_lines:
-            yield path, "cooling is of a station that serves one job after another, not of batches and lines", ""
+        if station.batch is not None or station.preempt is not None or name in on_lines:
+            yield path, "cooling is of a station that serves one job after another: no batches, preemption, lines", ""
         if not station.tasks:
             yield path, "nothing is done at this station", "name what is done there in 'tasks'"
 
@@ -82,7 +82,6 @@ def plan_cooling(said: Said, _scenario: Any, ranks: Ranks) -> tuple[CoolingPlan,
 class CoolingStation:
     """job : 1 + the number of the one whose operation is under way or prepared, else 0; idle_since_s : where it is 0"""
 
-    station: Station
     task: int
     after_s: float
     job: int
@@ -111,8 +110,8 @@ def operation_ends(floor: Floor, cooling: CoolingStation, job: Job) -> bool:
 
 
 @step
-def server_lost(floor: Floor, cooling: CoolingStation, job: Job, station: Station) -> None:
-    """A job is scrapped in the middle of its operation, or another one takes its server."""
+def left(floor: Floor, cooling: CoolingStation, job: Job, station: Station) -> None:
+    """A job that is scrapped in the middle of its operation leaves, too."""
     operation_ends(floor, cooling, job)
 
 
@@ -123,30 +122,31 @@ FIRST = -20
 def install(build: Any, part: tuple[CoolingPlan, ...]) -> None:
     """Hangs in at the stations that cool down."""
     for one in part:
-        cooling = build.arena.new("CoolingStation")
-        cooling.station, cooling.task, cooling.after_s = build.stations[one.station], one.task, one.after_s
-        build.hang(cooling.station.stages, cool_down, cooling, FIRST)
-        build.hang(cooling.station.afters, operation_ends, cooling, FIRST)
-        build.hang(build.floor.left_station, server_lost, cooling)
-        build.hang(build.floor.lost_server, server_lost, cooling)
+        station, cooling = build.stations[one.station], build.arena.new("CoolingStation")
+        cooling.task, cooling.after_s = one.task, one.after_s
+        build.hang(station.stages, cool_down, cooling, FIRST)
+        build.hang(station.afters, operation_ends, cooling, FIRST)
+        build.hang(build.floor.left_station, left, cooling)
 
 
 # ------------------------------------------------------------------------------------------------------- laws, figures
 def cooled(log: EventLog, plan: Plan, part: tuple[CoolingPlan, ...]) -> Iterator[str]:
     """Who takes the server of a station that was idle for too long has its cool-down first, and nobody else has one."""
     for one in part:
-        idle_since_s = 0.0
+        worked_s = left_s = 0.0  # the end of the last work, and of the last operation, which may wait for somebody
         for job, rows in _operations(log, one.station):
             kind, begin_s, end_s = log["kind"][rows], log["start_s"][rows], log["end_s"][rows]
             cooling = (kind == SETUP) & (log["task"][rows] == one.task)
             cooled_s = float((end_s - begin_s)[cooling].sum())
-            asked_s = one.for_s if begin_s[0] - idle_since_s > one.after_s else 0.0
-            if WORK in kind and abs(cooled_s - asked_s) > 1e-5:
+            lacks = begin_s[0] - left_s > one.after_s and WORK in kind and cooled_s < one.for_s - 1e-5
+            if lacks or (begin_s[0] - worked_s <= one.after_s and cooled_s > 0):
                 yield (
                     f"job {job} at {plan.stations[one.station].name}: a cool-down of {cooled_s:g} s at "
-                    f"{begin_s[0]:g} s, expected {asked_s:g} s as the station was idle since {idle_since_s:g} s"
+                    f"{begin_s[0]:g} s, expected {one.for_s if lacks else 0:g} s as the station was idle "
+                    f"since {left_s if lacks else worked_s:g} s"
                 )
-            idle_since_s = float(end_s[-1])
+            left_s = float(end_s[-1])
+            worked_s = float(end_s[kind == WORK][-1]) if WORK in kind else left_s
 
 
 def _operations(log: EventLog, station: int) -> Iterator[tuple[int, np.ndarray]]:
