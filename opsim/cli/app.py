@@ -8,7 +8,6 @@ Tables for people and JSON for machines, both on stdout.
 from __future__ import annotations
 
 import atexit
-import gc
 import math
 import os
 import signal
@@ -22,6 +21,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import click
+
+from opsim.threads import freeze
 
 INTERRUPTED = 130
 EXTRAS = dict.fromkeys(("matplotlib", "PIL"), "'pip install opsim[matplotlib]'")
@@ -73,7 +74,7 @@ class Verbs(click.Group):
     def main(self, *args: Any, **kwargs: Any) -> NoReturn:
         """Run, and leave with 0, 2 for a user's mistake, 130 for Ctrl-C; a traceback means a bug of ours."""
         kwargs["standalone_mode"] = False
-        atexit.register(_leave_cycles)
+        atexit.register(freeze)
         try:
             code = super().main(*args, **kwargs)
         except click.ClickException as mistake:
@@ -91,13 +92,6 @@ class Verbs(click.Group):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             sys.exit(1)
         sys.exit(code if isinstance(code, int) else 0)
-
-
-def _leave_cycles() -> None:
-    """No search for garbage as the process ends: it takes a fifth of a check. DuckDB says on stderr what is not given
-    back, so where it is loaded all is."""
-    if "_duckdb" not in sys.modules:
-        gc.freeze()
 
 
 @contextmanager
