@@ -16,7 +16,8 @@ LONGEST_S = 2.0**33
 
 def on_grid(delay_s: float) -> float:
     """A delay rounded once to a multiple of 2^-20 s, at least one of them."""
-    return max(1, round(delay_s * TICKS_PER_S)) / TICKS_PER_S
+    n_ticks = round(delay_s * TICKS_PER_S)
+    return (n_ticks if n_ticks > 1 else 1) / TICKS_PER_S
 
 
 def ticks(times_s):

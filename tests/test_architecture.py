@@ -146,6 +146,8 @@ def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[st
     [
         ("import opsim", {"numpy", "simpy", "pydantic"}),
         ("import emulator", {"numpy", "numba"}),
+        ("import emulator.model.library", {"numba", "scipy"}),
+        ("import opsim.cli.check, opsim.cli.run, opsim.cli.study_options", {"numpy", "yaml", "pydantic", "rich"}),
         ("import opsim.scenario.read", {"numpy", "numba", "matplotlib", "emulator"}),
         (
             "import opsim.plan, opsim.tasks, opsim.scenario.warnings",

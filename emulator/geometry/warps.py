@@ -75,10 +75,24 @@ def from_clr(x: np.ndarray, n_times: int = 101) -> np.ndarray:
     through its control points: the slopes are those of ``clr`` a little smoothed. So a warp has three derivatives, and
     a posture under another's pace does not jerk where the cells meet.
     """
-    slope = np.exp(np.asarray(x, float) @ _spline_table(np.shape(x)[-1], n_times))
-    level = np.cumsum(slope, axis=-1)
-    whole = level / level[..., -1:]
-    return np.concatenate([np.zeros((*whole.shape[:-1], 1)), whole], axis=-1)
+    level = _levels(x, n_times)
+    level /= level[..., -1:].copy()
+    return level
+
+
+def from_clr_at(x: np.ndarray, n_times: int, at: np.ndarray) -> np.ndarray:
+    """``evaluate(from_clr(x, n_times), at)``, (..., S), where a few moments are asked: only they are made shares."""
+    level = _levels(x, n_times)
+    return np.asarray(evaluate(level, at) / level[..., -1:])
+
+
+def _levels(x: np.ndarray, n_times: int) -> np.ndarray:
+    """(..., T) running sums of slopes, from 0; a constant for each warp is left out."""
+    level = np.zeros((*np.shape(x)[:-1], n_times))
+    slope = np.matmul(np.asarray(x, float), _spline_table(np.shape(x)[-1], n_times))
+    np.exp(slope, out=slope)
+    np.cumsum(slope, axis=-1, out=level[..., 1:])
+    return level
 
 
 @lru_cache(maxsize=16)

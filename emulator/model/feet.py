@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from emulator.geometry.centre_of_mass import NEEDED, joint_masses
 from emulator.motion import Motion, stretches, turn
@@ -269,6 +268,8 @@ class Footing:
         cls, motions: Sequence[Motion], warps: np.ndarray, postures: np.ndarray, leg_m: np.ndarray
     ) -> Footing | None:
         """From motions on their feet, warps (N, T), posture coefficients (N, P), legs (N,); None without feet."""
+        from scipy.interpolate import CubicSpline
+
         legs = Legs.of(motions[0].skeleton)
         if legs is None:
             return None

@@ -141,7 +141,7 @@ class Law:
             z = self.noise.sample(n, rng)
             at = placed(self._edges, u) if given is None else chosen(self.weight_given(*given), u)
             z *= self.reach[at, None]  # NOTE: in place; a new array of all draws costs as much as drawing them
-        z += self._centres[at]
+        z += self.mean[at] if self.people is not None else self.mean[at] + self.centre  # people bring their own centre
         if self.people is not None:
             drawn = self.people.sample(n, rng)
             z += drawn if self.size is None else self.people.mean + self.size[at, None] * (drawn - self.people.mean)
@@ -151,11 +151,6 @@ class Law:
     def _edges(self) -> np.ndarray:
         """(M,) running sums of the weights."""
         return np.cumsum(self.weight)
-
-    @cached_property
-    def _centres(self) -> np.ndarray:
-        """(M, K) where the components lie; people bring their own centre."""
-        return self.mean if self.people is not None else self.mean + self.centre
 
     def weight_given(self, coordinate: int, value: np.ndarray) -> np.ndarray:
         """(n, M) weights of the components once a coordinate of z is known to be ``value`` (n,)."""

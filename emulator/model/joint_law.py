@@ -12,7 +12,7 @@ import numpy as np
 
 from emulator.fitting.report import FitReport
 from emulator.geometry.flattening import Flattening
-from emulator.geometry.warps import coordinates_to_clock, evaluate, from_clr
+from emulator.geometry.warps import coordinates_to_clock, evaluate, from_clr, from_clr_at
 from emulator.model.decoding import Decoder, RootChannel
 from emulator.model.dwell_times import GRID, NONE, WEIGHTS, Dwells
 from emulator.model.feet import Footing, Legs
@@ -84,7 +84,7 @@ class JointLaw:
     def mark_share(self, scores: np.ndarray) -> np.ndarray:
         """(n, E) the share of its own duration at which each mark of a performance falls."""
         clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        share = evaluate(self.warps(scores), clock)
+        share = from_clr_at(self._slopes(scores), self.n_times, clock)
         if len(self.dwells) == 0:
             return share
         moving_s, dwell_s = self.moving_s(scores)[:, None], self.dwell_s(scores)

@@ -64,9 +64,14 @@ class SmoothedScores:
 
     def anyone(self, mean: np.ndarray, like: int | None = None) -> Law:
         """The law of somebody never seen with this mean (K,): deviations like those of one worker, or of all."""
-        rows = np.arange(len(self.owner)) if like is None else self.rows_of(like)
-        weight = np.full(len(rows), 1.0 / len(rows))
-        return Law(weight, self.deviations[rows], self.reach[rows], self.noise, mean)
+        weight, deviations, reach = self._components[-1 if like is None else like]
+        return Law(weight, deviations, reach, self.noise, mean)
+
+    @cached_property
+    def _components(self) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Weights, means and reaches of those that somebody like each worker has; last, of somebody like nobody."""
+        rows = [*map(self.rows_of, range(self.owner.max() + 1)), np.arange(len(self.owner))]
+        return [(np.full(len(one), 1.0 / len(one)), self.deviations[one], self.reach[one]) for one in rows]
 
     def population(self, people: LowRankNormal, own: np.ndarray, sizes: np.ndarray) -> Law:
         """The law of one performance of a new person each time: who he is like, of which size, and what he does.

@@ -111,7 +111,8 @@ class Workforce:
             return Law(np.ones(1), np.zeros((1, len(mean))), np.ones(1), self.within, mean, people)
         if effect is None or effect.name not in self.names:
             like = self.names.index(effect.like) if effect is not None and effect.like in self.names else None
-            return replace(self.smoothed.anyone(mean, like), people=people)
+            law = self.smoothed.anyone(mean, like)
+            return law if people is None else replace(law, people=people)
         number = self.names.index(effect.name)
         known = self._known_laws[number]
         moved = effect.z - self.effects[number]

@@ -7,6 +7,7 @@ Tables for people and JSON for machines, both on stdout.
 
 from __future__ import annotations
 
+import atexit
 import math
 import os
 import signal
@@ -20,6 +21,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import click
+
+from opsim.threads import freeze
 
 INTERRUPTED = 130
 EXTRAS = dict.fromkeys(("matplotlib", "PIL"), "'pip install opsim[matplotlib]'")
@@ -71,6 +74,7 @@ class Verbs(click.Group):
     def main(self, *args: Any, **kwargs: Any) -> NoReturn:
         """Run, and leave with 0, 2 for a user's mistake, 130 for Ctrl-C; a traceback means a bug of ours."""
         kwargs["standalone_mode"] = False
+        atexit.register(freeze)
         try:
             code = super().main(*args, **kwargs)
         except click.ClickException as mistake:

@@ -24,8 +24,9 @@ def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     shared; and its studies: each value that is varied is laid over the scenario once. Exit code 2 where something is
     wrong."""
     from opsim.cli.app import print_json
-    from opsim.threads import without_collecting
+    from opsim.threads import lean, without_collecting
 
+    lean()
     with mistakes(), without_collecting():
         loaded = _read(file, names)
         variants, warnings, without = _checked(loaded)

@@ -149,7 +149,7 @@ def run_variants(
     check : may raise ValueError of the variants as read; how : arguments of ``run_scenario``; engine : by its name
     """
     from opsim.cli.app import stops_once
-    from opsim.threads import lean
+    from opsim.threads import freeze, lean
 
     lean()
     with mistakes():
@@ -162,6 +162,7 @@ def run_variants(
         out.mkdir(parents=True, exist_ok=True)
         if not how.get("overwrite"):
             _refuse_other_runs(variants, out, how.get("seed"), _way_out(out, how))
+    freeze()
     said = set[str]() if len({one.words for one in engines.values()}) == 1 else None  # else each variant says its own
     with stops_once():
         return (

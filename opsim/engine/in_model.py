@@ -71,7 +71,7 @@ def happens_at(floor: Any, at_s: float, line: Callable[[Any, Any], None], rank: 
 
     event = new_event(floor)
     event.line, event.alive, event.kind, event.rank, event.number = line, 1, ARRIVAL, rank, number
-    event.callbacks.append(reported)
+    event.callbacks = (reported,)
     heappush(floor.env._queue, (at_s, 1, next(floor.env._eid), event))
 
 

@@ -168,7 +168,8 @@ DECLARED = (
 )
 """In the order in which they are listed."""
 CATALOGUE = {one.name: one for one in DECLARED}
-KPIS = tuple(CATALOGUE)
+KPIS = CATALOGUE.keys()
+"""Of ours, and of the subjects of somebody else that have been asked for (``opsim.plugins.subjects``)."""
 USUAL = tuple(one.name for one in DECLARED if one.usual)
 
 

@@ -133,7 +133,7 @@ def _subjects(plan: Plan) -> dict[str, Subjects]:
     stations = {rank: station.name for rank, station in enumerate(plan.stations) if station.tasks}
     products = {rank: product.name for rank, product in enumerate(plan.products)}
     nowhere = {NONE: "none"} if beside else {}
-    no_product = {NONE: "none"} if beside or plan.setups else {}
+    no_product = {NONE: "none"} if beside or plan.setups or plan.subjects else {}
     return {"station": stations | nowhere, "task": tasks | beside, "product": products | no_product}
 
 

@@ -77,7 +77,8 @@ def possible(plan: Plan) -> list[str]:
     """The states that workers of a plan can be in."""
     can_be = {
         "held": plan.when_blocked == "held" or any(product.carried for product in plan.products),
-        "setup": any(setup.attended for setup in plan.setups),
+        "setup": any(setup.attended for setup in plan.setups)
+        or not all(plan.tasks[task].automatic for _, task in plan.more_setups),
         "team": any(task.team > 1 for task in plan.tasks),
         "tool": any(task.hold is not None for task in plan.tasks),
         "behind": bool(plan.crews),
@@ -192,7 +193,7 @@ def possible_states(plan: Plan, rank: int) -> set[str]:
     """The states, beside those of every station, that one can be in."""
     place = plan.stations[rank]
     found = {
-        "setup": any(setup.station == rank for setup in plan.setups),
+        "setup": rank in (*(setup.station for setup in plan.setups), *(station for station, _ in plan.more_setups)),
         "down": bool(stops_of(plan, rank)),
         "parts": any(kit.station == rank for kit in plan.kits),
         "tool": bool(place.needs) or any(plan.tasks[task].needs or plan.tasks[task].hold for task in place.tasks),

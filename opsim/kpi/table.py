@@ -24,6 +24,7 @@ from opsim.kpi.throughput import (
 from opsim.kpi.workers import duty, fatigue, interruptions, learned, trips, walked
 from opsim.log import EventLog
 from opsim.plan import Plan
+from opsim.plugins.subjects import subjects_of
 
 _FUNCTIONS = (
     throughput,
@@ -69,6 +70,7 @@ def figures(log: EventLog, plan: Plan, asked: Iterable[str] = ()) -> list[Figure
     if not set(TRIPS).isdisjoint(asked):
         functions = (*functions, trips)
     found = [*(figure for function in functions for figure in function(log, plan)), *exposure(log, plan, wanted)]
+    found += [figure for subject, part in subjects_of(plan) for figure in subject.figures(log, plan, part)]
     return [figure._replace(value=float(figure.value)) for figure in found]
 
 

@@ -1,6 +1,7 @@
 """All laws of an event log: nothing lost, nobody in two places, no gap, nothing where there is no room for it."""
 
 from collections.abc import Callable, Iterator
+from itertools import chain
 
 from opsim.laws.capacity import away, outages, rooms, shared
 from opsim.laws.effects import pace, rests, shifts
@@ -8,6 +9,7 @@ from opsim.laws.hours import closed, duty
 from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
 from opsim.log import EventLog
 from opsim.plan import Plan
+from opsim.plugins.subjects import subjects_of
 
 Law = Callable[[EventLog, Plan, Stays], Iterator[str]]
 
@@ -37,9 +39,15 @@ class BrokenLog(AssertionError):
 
 
 def audit(log: EventLog, plan: Plan) -> tuple[str, ...]:
-    """Check a log against all laws and return ``CHECKS``. Raises BrokenLog, naming what is wrong."""
+    """Check a log against all laws and return ``checks_of(plan)``. Raises BrokenLog, naming what is wrong."""
     stays = Stays(log)
-    for law in LAWS.values():
-        for complaint in law(log, plan, stays):
-            raise BrokenLog(f"replication {log.replication}: {complaint}")
-    return CHECKS
+    ours = (law(log, plan, stays) for law in LAWS.values())
+    theirs = (law(log, plan, part) for subject, part in subjects_of(plan) for law in subject.laws.values())
+    for complaint in chain.from_iterable(chain(ours, theirs)):
+        raise BrokenLog(f"replication {log.replication}: {complaint}")
+    return checks_of(plan)
+
+
+def checks_of(plan: Plan) -> tuple[str, ...]:
+    """The sentences of all laws that a log of a plan is checked against."""
+    return (*CHECKS, *(sentence for subject, _ in subjects_of(plan) for sentence in subject.laws))

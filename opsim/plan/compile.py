@@ -21,6 +21,7 @@ from opsim.plan.sequence import has_priorities, looks_ahead, plan_queues, work_a
 from opsim.plan.sources import plan_sources
 from opsim.plan.stations import STORE, plan_conveyors, plan_stations
 from opsim.plan.stores import CardPlan, plan_assembly, plan_cards
+from opsim.plan.subjects import plan_subjects
 from opsim.plan.tasks import plan_ergonomics, plan_setups, plan_tasks, plan_tools, ranks_of
 from opsim.plan.workers import plan_human, plan_rotations, plan_walking, plan_workers
 
@@ -69,6 +70,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         queues=queues,
         routing=scenario.flow.routing,
         setups=plan_setups(scenario, ranks, tasks),
+        subjects=plan_subjects(scenario, ranks),
         ahead=work_ahead(stations, products, tasks, together) if looked_at else None,
         breakdowns=plan_breakdowns(scenario, ranks, model_of),
         maintenance=plan_maintenance(scenario, ranks),

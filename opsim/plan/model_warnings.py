@@ -50,6 +50,7 @@ def tasks_of(plan: Plan, worker: WorkerPlan) -> list[TaskPlan]:
     """The tasks a worker may be sent to, in natural order."""
     ranks = {task for station, rating in zip(plan.stations, worker.rating) if rating for task in station.tasks}
     ranks |= {task for one in plan.setups if worker.rating[one.station] for task in one.tasks_by_hand}
+    ranks |= {task for station, task in plan.more_setups if worker.rating[station]}
     return [plan.tasks[rank] for rank in sorted(ranks) if not plan.tasks[rank].automatic]
 
 

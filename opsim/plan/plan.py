@@ -16,6 +16,7 @@ from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
 from opsim.plan.sources import SourcePlan
 from opsim.plan.stations import ConveyorPlan, StationPlan
 from opsim.plan.stores import BatchPlan, CardPlan, KitPlan, SplitPlan, StorePlan
+from opsim.plan.subjects import SubjectPlan
 from opsim.plan.tasks import SetupPlan, TaskPlan, ToolPlan
 from opsim.plan.workers import NO_EFFECTS, HumanPlan, RotationPlan, WalkingPlan, WorkerPlan
 from opsim.problems import natural_key
@@ -41,6 +42,7 @@ class Plan:
     ergonomics : how postures are scored; human : what becomes of people as they work; posture : whether anybody looks
                  at postures at all
     start_s : when on the clock the run begins, seconds after Monday 00:00
+    subjects : of those that somebody else has installed
     workforce : the number that keys who the workers are, whatever ``staffing`` says: the outer index of a nested study
     """
 
@@ -89,11 +91,17 @@ class Plan:
     posture: bool = True
     start_s: float = 0.0
     workforce: int | None = None
+    subjects: tuple[SubjectPlan, ...] = ()
 
     @property
     def stops(self) -> tuple[BreakdownPlan | MaintenancePlan, ...]:
         """What stops stations: breakdowns, then maintenance; each in natural order of "station: stop"."""
         return (*self.breakdowns, *self.maintenance)
+
+    @property
+    def more_setups(self) -> list[tuple[int, int]]:
+        """(station, task) of what takes servers as set-ups do, for subjects that somebody else has installed."""
+        return [pair for subject in self.subjects for pair in subject.setups]
 
     @property
     def release(self) -> SourcePlan:

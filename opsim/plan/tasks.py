@@ -21,6 +21,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from opsim.ergonomics.options import Options, Thresholds
+from opsim.plan.subjects import subject_tasks
 from opsim.problems import natural_key
 from opsim.task_model import TaskModel
 from opsim.tasks.variability import switched
@@ -233,11 +234,12 @@ class SetupPlan:
 
 
 def setup_tasks(scenario: Scenario) -> dict:
-    """Tasks that a scenario does not name: of set-ups that are said as a time."""
+    """Tasks that a scenario does not name: of set-ups that are said as a time, and of subjects of somebody else."""
     from opsim.scenario.schema import Fixed
 
     said = [time for station in scenario.stations.values() for time in _said(station) if isinstance(time, float)]
-    return {setup_name(time_s): Fixed.model_validate({"fixed": f"{time_s!r} s"}) for time_s in said if time_s > 0}
+    made = {setup_name(time_s): Fixed.model_validate({"fixed": f"{time_s!r} s"}) for time_s in said if time_s > 0}
+    return {**made, **subject_tasks(scenario)}
 
 
 def setup_name(time_s: float) -> str:

@@ -8,6 +8,7 @@
 | ``opsim.routing`` | which of several stations it goes to, by ``flow.routing``: those in ``engine/rules.py`` |
 | ``opsim.rotation`` | who takes a post, by the ``rule`` of a rotation: as those in ``engine/rules.py`` |
 | ``opsim.stations`` | a callable that takes parameters by name and gives the block of a station as a scenario has it |
+| ``opsim.subjects`` | a subject of the floor, by its key in a scenario: a ``Subject`` (``opsim/plugins/subjects.py``) |
 | ``opsim.human`` | nothing yet; the name is kept free |
 
 Our own distributions and rules are registered in the same groups. A parameter whose name ends in ``_s``, ``_m``,
@@ -21,13 +22,23 @@ from typing import Any
 _HOMES = {
     "NoSuchPlugin": "opsim.plugins.guard",
     "PluginError": "opsim.plugins.guard",
+    "Subject": "opsim.plugins.subjects",
     "dispatch_rule": "opsim.plugins.registry",
     "plugin_model": "opsim.plugins.registry",
     "plugin_problems": "opsim.plugins.registry",
     "plugins": "opsim.plugins.registry",
     "rule_of": "opsim.plugins.registry",
 }
-__all__ = ["NoSuchPlugin", "PluginError", "dispatch_rule", "plugin_model", "plugin_problems", "plugins", "rule_of"]
+__all__ = [
+    "NoSuchPlugin",
+    "PluginError",
+    "Subject",
+    "dispatch_rule",
+    "plugin_model",
+    "plugin_problems",
+    "plugins",
+    "rule_of",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -14,7 +14,7 @@ import linecache
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import wraps
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any
@@ -22,6 +22,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
+from opsim.kpi.catalogue import DECLARED
+from opsim.plugins.subjects import STATION, Subject
 from opsim.problems import shown
 from opsim.task_model import TaskModel
 
@@ -78,10 +80,10 @@ def blamed(found: Found, doing: str) -> Iterator[None]:
     except PluginError:
         raise
     except (Exception, SystemExit) as error:
-        raise fault(found, f"{doing}: {type(error).__name__}: {error}", _place(found, error)) from error
+        raise fault(found, f"{doing}: {type(error).__name__}: {error}", place_of(found, error)) from error
 
 
-def _place(found: Found, error: BaseException) -> str:
+def place_of(found: Found, error: BaseException) -> str:
     """File, line and source of the plug-in's innermost frame, or of the text that does not parse."""
     if isinstance(error, SyntaxError) and error.filename:
         return f"{error.filename}:{error.lineno}: {(error.text or '').strip()}"
@@ -234,6 +236,41 @@ def station_block(found: Found, block: Any) -> dict[str, Any]:
     return dict(block)
 
 
+def guarded_subject(found: Found, subject: Any) -> Subject:
+    """A subject of the floor whose key and figures are nobody else's, and whose functions are its own responsibility.
+
+    Raises PluginError.
+    """
+    from opsim.scenario.schema import Block, Scenario, Station
+
+    if not isinstance(subject, Subject) or not issubclass(subject.words, Block):
+        raise fault(found, f"expected a Subject whose words are a Block, found {worded(subject)}")
+    key, beside = found.entry_point.name, Station if subject.where == STATION else Scenario
+    ours = {field.alias or name for name, field in beside.model_fields.items()} | {*dir(beside), "like"}
+    if not key.isidentifier() or key in ours:
+        raise fault(found, f"no key of a {subject.where} can be called {key!r}")
+    if taken := {one.name for one in DECLARED} & {one.name for one in subject.kpis}:
+        raise fault(found, f"figures of ours are called {', '.join(sorted(taken))}")
+    own: Any = {
+        name: _owned(found, f"failed in {name}", getattr(subject, name))
+        for name in ("plan", "install", "mistakes", "tasks", "figures", "assumptions")
+    }
+    laws = {sentence: _owned(found, "failed in a law", law) for sentence, law in subject.laws.items()}
+    sections = tuple(_owned(found, "failed in a section of the report", make) for make in subject.sections)
+    return replace(subject, laws=laws, sections=sections, **own)
+
+
+def _owned(found: Found, doing: str, function: Callable) -> Callable:
+    """A function whose failures are its plug-in's; what it yields is all there when it returns."""
+
+    def call(*given: Any) -> Any:
+        with blamed(found, doing):
+            made = function(*given)
+            return list(made) if isinstance(made, Iterator) else made
+
+    return call
+
+
 def unguarded(_found: Found, part: Any) -> Any:
     """For groups that nothing uses yet."""
     return part
@@ -246,5 +283,6 @@ GUARDS: dict[str, Callable[[Found, Any], Any]] = {
     "opsim.sequencing": lambda found, rule: guarded_rule(found, rule, SEQUENCING_RULES["fifo"]),
     "opsim.emulators": lambda found, factory: guarded_factory(found, factory, guarded_model),
     "opsim.stations": lambda found, factory: guarded_factory(found, factory, station_block),
+    "opsim.subjects": guarded_subject,
     "opsim.human": unguarded,
 }

@@ -17,7 +17,7 @@ from opsim.units import UnitError, parse
 
 GROUPS = (
     *("opsim.emulators", "opsim.stations", "opsim.dispatch", "opsim.sequencing", "opsim.routing", "opsim.rotation"),
-    "opsim.human",
+    *("opsim.subjects", "opsim.human"),
 )
 RULES: dict[str, Mapping[str, Callable[..., tuple[float, ...]]]] = {
     "opsim.dispatch": ALLOCATION_RULES,

@@ -15,6 +15,7 @@ from importlib import import_module
 from pathlib import Path
 
 from opsim.files import whole_file, write_text
+from opsim.plugins.subjects import subjects_of
 from opsim.report.material import Material
 from opsim.report.numbers import clock
 from opsim.report.page import Card, Chart, Legend, LegendEntry, Picture, Section, Svg, asset, flat, policy, template
@@ -81,6 +82,8 @@ PARTS: dict[Part, tuple[str, ...]] = {
     ),
 }
 """By the part of the report they stand in: functions of opsim.report.sections, from Material to Section or None."""
+FLOW = "part-flow"
+"""Where the sections of subjects of somebody else stand, behind our own."""
 
 
 def modules() -> list[str]:
@@ -95,9 +98,11 @@ def contents_of(material: Material) -> Contents:
     """
     wrong: dict[str, list[str]] = {}
     found = {part: [_made(name, material, wrong) for name in names] for part, names in PARTS.items()}
+    theirs = [make(material, kept) for subject, kept in subjects_of(material.plan) for make in subject.sections]
     parts = [
-        Part(part.id, part.nav, part.title, [section for section in made if section is not None])
+        Part(part.id, part.nav, part.title, [section for section in (*made, *more) if section is not None])
         for part, made in found.items()
+        for more in [theirs if part.id == FLOW else []]
     ]
     return Contents(
         [part for part in parts if part.sections], [(reason, ", ".join(names)) for reason, names in wrong.items()]

@@ -14,7 +14,8 @@ import yaml
 from opsim import units
 from opsim.kpi.catalogue import KPIS
 from opsim.scenario.fields import NAME_PATTERN
-from opsim.scenario.schema import KIND_KEYS, Scenario
+from opsim.scenario.schema import KIND_KEYS
+from opsim.scenario.schema.subjects import scenario_model
 from opsim.scenario.templates import SECTIONS
 
 Schema = dict[str, Any]
@@ -30,7 +31,7 @@ _JOBS_COME_IN = {"anyOf": [{"required": ["release"]}, {"required": ["sources"]}]
 
 def json_schema() -> Schema:
     """The whole schema as plain values, ready for ``json.dumps``."""
-    schema = _plain(Scenario.model_json_schema())
+    schema = _plain(scenario_model().model_json_schema())
     properties, definitions = schema["properties"], schema["definitions"]
     definitions = schema["definitions"] = {name: {"title": name, **one} for name, one in definitions.items()}
     _sharpen(properties, definitions)

@@ -15,6 +15,7 @@ from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import templates
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Scenario, Step
 from opsim.scenario.schema.human_models import MODEL_TAGS
+from opsim.scenario.schema.subjects import scenario_model
 from opsim.scenario.schema.tasks import CYCLE_KINDS, SO_MANY
 from opsim.scenario.schema.workers import RATING, SKILL, Skill
 from opsim.scenario.tree import Node, Part, child, dotted, problem
@@ -45,6 +46,7 @@ def option_hint(path: tuple[Part, ...]) -> str:
     return f"the key of {option} is '{key}'" if key.isidentifier() else f"{option} is {key} in a file"
 
 
+_HERE = "keys here"
 _FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS, *MODEL_TAGS)
 _MARKS = ("[key]", "<time>", "<model>", "<places>", "<path>", "<motion>", "<step>", "<range>", "<values>", *_FORMS)
 _TYPES = {
@@ -104,7 +106,7 @@ def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Probl
     kind, ctx = item["type"], item.get("ctx", {})
     if kind == "extra_forbidden":
         hint = _block_above(path) or option_hint(path) or _nearest_key(path[-1], keys_allowed(item["loc"][:-1]))
-        return problem(_key_place(tree, path), path, f"unknown key {shown(path[-1])}", hint)
+        return problem(_key_place(tree, path), path, f"unknown key {shown(path[-1])}", _nobodys(path, hint))
     node = _deepest(tree, path)
     if kind == "plain":
         place = node.name_place if item["loc"][-1:] == ("[key]",) or node.value is None else node.place
@@ -115,7 +117,13 @@ def _in_words(item: dict[str, Any], path: tuple[Part, ...], tree: Node) -> Probl
 
 
 def _nearest_key(key: Part, known: list[str]) -> str:
-    return did_you_mean(key, known, otherwise="keys here", most=len(known))
+    return did_you_mean(key, known, otherwise=_HERE, most=len(known))
+
+
+def _nobodys(path: tuple[Part, ...], hint: str) -> str:
+    """Of a key where a subject of somebody else may stand: whether one is missing."""
+    may_stand = len(path) == 1 or (len(path) == 3 and path[0] == "stations")
+    return f"no installed package knows this word; {hint}" if may_stand and hint.startswith(_HERE) else hint
 
 
 def _block_above(path: tuple[Part, ...]) -> str:
@@ -221,7 +229,7 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
     """The keys a block at a location may have, as they are written in the file."""
     model = _model_at(loc)
     keys = [field.alias or name for name, field in model.model_fields.items()]
-    if model is Scenario:
+    if issubclass(model, Scenario):
         return [*keys, "include", "defaults", "overrides", "scenarios"]
     return [*keys, "like"] if loc and loc[0] in (*templates.SECTIONS, templates.WORKFORCE) else keys
 
@@ -230,7 +238,7 @@ def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     """The block at a location, found by walking down the models; marks say which kind of a task, a path, a step."""
     marked: dict[str, type[Block]] = {"<path>": Path, "<step>": Step, SKILL: Skill}
     marked |= TASK_KINDS | MODEL_TAGS | CYCLE_KINDS
-    model: type[Block] = Scenario
+    model: type[Block] = scenario_model()
     parts = iter(loc)
     for part in parts:
         if isinstance(part, str) and part in marked:

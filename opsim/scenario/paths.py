@@ -15,6 +15,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from opsim.scenario.schema import Block, Scenario
+from opsim.scenario.schema.subjects import scenario_model
 from opsim.scenario.templates import SECTIONS, WORKFORCE
 from opsim.scenario.tree import Node, child, entries, text
 
@@ -57,9 +58,9 @@ class Spot:
         return self.anything or bool(self.blocks) or bool(self.by_name)
 
 
-def top(root: Node) -> Spot:
-    """Where all paths begin."""
-    return Spot((), root, (Scenario,))
+def top(root: Node, model: type[Scenario] = Scenario) -> Spot:
+    """Where all paths begin; model : of the language whose words they are."""
+    return Spot((), root, (model,))
 
 
 def words(root: Node, spot: Spot) -> list[str]:
@@ -86,7 +87,7 @@ def stands(root: Node, spot: Spot, part: str) -> bool:
 
 def _shapes_below(spot: Spot, part: str) -> Shapes | None:
     if spot.path == (DEFAULTS,):
-        sections = keys_of(Scenario)
+        sections = keys_of(scenario_model())
         return _values(sections[part]) if part in SECTIONS else None
     if not spot.path and part == DEFAULTS:
         return (dict,)
@@ -162,7 +163,7 @@ def nearest_path(root: Node, parts: Sequence[str]) -> str | None:
     """
     most = 0.25 + 0.35 * len(parts)
     order = count()
-    waiting: list[tuple[float, int, int, Spot]] = [(0.0, next(order), 0, top(root))]
+    waiting: list[tuple[float, int, int, Spot]] = [(0.0, next(order), 0, top(root, scenario_model()))]
     done: set[tuple[tuple[str, ...], int]] = set()
     while waiting:
         cost, _, n_used, spot = heappop(waiting)

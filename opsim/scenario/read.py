@@ -15,6 +15,7 @@ from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, sho
 from opsim.scenario.checks import check_problems
 from opsim.scenario.messages import schema_problems
 from opsim.scenario.schema import Scenario
+from opsim.scenario.schema.subjects import scenario_model, subject_problems
 from opsim.scenario.templates import with_includes, without_likes
 from opsim.scenario.tree import Node, problem, written_paths
 from opsim.scenario.variants import applied, changes_node, variants
@@ -133,12 +134,23 @@ def _checked(tree: Node, base: Node, folder: Path) -> tuple[Scenario | None, Nod
     scenario: Scenario | None = None
     schema_found: Iterator[Problem] = iter(())
     try:
-        scenario = Scenario.model_validate(tree.plain())
+        scenario = _validated(tree.plain())
+        schema_found = subject_problems(scenario, tree)
     except ValidationError as error:
         unlike = {one.path.removesuffix(".like") for one in problems if one.path.endswith(".like")}
         schema_found = schema_problems(error, tree, unlike)
     found = islice(_unheard(chain(schema_found, check_problems(tree, base, folder))), MOST_FOUND)
     return scenario, tree, [*problems, *found]
+
+
+def _validated(plain: dict[str, Any]) -> Scenario:
+    """By our own words where they are enough, else with those of subjects that are installed."""
+    try:
+        return Scenario.model_validate(plain)
+    except ValidationError:
+        if scenario_model() is Scenario:
+            raise
+    return scenario_model().model_validate(plain)
 
 
 def _unheard(problems: Iterable[Problem]) -> Iterator[Problem]:

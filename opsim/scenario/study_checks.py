@@ -305,7 +305,7 @@ def study_problems(file: str | Path, names: Sequence[str] | None = None) -> list
         return []
     everywhere: set[Problem] | None = None
     for varied in variants[:MOST_TRIED]:
-        found = _found(varied, None, _wrong_as_it_is(varied))
+        found = _found(varied, None, _wrong_as_it_is(varied)) if entries(varied.tree, STUDIES) else set[Problem]()
         everywhere = found if everywhere is None else everywhere & found
         if not everywhere:
             break

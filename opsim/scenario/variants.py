@@ -15,6 +15,8 @@ from typing import Any
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.fields import is_name, not_a_name
 from opsim.scenario.paths import DEFAULTS, Spot, nearest_path, stands, step, top, words
+from opsim.scenario.schema import Scenario
+from opsim.scenario.schema.subjects import scenario_model
 from opsim.scenario.schema.workers import MOST_WORKERS, Worker
 from opsim.scenario.templates import SECTIONS, WORKFORCE
 from opsim.scenario.tree import Node, Place, Source, child, entries, items, problem, text
@@ -99,7 +101,14 @@ def _likes(root: Node, section: str, entry: Node | None) -> Iterator[Node]:
 
 def _wrong_path(root: Node, parts: list[str], new: Node) -> tuple[str, str] | None:
     """What is wrong with a path and the way out; None where it leads somewhere, or adds an entry."""
-    spot = top(root)
+    wrong = _wrong_from(top(root), root, parts, new)
+    if wrong is None or scenario_model() is Scenario:
+        return wrong
+    return _wrong_from(top(root, scenario_model()), root, parts, new)
+
+
+def _wrong_from(spot: Spot, root: Node, parts: list[str], new: Node) -> tuple[str, str] | None:
+    """The same of a path that begins at a spot."""
     for number, part in enumerate(parts):
         wrong = _no_part(root, part, parts) or _closed(spot)
         if wrong is not None:

@@ -129,6 +129,7 @@ def plugins_used(loaded: Loaded) -> dict[str, str]:
     """The distribution and version behind each plug-in that the scenario uses, by the plug-in's name."""
     from opsim.plugins import plugins
     from opsim.plugins.registry import RULES
+    from opsim.scenario.schema.subjects import subjects_said
 
     scenario = loaded.scenario
     queues = [scenario.flow.dispatch, *(station.dispatch for station in scenario.stations.values() if station.dispatch)]
@@ -137,6 +138,7 @@ def plugins_used(loaded: Loaded) -> dict[str, str]:
     rules += [("opsim.rotation", rotation.rule) for rotation in scenario.rotations.values()]
     used = {task.plugin: "opsim.emulators" for task in scenario.tasks.values() if hasattr(task, "plugin")}
     used |= {rule: group for group, rule in rules if rule not in RULES[group]}
+    used |= {key: "opsim.subjects" for key, *_ in subjects_said(scenario)}
     return {name: plugins(used[name]).found(name).distribution for name in sorted(used)}
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from opsim import __version__
 from opsim.kpi.catalogue import headline, needs_postures
 from opsim.kpi.window import open_hours
-from opsim.laws import CHECKS
+from opsim.laws import checks_of
 from opsim.log_parquet import name_list, parquet_file
 from opsim.plan import Plan
 from opsim.plan.hours import floor_has_hours
@@ -69,7 +69,7 @@ def summary_of(
         "tasks": task_sources(loaded, plan),
         **({} if plan.walking is None else {"walking": walking_source(loaded, plan)}),
         "assumptions": [{"topic": topic, "says": says} for topic, says in _assumptions(loaded, plan, done, asked)],
-        "checks": list(CHECKS),
+        "checks": list(checks_of(plan)),
         "warnings": warnings_of(done, plan),
         **({"frontier": list(loaded.scenario.frontier)} if loaded.scenario.frontier else {}),
     }

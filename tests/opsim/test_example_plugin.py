@@ -61,7 +61,7 @@ def installed(tmp_path_factory):
 
 FOUND = """
 from opsim.plugins import plugins
-for group in ("opsim.emulators", "opsim.dispatch"):
+for group in ("opsim.emulators", "opsim.dispatch", "opsim.subjects"):
     print(*(plugins(group).found(name) for name in plugins(group) if not plugins(group).found(name).is_ours))
 """
 WORK = """
@@ -105,7 +105,8 @@ CHOOSE = "dispatch_rule('spare_the_best')(1, 0, 0, 1, 0, 0)"
 
 
 def test_the_installed_example_is_found_with_its_distribution(installed):
-    emulators, rules = installed.run(FOUND).splitlines()
+    emulators, rules, subjects = installed.run(FOUND).splitlines()
+    assert subjects == "opsim-example-plugin 0.1.0 (opsim.subjects: cooling = opsim_example_plugin.cooling:COOLING)"
     assert emulators == (
         "opsim-example-plugin 0.1.0 (opsim.emulators: mtm1_get_and_place = opsim_example_plugin.mtm1:GetAndPlace)"
     )
@@ -133,6 +134,18 @@ def test_a_scenario_names_the_example_and_its_results_say_which_version_it_was(i
     pick = next(row for row in summary["kpis"] if (row["kpi"], row["subject"]) == ("duration_s", "pick"))
     by_the_slower = 0.036 * (12.9 + 3.5 + 17.0 + 2.0) / 0.9
     assert pick["mean"] == pytest.approx(by_the_slower, rel=0.02)
+
+
+def test_the_scenario_with_the_subject_of_the_example_runs_and_its_results_say_which_version_it_was(installed):
+    text = (EXAMPLE / "glue_station.yaml").read_text()
+    assert installed.opsim("check", text)[0] == 0
+    code, said = installed.opsim("run", text, "-o", "glue")
+    assert code == 0 and "Cool-downs of the station" in said
+    manifest = json.loads((installed.folder / "glue" / "base" / "manifest.json").read_text())
+    assert manifest["plugins"] == {"cooling": "opsim-example-plugin 0.1.0"}
+    assert "cool_down: 90 s" in (installed.folder / "glue" / "base" / "report.html").read_text()
+    code, said = installed.opsim("run", text, "-o", "fast", "--engine", "fast")
+    assert code == 2 and "the subject 'cooling' of opsim.subjects is a plug-in in Python" in said
 
 
 def test_every_mistake_in_naming_a_plug_in_is_said_at_its_place(installed):
@@ -198,9 +211,9 @@ def test_what_a_user_gives_the_example_wrongly_is_not_its_mistake(installed):
 
 def test_the_source_of_the_example_is_small_and_declares_what_it_has():
     sources = list((EXAMPLE / "src").rglob("*.py"))
-    assert sum(len(path.read_text().splitlines()) for path in sources) < 120
+    assert sum(len(path.read_text().splitlines()) for path in sources) < 300
     declared = re.findall(r'= "(opsim_example_plugin\.\w+):(\w+)"', (EXAMPLE / "pyproject.toml").read_text())
     for module, name in declared:
         source = Path(EXAMPLE, "src", *module.split(".")).with_suffix(".py").read_text()
-        assert re.search(rf"^(def|class) {name}\b", source, re.MULTILINE)
-    assert len(declared) == 2
+        assert re.search(rf"^((def|class) )?{name}\b", source, re.MULTILINE)
+    assert len(declared) == 3

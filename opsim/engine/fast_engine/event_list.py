@@ -114,10 +114,6 @@ def pop_event(floor: Floor) -> Event:
     return first
 
 
-NOBODYS = -1
-"""The line of an event that nothing follows: it stands where SimPy has an interruption of a process."""
-
-
 @inlined
 def wake(floor: Floor) -> None:
     """Have this instant settled, once, after all its other events."""
@@ -139,6 +135,5 @@ def end_stretch(floor: Floor, worker: Worker) -> None:
     """The stretch under way means nothing any more."""
     worker.version += 1
     if floor.has_orders and worker is not floor.active:
-        event: Event = new_event(floor)
-        event.line = NOBODYS
+        event: Event = new_event(floor)  # nothing follows: it stands where SimPy has an interruption of a process
         push_event(floor, floor.env_now, event)

@@ -273,6 +273,7 @@ def _share_seat(floor: Floor, station: Station, job: Job, n: int) -> None:
     shared.n_jobs += n - 1
     station.n_inside += n - 1
     station.capacity += n - 1
+    floor.entries_full = 0
     job.seat = shared
     piece = job.block.next_piece
     while piece:

@@ -156,6 +156,7 @@ def _begin(floor: Floor, oven: Oven) -> None:
         if station.has_seated:
             see_seated(floor, station, job)
     station.capacity += len(together)
+    floor.entries_full = 0
     stir(floor, station)
     seat(floor, station, leader)
 

@@ -88,9 +88,22 @@ def release_saturated(floor: Floor) -> None:
             if _has_next(floor, source) and (not able or _comes_first(source, able)):
                 able = source
         if not able:
+            floor.entries_full = 1 if _entries_are_full(floor) else 0
             return
         _create(floor, able)
         admit(floor)
+
+
+@step
+def _entries_are_full(floor: Floor) -> bool:
+    """Whether no saturated source need be asked until one of the stations that it is kept from has room again."""
+    for source in floor.saturated:
+        gate = source.next_gate
+        if gate.lets or has_room(gate):
+            return False
+        for i in range(gate.n_stations):
+            gate.stations[i].is_entry = 1
+    return True
 
 
 @step
@@ -245,6 +258,7 @@ def clear_server(floor: Floor, station: Station, job: Job) -> None:
     job_now(floor, job, QUEUE, PICKUP if job.cause == PICKUP else AFTER)
     station.put_away.append(job)
     station.capacity += 1
+    floor.entries_full = 0
     if job.held_by and not job.plan.carried:
         worker = job.held_by
         job.held_by = NOTHING

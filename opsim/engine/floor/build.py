@@ -40,6 +40,7 @@ from opsim.log import IDLE, IS_DOWN, WAIT
 from opsim.plan import Plan
 from opsim.plan.calendar import OPEN
 from opsim.plan.sources import POISSON, RENEWAL, SATURATED, SCHEDULE
+from opsim.plugins.subjects import subjects_of
 
 BLOCKS: tuple[Callable[[Any], None], ...] = (
     *(allocation.install_preferences, stores.install, assembly.install_kits, assembly.install_splits, batches.install),
@@ -91,6 +92,8 @@ class Build:
             self.line(call)
         for install in BLOCKS:
             install(self)
+        for subject, part in subjects_of(plan):
+            subject.install(self, part)
         self._see_skills()
 
     def line(self, call: Any) -> Any:

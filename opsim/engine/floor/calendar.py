@@ -246,6 +246,7 @@ def _turn_source(floor: Floor, hours: Hours, opens: int) -> None:
     """A source that asks the floor whether it wants a job asks no more, or again; others keep their own time."""
     hours.source.closed = 1 - opens
     if hours.n_saturated:
+        floor.entries_full = 0
         floor.saturated.clear()
         for i in range(hours.n_saturated):
             if not hours.saturated[i].closed:

@@ -96,6 +96,7 @@ def let_on(floor: Floor, belt: Belt) -> None:
         belt.get_on_line(floor, belt, belt.waiting.pop(0))
     wait_s = until_open_s(belt, floor.now)
     belt.station.capacity = float(belt.capacity) if wait_s <= 0 and len(belt.waiting) == 0 else 0.0
+    floor.entries_full = 0
     forget_opening(floor, belt)
     if _moves(belt) and 0 < wait_s < INF:
         belt.opens = alarm(floor, wait_s, COMPLETION, belt.rank, -1, line_of_opens, belt)

@@ -37,15 +37,19 @@ class Coming(Event):
 
     __slots__ = ("_defused", "callbacks")
     _ok, _value = True, None
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.callbacks: list[Any] = []
+    callbacks: Any
 
 
 def new_event(_floor: Any) -> Coming:
-    """An event that nobody waits for yet."""
+    """An event of the floor, which is told of it once it is pushed."""
     return Coming()
+
+
+def awaited_event() -> Coming:
+    """An event that processes wait for."""
+    event = Coming()
+    event.callbacks = []
+    return event
 
 
 def is_last_of_instant(floor: Any) -> bool:
@@ -60,12 +64,8 @@ def push_event(floor: Any, at_s: float, event: Any) -> None:
     NOTE: what ``Environment.schedule`` does, for an instant that is known to the bit.
     """
     env = floor.env
-    event.callbacks.append(floor.happens)
+    event.callbacks = floor.told
     heappush(env._queue, (at_s, 1, next(env._eid), event))
-
-
-NOBODYS = -1
-"""The line of an event that nothing follows: it stands where SimPy has an interruption of a process."""
 
 
 @more_of("Worker")
@@ -82,10 +82,10 @@ class WorkerInSimPy(Worker):
 class FloorInSimPy(Floor):
     """env : where it lives; draws : of the replication; log, write : its rows; rows : those to be packed at the end
 
-    happens, settle_at_end : what its loop does with an event, and how it has an instant settled
+    told : what its loop calls with an event; settle_at_end : how it has an instant settled
     """
 
-    __slots__ = ("draws", "env", "happens", "log", "plan", "rows", "settle_at_end", "write")
+    __slots__ = ("draws", "env", "log", "plan", "rows", "settle_at_end", "told", "write")
 
 
 def wake(floor: Any) -> None:
@@ -99,8 +99,8 @@ def stretch(floor: Any, worker: Any, line: Any, delay_s: float) -> None:
     """The worker's stretch of time ends after a delay that is on the grid."""
     env = floor.env
     if worker.process is None:
-        event = new_event(floor)
-        event.callbacks.append(floor.happens)
+        event = Coming()
+        event.callbacks = floor.told
     else:
         event = worker.stretch_over
     event.line, event.alive = line, 1
@@ -114,10 +114,8 @@ def end_stretch(floor: Any, worker: Any) -> None:
     worker.version += 1
     process = worker.process
     if process is not None:
-        worker.stretch_over = new_event(floor)
+        worker.stretch_over = awaited_event()
         if process is not floor.env.active_process:
             process.interrupt()
     elif floor.has_orders and worker is not floor.active:
-        event = new_event(floor)
-        event.line = NOBODYS
-        push_event(floor, floor.env_now, event)
+        push_event(floor, floor.env_now, new_event(floor))  # nothing follows, where SimPy has an interruption

@@ -26,6 +26,7 @@ class Floor:
     the job which is done goes on, which may be let in then without a claim
     done : the job whose operation a worker has ended just now, unless it has left the floor
     none_fits : whether it is known that nobody who is free can serve where somebody calls
+    entries_full : whether it is known that no saturated source has room for its next job
     """
 
     table: int
@@ -82,6 +83,7 @@ class Floor:
     n_calling: int
     none_fits: int
     saturated: List[Source]
+    entries_full: int
     losing: int
     n_open: int
     first_job: Job

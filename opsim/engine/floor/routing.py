@@ -94,6 +94,8 @@ def stir_gate(floor: Floor, gate: Gate) -> None:
 @inlined
 def stir(floor: Floor, station: Station) -> None:
     """There may be room at a station: whoever wants in is looked at again."""
+    if station.is_entry:
+        floor.entries_full = 0
     for i in range(station.n_wanted_by):
         gate = station.wanted_by[i]
         if gate.claims:

@@ -15,10 +15,11 @@ import simpy
 from opsim.engine.draws import Draws
 from opsim.engine.endless import endless_instant
 from opsim.engine.floor.build import Build
-from opsim.engine.floor.event_list import new_event
+from opsim.engine.floor.event_list import awaited_event
 from opsim.engine.floor.settle import close, happen, settle, start
 from opsim.log import EventLog, LogWriter, names_of
 from opsim.plan import Plan
+from opsim.plugins.subjects import steps_blamed
 from opsim.threads import one_blas_thread
 
 AFTER_EVERYTHING = 2
@@ -53,7 +54,7 @@ def live_in(env: simpy.Environment, floor: Any) -> None:
     def settle_at_end() -> None:
         heappush(env._queue, (env._now, AFTER_EVERYTHING, next(env._eid), _AtEnd(settles)))  # type: ignore[arg-type, misc]
 
-    floor.env, floor.happens, floor.settle_at_end = env, happens, settle_at_end
+    floor.env, floor.told, floor.settle_at_end = env, (happens,), settle_at_end
 
 
 def working_life(floor: Any, worker: Any) -> Generator[Any, Any, None]:
@@ -64,8 +65,9 @@ def working_life(floor: Any, worker: Any) -> Generator[Any, Any, None]:
             yield event
         except simpy.Interrupt:  # the stretch means nothing any more; another event is in its place
             continue
-        worker.stretch_over = new_event(floor)
-        floor.happens(event)
+        worker.stretch_over = awaited_event()
+        for happens in floor.told:
+            happens(event)
 
 
 def run_until(env: simpy.Environment, until_s: float) -> None:
@@ -119,7 +121,7 @@ class FloorOfPlan:
         for worker in self.build.workers:
             worker.process = worker.stretch_over = None
             if processes:
-                worker.stretch_over = new_event(floor)
+                worker.stretch_over = awaited_event()
                 worker.process = env.process(working_life(floor, worker))
         start(floor)
 
@@ -152,7 +154,8 @@ def run_plan(plan: Plan, replication: int = 0, *, processes: bool = False) -> Ev
         try:
             env = simpy.Environment()
             one.open(env, replication, processes=processes)
-            run_until(env, plan.horizon_s)
+            with steps_blamed(plan):
+                run_until(env, plan.horizon_s)
             return one.close(replication)
         finally:
             one.running = False

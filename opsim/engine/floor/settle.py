@@ -8,7 +8,7 @@ from __future__ import annotations
 from opsim.engine.endless import MOST_ROUNDS
 from opsim.engine.floor.allocation import send_workers
 from opsim.engine.floor.buffers import admit, release_saturated, turn_away
-from opsim.engine.floor.event_list import NOBODYS, forget_event, is_last_of_instant, wake
+from opsim.engine.floor.event_list import forget_event, is_last_of_instant, wake
 from opsim.engine.floor.floor_state import ENDLESS, Floor
 from opsim.engine.floor.flow import operation_done, put_down
 from opsim.engine.floor.log_rows import flush_all, log_job, log_worker
@@ -112,7 +112,7 @@ _performed, _operation_over, _operation_done = here(performed), here(operation_o
 @step
 def happen(floor: Floor, event: Event) -> None:
     """Something has come to its time: a report, where it still means something."""
-    if event.line == NOBODYS or not event.alive:
+    if not event.alive:
         forget_event(floor, event)
     elif event.kind == ARRIVAL:
         _source_happens(floor, event)
@@ -177,7 +177,7 @@ def dispatch(floor: Floor) -> None:
     for _ in range(MOST_ROUNDS):
         if floor.stirred:
             _admit(floor)
-        if floor.saturated:
+        if floor.saturated and not floor.entries_full:
             release_saturated(floor)
         if floor.losing:
             turn_away(floor)

@@ -41,7 +41,8 @@ class Station:
     switched : told when the station closes (True) or opens
     clear   : told of each finished job that has to go on, which may leave its server; put_away : those that have
 
-    has_seated : whether seated jobs are known; luck, next_k : by task, of automatic runs
+    has_seated : whether seated jobs are known; is_entry : whether a saturated source is kept from it
+    luck, next_k : by task, of automatic runs
     """
 
     rank: int
@@ -63,6 +64,7 @@ class Station:
     n_wanted_by: int
     wanted_by: Array[Gate]
     n_inside: int
+    is_entry: int
     luck: Array[Stream]
     next_k: Array[int]
     down: int

@@ -23,6 +23,7 @@ from opsim.plan import Plan
 from opsim.plan.model_warnings import unread
 from opsim.plan.resources import repairs_said
 from opsim.plan.tasks import setup_tasks
+from opsim.plugins.subjects import subjects_of
 from opsim.problems import listed
 from opsim.scenario.schema import Emulated, Motions
 from opsim.streams import stream
@@ -55,6 +56,7 @@ Assumption = tuple[str, str]
 def assumptions_of(loaded: Loaded, plan: Plan, asked: Asked = NOTHING_ASKED) -> list[Assumption]:
     """Every assumption of a run that its reader should know, most weighty first."""
     lines = [line for part in PARTS for line in part(loaded, plan)]
+    lines += [line for subject, part in subjects_of(plan) for line in subject.assumptions(plan, part)]
     return [*lines, *_run(loaded, asked)]
 
 
@@ -183,11 +185,13 @@ def task_sources(loaded: Loaded, plan: Plan) -> list[dict]:
 
 
 def _unnamed(plan: Plan, rank: int, said) -> dict:
-    """A task that the scenario says at its station: a set-up, a repair, a maintenance."""
+    """A task that the scenario says at its station: a set-up, a repair, a maintenance, one of somebody else's."""
     task = plan.tasks[rank]
+    theirs = [station for station, other in plan.more_setups if other == rank]
     stops = [one.station for one in plan.stops if one.task == rank]
     setups = [one.station for one in plan.setups if any(rank in row for row in one.task)]
-    row: dict = {"task": task.name, "station": ", ".join(plan.stations[at].name for at in (*stops, *setups))}
+    where = ", ".join(plan.stations[at].name for at in (*stops, *setups, *theirs))
+    row: dict = {"task": task.name, "station": where}
     row |= {"emulated": False, "repeat": 1, "automatic": task.automatic, "mean_s": task.model.mean_duration_s()}
     return row | {"model": f"fixed, {said:g} s" if isinstance(said, float) else said.words}
 
