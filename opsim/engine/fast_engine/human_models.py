@@ -19,7 +19,7 @@ from opsim.engine.fast_engine.human_state import Human, Model, pass_to_now, post
 from opsim.engine.fast_engine.machine import call_out, inlined, step
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.calling import handled
-from opsim.engine.fast_engine.machine.compiler import METHODS
+from opsim.engine.fast_engine.machine.expressions import METHODS
 from opsim.engine.fast_engine.machine.intrinsics import call_floats
 from opsim.engine.fast_engine.machine.structs import LAYOUTS
 from opsim.engine.fast_engine.state import Station, Worker
@@ -219,7 +219,7 @@ def kept_muscles(build: Any, shares: Any) -> int:
 
 @cache
 def _kernels() -> tuple[Any, Any]:
-    """What passes for muscles, as C calls it: of the addresses of (J, 5) and (PARTS, J) numbers, 0 where none is known."""
+    """What passes for muscles, as C calls it: of addresses of (J, 5) and (PARTS, J) numbers, 0 where none is known."""
     import numba
     from numba import carray, types
 

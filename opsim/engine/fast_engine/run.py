@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from functools import partial
 from threading import local
 
 import numpy as np
@@ -12,9 +14,10 @@ from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.event_list import is_last_of_instant, pop_event
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.log_rows import Columns, flush_rows
-from opsim.engine.fast_engine.machine import TABLE, complete, here, line_of, step
+from opsim.engine.fast_engine.machine import TABLE, Step, complete, here, line_of, step
 from opsim.engine.fast_engine.machine.calling import Waiting, caller, signals_wait
-from opsim.engine.fast_engine.machine.table import is_ready, path_of
+from opsim.engine.fast_engine.machine.code_cache import folder, is_marked, mark
+from opsim.engine.fast_engine.machine.table import lacking
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.random_numbers import MOST_RANKS
 from opsim.engine.fast_engine.settle import close, happen, settle, start
@@ -87,23 +90,71 @@ close_floor = caller(close)
 
 
 Told = Callable[[int, int], None]
-STEPS_S = 4.0
-"""About so many CPU seconds are compiled for the whole floor."""
+STEPS_S, STEP_S, LUCK_S, EMULATED_S = 1.5, 0.03, 3.0, 3.0
+"""About so many CPU seconds are compiled for any steps, for each that a floor's lines lead to, for what draws numbers,
+and for emulators."""
+LUCK, EMULATED = "luck", "emulated"
+"""Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
 
 
 def compiling_s(plan: Plan) -> float:
     """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
-    return 0.0 if is_ready() else STEPS_S
+    n_steps = len(lacking(built(plan).steps.values()))
+    cpu_s = STEPS_S + n_steps * STEP_S if n_steps else 0.0
+    if _luck_is_new():
+        cpu_s += LUCK_S
+    if _emulated(plan) and not is_marked(EMULATED):
+        cpu_s += EMULATED_S
+    return cpu_s
 
 
 def is_kept() -> bool:
     """Whether there is a place on disk for what is compiled."""
-    return path_of() is not None
+    return folder() is not None
 
 
 def ready(plan: Plan, told: Told | None = None) -> None:
     """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
-    complete(told)
+    emulated = [] if is_marked(EMULATED) else _emulated(plan)
+    ready_for(built(plan).steps.values(), told, [partial(_draw, plan, emulated)] if emulated else [])
+
+
+def ready_for(steps: Iterable[Step], told: Told | None = None, more: Iterable[Callable[[], object]] = ()) -> None:
+    """The same for some steps, for what draws numbers, and for more."""
+    wanted = list(steps)
+    jobs: list[Callable[[], object]] = [partial(complete, wanted)] if lacking(wanted) else []
+    jobs += [*([_compile_luck] if _luck_is_new() else []), *more]
+    for done, job in enumerate(jobs):
+        if told is not None:
+            told(done, len(jobs))
+        job()
+    if told is not None and jobs:
+        told(len(jobs), len(jobs))
+
+
+def _luck_is_new() -> bool:
+    return not is_marked(LUCK) and not is_trusted.cache_info().currsize
+
+
+def _compile_luck() -> None:
+    """All that draws numbers, by the look at it that a first run takes anyway."""
+    is_trusted()
+    mark(LUCK)
+
+
+def _emulated(plan: Plan) -> list[int]:
+    """A task of each kind of the emulator's models, by rank: of others nothing is compiled."""
+    kinds = {type(task.model): rank for rank, task in enumerate(plan.tasks) if plan.workers}
+    return [rank for kind, rank in kinds.items() if kind.__module__.startswith("emulator.")]
+
+
+def _draw(plan: Plan, tasks: Iterable[int]) -> None:
+    """Performances of some tasks. NOTE: what a model has to say against it is raised by the run, where it belongs."""
+    luck, workforce = luck_of(plan), plan.workforce_of(0)
+    with suppress(Exception):
+        for task in tasks:
+            luck.of_worker(task, 0, workforce)(np.zeros(6, np.uint32), 0, 1)
+        mark(EMULATED)
 
 
 MOST_EVENTS = 1 << 17
@@ -118,7 +169,7 @@ class Machine:
         refuse_too_many(plan)
         self.plan, self.build = plan, built(plan)
         self.floor = self.build.floor
-        complete(told)
+        complete(self.build.steps.values(), told)
         self.floor.table = TABLE.ctypes.data
         self.numbers = Numbers(plan, self.build.arena, self.floor)
         self.columns = Columns(self.build.arena, self.floor)

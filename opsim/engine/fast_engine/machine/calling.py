@@ -21,15 +21,18 @@ _POINTER, _NUMBER = ctypes.c_void_p, ctypes.c_int64
 
 
 def caller(call: Any) -> Callable[..., int]:
-    """A function of Python for a step of a floor's address and of a number; its answer is a number."""
+    """A function of Python for a step of a floor's address and of a number, or another address; so is its answer.
+
+    It raises what the step does.
+    """
     line = step_of(call).line
-    made = ctypes.CFUNCTYPE(_NUMBER, _NUMBER, _POINTER, _NUMBER, _NUMBER)
+    made = ctypes.CFUNCTYPE(_NUMBER, _POINTER, _POINTER, _NUMBER, _NUMBER)
 
     def called(floor: int, given: int = 0) -> int:
         answer = _NUMBER(0)
         state = made(entry())(int(TABLE[line]), ctypes.byref(answer), floor, given)
         if state:
-            name, words = FAILURES[state - 1]
+            name, words = FAILURES[state]
             raise getattr(builtins, name)(*([words] if words else []))
         return answer.value
 

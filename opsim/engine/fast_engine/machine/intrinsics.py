@@ -1,4 +1,4 @@
-"""What compiled functions are told in LLVM's own words: casts, words of memory, functions of C's library."""
+"""What steps may call besides each other: helpers, and what LLVM has words of its own for, such as casts."""
 
 from __future__ import annotations
 
@@ -6,19 +6,34 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from opsim.engine.fast_engine.machine.llvm_text import common
 from opsim.engine.fast_engine.machine.structs import BOOL, FLOAT, INT, NONE, Kind
 
 Emit = Callable[..., tuple[str, Kind]]
 
 
 class Intrinsic:
-    """A function of the body under way and of values (text, kind), that gives one."""
+    """What is told in LLVM's words: a function of the text under way and of values (text, kind), that gives one."""
 
     def __init__(self, emit: Emit):
         self.emit = emit
 
     def __call__(self, *_: Any) -> Any:
         raise TypeError("it is compiled, and not called from Python")
+
+
+class Helper:
+    """A function that is compiled into those that call it where it is small; ``how`` : LLVM's words where they differ.
+
+    From Python it is called as it is written.
+    """
+
+    def __init__(self, function: Callable, how: str = ""):
+        self.function: Any = function
+        self.how = how
+
+    def __call__(self, *given: Any) -> Any:
+        return self.function(*given)
 
 
 def cast(struct: Any) -> Any:
@@ -32,6 +47,8 @@ def array_at(of: str) -> Any:
 
 
 def taken_for(wanted: Kind) -> Any:
+    """A compiled function that takes a reference or an address for one of another kind."""
+
     def emit(body: Any, value: Any) -> Any:
         return (body.op(f"inttoptr i64 {value[0]} to ptr") if value[1] == INT else value[0]), wanted
 
@@ -84,14 +101,14 @@ def _of_floats(name: str) -> Emit:
 
     def emit(body: Any, *values: Any) -> Any:
         given = ["double"] * len(values)
-        body.declare(f"declare double @{name}({', '.join(given)})")
+        body.module.declare(f"declare double @{name}({', '.join(given)})")
         return body.op(f"call double @{name}({', '.join(f'double {body.cast(one, FLOAT)}' for one in values)})"), FLOAT
 
     return emit
 
 
 def _lowest_bit(body: Any, bits: Any) -> Any:
-    body.declare("declare i64 @llvm.cttz.i64(i64, i1)")
+    body.module.declare("declare i64 @llvm.cttz.i64(i64, i1)")
     return body.op(f"call i64 @llvm.cttz.i64(i64 {bits[0]}, i1 false)"), INT
 
 
@@ -100,7 +117,7 @@ def _smallest(sign: str) -> Emit:
 
     def emit(body: Any, first: Any, *more: Any) -> Any:
         for one in more:
-            kind = body.common(first[1], one[1])
+            kind = common(first[1], one[1])
             a, b = body.cast(first, kind), body.cast(one, kind)
             compare = f"fcmp o{sign} double" if kind == FLOAT else f"icmp s{sign} i64"
             better = body.op(f"{compare} {b}, {a}")
@@ -121,11 +138,9 @@ def _abs(body: Any, value: Any) -> Any:
     return body.op(f"select i1 {less}, i64 {body.op(f'sub i64 0, {value[0]}')}, i64 {value[0]}"), INT
 
 
-def _len(body: Any, value: Any) -> Any:
-    return _word(body, value, ("2", INT))
-
-
-address_of, word, set_word, call_out = map(Intrinsic, (_address_of, _word, _set_word, _call_out))
+address_of, word, set_word = Intrinsic(_address_of), Intrinsic(_word), Intrinsic(_set_word)
+call_out = Intrinsic(_call_out)
+"""Ask Python: a function at an address is called with two numbers or addresses, and answers one."""
 call_floats = Intrinsic(_call_floats)
 """The answer of a C function at an address, of numbers and floats as they are given."""
 set_byte, set_half = Intrinsic(_set(8)), Intrinsic(_set(32))
@@ -133,7 +148,7 @@ set_byte, set_half = Intrinsic(_set(8)), Intrinsic(_set(32))
 rounded = Intrinsic(_of_floats("llvm.rint.f64"))
 lowest_bit = Intrinsic(_lowest_bit)
 BUILTINS: dict[Any, Emit] = {
-    len: _len,
+    len: lambda body, items: (body.length(items), INT),
     min: _smallest("lt"),
     max: _smallest("gt"),
     abs: _abs,

@@ -6,13 +6,13 @@ changed in the middle by moving what is behind.
 
 from __future__ import annotations
 
-from typing import Any
-
 from collections.abc import Callable
 from math import copysign, fmod
+from typing import Any
 
-from opsim.engine.fast_engine.machine.compiler import Helper
+from opsim.engine.fast_engine.machine.expressions import LISTS
 from opsim.engine.fast_engine.machine.intrinsics import (
+    Helper,
     address_of,
     array_at,
     call_out,
@@ -104,7 +104,7 @@ def fresh(struct_of: Any) -> Any:
     n_bytes, made = size_of(struct_of), cast(struct_of)
 
     @inlined
-    def new(floor):
+    def new(floor: Any) -> Any:
         return made(take_bytes(floor.memory, n_bytes))
 
     return new
@@ -115,7 +115,7 @@ def give_back(struct_of: Any) -> Any:
     n_bytes = size_of(struct_of)
 
     @inlined
-    def give(floor, one):
+    def give(floor: Any, one: Any) -> None:
         give_bytes_back(floor.memory, address_of(one), n_bytes)
 
     return give
@@ -301,3 +301,10 @@ def floor_of_floats(a: float, b: float) -> float:
         return copysign(0.0, a / b)
     whole = float_floor(quotient)
     return whole + 1.0 if quotient - whole > 0.5 else whole
+
+
+LISTS |= {
+    **{"append": push, "insert": insert, "pop_first": pop_first, "pop_last": pop_last, "drop_at": drop_at},
+    **{"has": has, "clear": clear, "floor_of_ints": floor_of_ints, "floor_of_floats": floor_of_floats},
+    **{"rest_of_ints": rest_of_ints, "rest_of_floats": rest_of_floats},
+}

@@ -129,7 +129,14 @@ class Kind:
         return Kind(self.of) if self.of in ("int", "float") else Kind("ref", self.of)
 
     @property
+    def said(self) -> str:
+        """In words, for errors."""
+        words = {"ref": f"a {self.of}", "list": f"a list of {self.of}", "array": f"an array of {self.of}"}
+        return words.get(self.kind, "nothing" if self.kind == "none" else self.kind)
+
+    @property
     def llvm(self) -> str:
+        """LLVM's name for it."""
         if self.kind == "tuple":
             return "{" + ", ".join(one.llvm for one in self.items) + "}"
         return {"int": "i64", "float": "double", "bool": "i1"}.get(self.kind, "ptr")
@@ -139,6 +146,7 @@ INT, FLOAT, BOOL, NONE = Kind("int"), Kind("float"), Kind("bool"), Kind("none")
 
 
 def field_kind(field: Field) -> Kind:
+    """What is read from it."""
     return Kind(field.kind, field.of)
 
 

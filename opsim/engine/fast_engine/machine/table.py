@@ -1,95 +1,111 @@
-"""The table of addresses: all steps are compiled together, or found on disk, when a floor needs them first.
+"""The table of addresses: steps are compiled, or their machine code is found on disk, when a floor needs them first.
 
-Machine code is one object file for each stamp of the sources, Python, llvmlite and processor. It is written beside and
-then moved to its name, so that a reader finds it whole or not at all, and two processes may write the same one.
+What lacks is compiled at once, with all that it comes to: such steps call each other directly, and are compiled into
+each other where that is faster. What was compiled before is called by the table.
 """
 
 from __future__ import annotations
 
 import ctypes
-import json
-import os
-import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterable
 from functools import cache
-from hashlib import blake2b
-from pathlib import Path
 from threading import RLock
 from typing import Any
-from uuid import uuid4
 
-import llvmlite
 import llvmlite.binding as llvm
 import numpy as np
 
-from opsim.engine.fast_engine.machine.steps import LINES, STEPS, step_of
+from opsim.engine.fast_engine.machine import code_cache
+from opsim.engine.fast_engine.machine.code_cache import Code, stamp_of
+from opsim.engine.fast_engine.machine.compiler import Module
+from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
 
-ENGINE = Path(__file__).parents[1]
-OPSIM = ENGINE.parents[1]
-COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
-SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "layout", "log", "streams", "threads"))
-"""Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
 TABLE = np.zeros(LINES, dtype=np.int64)
-MOST_KEPT = 6
-"""Object files. Those not used for longest are removed when another one is written."""
-LEVEL = int(os.environ.get("TRIAL_LEVEL", "2"))
-THRESHOLD = int(os.environ.get("TRIAL_THRESHOLD", "225"))
-_LOCK = RLock()
-FAILURES: list[tuple[str, str]] = []
+FAILURES: dict[int, tuple[str, str]] = {}
 """Exceptions that compiled code raises, by their numbers: the name of the class, and what it says."""
-ENTRY = """
-define i64 @enter(ptr %function, ptr %answer, ptr %floor, i64 %given) {
- %both = call {i64, i64} %function(ptr %floor, i64 %given)
- %found = extractvalue {i64, i64} %both, 0
+SPEED_LEVEL, INLINING_THRESHOLD = 2, 225
+_FRAME = """
+define i64 @enter_{name}(ptr %function, ptr %answer, ptr %floor, i64 %given) {{
+ %both = call {{i64, i64}} %function(ptr %floor, i64 %given)
+ %found = extractvalue {{i64, i64}} %both, 0
  store i64 %found, ptr %answer
- %state = extractvalue {i64, i64} %both, 1
+ %state = extractvalue {{i64, i64}} %both, 1
  ret i64 %state
-}
-!0 = !{!"branch_weights", i32 1, i32 2000}
+}}
+@steps_{name} = constant [{n} x ptr] [{addresses}]
+!0 = !{{!"branch_weights", i32 1, i32 2000}}
 """
+"""What is seen of a module from elsewhere: how Python enters a step, whose answer has two parts, and the addresses."""
+_LOCK = RLock()
+_ENTRIES: list[int] = []
 
 
-def complete(told: Callable[[int, int], None] | None = None) -> None:
-    """Have every step in the table; ``told(done, total)`` where they have to be compiled."""
+def complete(steps: Iterable[Step], told: Callable[[int, int], None] | None = None) -> None:
+    """Have some steps, and all that they come to, in the table; ``told(done, total)`` where any have to be compiled.
+
+    Raises NotSo, with the file and the line, for what cannot be compiled.
+    """
     with _LOCK:
-        if FAILURES:
-            return
-        from opsim.engine.fast_engine import lowering
-
-        lowering.know_all()
-        lines = sorted(STEPS)
-        if (found := _read()) is None:
-            if told is not None:
-                told(0, len(lines))
-            found = compiled(lines)
-            _keep(*found)
-            if told is not None:
-                told(len(lines), len(lines))
-        _link(lines, *found)
+        found, lines = _found(steps)
+        _link(found)
+        if lines:
+            told = told or (lambda _done, _total: None)
+            told(0, len(lines))
+            made = compiled(STEPS[line] for line in lines)
+            code_cache.keep(made)
+            _link([made])
+            told(len(lines), len(lines))
 
 
-def is_ready() -> bool:
-    """Whether all is compiled, here or on disk."""
-    return bool(FAILURES) or (path := path_of()) is not None and path.is_file()
+def lacking(steps: Iterable[Step]) -> list[int]:
+    """Lines of those of some steps that would have to be compiled, and of those known that they come to."""
+    return _found(steps)[1]
 
 
-def compiled(lines: list[int]) -> tuple[list[tuple[str, str]], bytes]:
-    """What it may raise, and an object file."""
-    from opsim.engine.fast_engine.machine.compiler import Module
+def _found(steps: Iterable[Step]) -> tuple[list[Code], list[int]]:
+    """What is on disk for some steps and is not in the table, those with most of them first; and what lacks."""
+    lines = {one.line for one in steps if not TABLE[one.line]}
+    kept = [one for one in code_cache.kept() if _is_of_today(one)] if lines else []
+    found: list[Code] = []
+    while lines and kept:
+        best = max(kept, key=lambda one: len(lines & one.steps.keys()))
+        if not lines & best.steps.keys():
+            break
+        kept.remove(best)
+        found.append(best)
+        has = {line for one in found for line in one.steps}
+        lines = {line for line in lines.union(best.calls) if line not in has and not TABLE[line]}
+    return found, sorted(lines)
 
-    made = Module(STEPS, step_of)
-    text = made.whole(STEPS[line] for line in lines)
-    addresses = ", ".join(f"ptr {STEPS[line].symbol}" for line in lines)
-    module = llvm.parse_assembly(f"{ENTRY}@addresses = constant [{len(lines)} x ptr] [{addresses}]\n{text}")
+
+def _is_of_today(code: Code) -> bool:
+    """Whether the files that its steps stand in, as far as they were imported, are those that it was compiled from."""
+    ours = ((STEPS[line], stamp) for line, stamp in code.steps.items() if line in STEPS)
+    return all(stamp_of(one.function.__code__.co_filename) == stamp for one, stamp in ours)
+
+
+def compiled(steps: Iterable[Step]) -> Code:
+    """Machine code of some steps, and of all that they come to and is not in the table. Raises NotSo."""
+    made = Module(steps, lambda line: bool(TABLE[line]))
+    lines = sorted(made.steps)
+    stamps = {line: stamp_of(made.steps[line].function.__code__.co_filename) for line in lines}
+    code = Code(stamps, tuple(sorted(made.calls)), made.failures, b"")
+    addresses = ", ".join(f"ptr {made.steps[line].symbol}" for line in lines)
+    frame = _FRAME.format(name=code.name, n=len(lines), addresses=addresses)
+    return Code(code.steps, code.calls, code.failures, machine_code(frame + made.text))
+
+
+def machine_code(text: str) -> bytes:
+    """An object file of what stands in LLVM's language."""
+    module, machine = llvm.parse_assembly(text), _machine()
     module.verify()
-    machine = _machine()
-    options = llvm.create_pipeline_tuning_options(speed_level=LEVEL)
+    options = llvm.create_pipeline_tuning_options(speed_level=SPEED_LEVEL)
     options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
-    options.inlining_threshold = THRESHOLD
-    builder = llvm.create_pass_builder(machine, options)
-    builder.getModulePassManager().run(module, builder)
-    return [(kind.__name__, words) for kind, words in made.errors], machine.emit_object(module)
+    options.inlining_threshold = INLINING_THRESHOLD
+    passes = llvm.create_pass_builder(machine, options)
+    passes.getModulePassManager().run(module, passes)
+    made: bytes = machine.emit_object(module)
+    return made
 
 
 @cache
@@ -98,7 +114,7 @@ def _machine() -> Any:
     llvm.initialize_native_asmprinter()
     target = llvm.Target.from_triple(llvm.get_process_triple())
     features = llvm.get_host_cpu_features().flatten()
-    return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=min(LEVEL, 2), jit=True)
+    return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=2, jit=True)
 
 
 @cache
@@ -107,68 +123,23 @@ def _linker() -> Any:
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
 
 
-def _link(lines: list[int], failures: list[tuple[str, str]], code: bytes) -> None:
+def _link(codes: list[Code]) -> None:
+    """Put what they hold into the table."""
+    if not codes:
+        return
     linker = _linker()
-    linker.add_object_file(llvm.ObjectFileRef.from_data(code))
+    for one in codes:
+        linker.add_object_file(llvm.ObjectFileRef.from_data(one.machine_code))
     linker.finalize_object()
-    found: Any = (ctypes.c_int64 * len(lines)).from_address(linker.get_global_value_address("addresses"))
-    TABLE[lines] = np.frombuffer(found, np.int64)
-    FAILURES[:] = [tuple(one) for one in failures] or [("", "")]
+    for one in codes:
+        lines = sorted(one.steps)
+        at = linker.get_global_value_address(f"steps_{one.name}")
+        TABLE[lines] = np.ctypeslib.as_array((ctypes.c_int64 * len(lines)).from_address(at))
+        FAILURES.update(one.failures)
+        _ENTRIES.append(int(linker.get_function_address(f"enter_{one.name}")))
+    code_cache.used()
 
 
 def entry() -> int:
-    """The address of what enters compiled code."""
-    return int(_linker().get_function_address("enter"))
-
-
-def sources() -> list[Path]:
-    """The files that count."""
-    return sorted([*(path for folder in COMPILED_TOO for path in folder.rglob("*.py")), *SINGLE])
-
-
-@cache
-def _key() -> str:
-    told = [f"{path.relative_to(OPSIM)} {blake2b(path.read_bytes()).hexdigest()}" for path in sources()]
-    processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
-    versions = (
-        sys.implementation.cache_tag,
-        sys.version,
-        llvmlite.__version__,
-        THRESHOLD,
-        os.environ.get("TRIAL_STEP"),
-        os.environ.get("TRIAL_HOT"),
-    )
-    return blake2b(repr((told, processor, versions, LEVEL)).encode(), digest_size=8).hexdigest()
-
-
-@cache
-def path_of() -> Path | None:
-    """Where the machine code of these sources is, or will be; None: nothing can be written there."""
-    where = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(__file__).parent / "__pycache__")
-    with suppress(OSError):
-        where.mkdir(parents=True, exist_ok=True)
-        return where / f"steps-{_key()}.o"
-    return None
-
-
-def _read() -> tuple[list[tuple[str, str]], bytes] | None:
-    with suppress(OSError, ValueError, TypeError):
-        data = path_of().read_bytes()  # type: ignore[union-attr]
-        digest, head, code = data[:16], *data[16:].split(b"\n", 1)
-        if digest == blake2b(data[16:], digest_size=16).digest():
-            return json.loads(head), code
-    return None
-
-
-def _keep(failures: list[tuple[str, str]], code: bytes) -> None:
-    path = path_of()
-    if path is None:
-        return
-    told = json.dumps(failures).encode() + b"\n" + code
-    beside = path.with_name(f"{path.name}.{uuid4().hex[:12]}")
-    with suppress(OSError):
-        beside.write_bytes(blake2b(told, digest_size=16).digest() + told)
-        os.replace(beside, path)
-        others = sorted(path.parent.glob("steps-*.o"), key=lambda one: one.stat().st_mtime)
-        for one in others[:-MOST_KEPT]:
-            one.unlink()
+    """The address of what enters a step of the table."""
+    return _ENTRIES[0]
