@@ -7,6 +7,7 @@ import math
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import Array, address_of, fresh, give_back, inlined, words_at
 from opsim.engine.fast_engine.machine.intrinsics import array_at, rounded
+from opsim.engine.fast_engine.machine.intrinsics import lowest_bit as lowest_bit
 from opsim.engine.fast_engine.machine.lists import give_bytes_back, take_bytes
 from opsim.engine.fast_engine.state import Event, Worker
 from opsim.engine.rules import COMPLETION

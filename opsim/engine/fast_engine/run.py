@@ -122,14 +122,18 @@ def ready(plan: Plan, told: Told | None = None) -> None:
 def ready_for(steps: Iterable[Step], told: Told | None = None, more: Iterable[Callable[[], object]] = ()) -> None:
     """The same for some steps, for what draws numbers, and for more."""
     wanted = list(steps)
-    jobs: list[Callable[[], object]] = [partial(complete, wanted)] if lacking(wanted) else []
-    jobs += [*([_compile_luck] if _luck_is_new() else []), *more]
+    jobs = list(more)
+    if _luck_is_new():
+        jobs.insert(0, _compile_luck)
+    if lacking(wanted):
+        jobs.insert(0, partial(complete, wanted))
     for done, job in enumerate(jobs):
         if told is not None:
             told(done, len(jobs))
         job()
     if told is not None and jobs:
         told(len(jobs), len(jobs))
+    complete(wanted)  # where they were on disk: other processes may begin with what this one has
 
 
 def _luck_is_new() -> bool:

@@ -152,7 +152,9 @@ def field_kind(field: Field) -> Kind:
 
 def said_kind(said: Any) -> Kind | None:
     """The kind that an annotation stands for; None: it says nothing, or nothing certain."""
-    text = (said if isinstance(said, str) else getattr(said, "__name__", "Any")).strip("'\"")
+    text = (
+        "None" if said is None else (said if isinstance(said, str) else getattr(said, "__name__", "Any")).strip("'\"")
+    )
     if text in ("Any", "") or text.startswith("tuple"):
         return None
     if text in ("None", "bool"):
