@@ -86,7 +86,7 @@ def _line_of(function: Any) -> int:
 
 
 def make_ready(plan: Plan, faulty: Callable) -> bool:
-    """Have the steps of a plan in the table, compiled since the fault was planted; whether the faulty function is in them."""
+    """Have the steps of a plan in the table, compiled after the fault was planted; whether the function is in them."""
     steps = built(plan).steps.values()
     with MonkeyPatch.context() as alone:
         alone.setattr(code_cache, "kept", list)

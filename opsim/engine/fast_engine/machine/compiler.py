@@ -58,7 +58,7 @@ class Module:
         while self._todo:
             one = self._todo.pop()
             # NOTE: every step can fail, as who calls by the table does not know which of them it is
-            body = Body(self, one.function, one.kinds, one.answer, one.symbol, "internal", fails=True)
+            body = Body(self, one.function, one.kinds, one.answer, one.symbol, "internal noinline", fails=True)
             self._texts.append(body.text())
 
     @property

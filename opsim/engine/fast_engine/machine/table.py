@@ -23,7 +23,7 @@ from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
 TABLE = np.zeros(LINES, dtype=np.int64)
 FAILURES: dict[int, tuple[str, str]] = {}
 """Exceptions that compiled code raises, by their numbers: the name of the class, and what it says."""
-SPEED_LEVEL, INLINING_THRESHOLD = 2, 225
+SPEED_LEVEL, INLINING_THRESHOLD = 2, 150
 _FRAME = """
 define i64 @enter_{name}(ptr %function, ptr %answer, ptr %floor, i64 %given) {{
  %both = call {{i64, i64}} %function(ptr %floor, i64 %given)

@@ -54,7 +54,7 @@ SAID = [
     "xs.clear()\nn = bool(xs) + 2 * (5 not in xs)",
     "n = drop(xs, 1) + 10 * drop(xs, 77) + 100 * index_of(xs, 2)",
     "n = n in (1, 7) or n in PAIR",
-    "for x in xs:\n    if x > 9:\n        continue\n    if len(xs) > 9:\n        break\n    xs.append(x + 5)\n    n += x",
+    "for x in xs:\n    if x > 9:\n        continue\n    if len(xs) > 8:\n        break\n    xs.append(x + 5)",
     "for i in range(n, 0, -2):\n    xs.append(i)\n    i += 5",
     "while n < 100 and not n % 11 == 5:\n    n = 2 * n + 1",
     "xs[0], xs[1] = xs[1], xs[0]\na, b = (n, 2.5) if n > 3 else (1, 4)\nn = int(a * b)",
