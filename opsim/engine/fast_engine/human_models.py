@@ -9,7 +9,6 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from dataclasses import fields
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -217,40 +216,19 @@ def kept_muscles(build: Any, shares: Any) -> int:
     return int(build.floats(shares.ravel()))
 
 
-@cache
-def _kernels() -> tuple[Any, Any]:
-    """What passes for muscles, as C calls it: of addresses of (J, 5) and (PARTS, J) numbers, 0 where none is known."""
-    import numba
-    from numba import carray, types
-
-    from opsim.ergonomics.kernels.muscles import rest, rest_to_s, spend
-
-    number, numbers = types.float64, types.CPointer(types.float64)
-    joints, parts = (N_JOINTS, N_NUMBERS), (PARTS, N_JOINTS)
-
-    @numba.cfunc(number(numbers, numbers, types.int64, number, number, number, number), cache=True)
-    def passed(shares, course, known, first, last, work_s, rest_s):
-        muscles = carray(shares, joints)
-        return spend(muscles, carray(course, parts), first, last, work_s, rest_s) if known else rest(muscles, rest_s)
-
-    @numba.cfunc(number(numbers, numbers, number), cache=True)
-    def to_s(shares, spare, level):
-        return rest_to_s(carray(shares, joints), carray(spare, joints), level)
-
-    return passed, to_s
-
-
 _piece = inlined(piece)
 _muscles_shift: Any = inlined(ThreeCompartment.shift)
 
 
 def install_muscles(build: Any, effects: Any) -> None:
     """Fresh muscles for every worker."""
+    from opsim.ergonomics.kernels import muscles
+
     effects.pass_line, effects.rest_line = build.line(muscles_pass_on), build.line(muscles_have_to_rest)
     build.hang(effects.shifts, slowed_by_muscles)
     bodies = bodies_of(build)
     effects.ask_burden = bodies.asks(bodies.answer_course)
-    effects.call_passed, effects.call_rest_to_s = (one.address for one in _kernels())
+    effects.call_passed, effects.call_rest_to_s = (one.address for one in muscles.for_c())
     effects.spare = kept_muscles(build, build.plan.human.fatigue.fresh().shares * 0.0)
     for worker in build.workers:
         worker.human.shares = kept_muscles(build, build.plan.human.fatigue.fresh().shares)
@@ -272,7 +250,7 @@ def muscles_pass_on(floor: Floor, human: Human) -> None:
     human.at_s = floor.now
     task = human.task
     if task < 0:
-        human.tired = call_floats(call, human.shares, 0, 0, 0.0, 0.0, 0.0, floor.now - at_s)
+        human.tired = call_floats(call, human.shares, 0, N_JOINTS, 0, 0.0, 0.0, 0.0, floor.now - at_s)
         return
     first, last, work_s, rest_s = _piece(at_s, floor.now, human.begun_s, human.until_s, human.done)
     if floor.now >= human.until_s:
@@ -283,16 +261,17 @@ def muscles_pass_on(floor: Floor, human: Human) -> None:
             raise RuntimeError("nobody said how heavy a task is")
     course = human.courses[task]
     if not course:
-        human.tired = call_floats(call, human.shares, 0, 0, 0.0, 0.0, 0.0, work_s + rest_s)
+        human.tired = call_floats(call, human.shares, 0, N_JOINTS, 0, 0.0, 0.0, 0.0, work_s + rest_s)
     else:
-        human.tired = call_floats(call, human.shares, course, 1, first, last, work_s, rest_s)
+        human.tired = call_floats(call, human.shares, course, N_JOINTS, PARTS, first, last, work_s, rest_s)
 
 
 @step
 def muscles_have_to_rest(floor: Floor, human: Human) -> None:
     """For how many seconds, until none of his joints is too tired."""
     effects = human.effects
-    effects.answer = call_floats(effects.call_rest_to_s, human.shares, effects.spare, effects.rest.until)
+    until = effects.rest.until
+    effects.answer = call_floats(effects.call_rest_to_s, human.shares, effects.spare, N_JOINTS, until)
 
 
 _shift: Any = inlined(Lffrm.shift)
