@@ -176,7 +176,7 @@ def _rest_to_s(state, spare, n_joints, level):
 
 
 def for_c() -> tuple[Any, Any]:
-    """``spend``, or ``rest`` where a course has no parts, and ``rest_to_s``: as C calls them, of addresses and sizes."""
+    """``spend``, or ``rest`` of a course without parts, and ``rest_to_s``: as C calls them, by addresses."""
     numbers, size = "CPointer(float64), CPointer(float64)", "int64"
     passed = called_from_c(_passed, f"float64({numbers}, {size}, {size}, float64, float64, float64, float64)")
     return passed, called_from_c(_rest_to_s, f"float64({numbers}, {size}, float64)")
