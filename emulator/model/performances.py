@@ -133,11 +133,16 @@ class MotionPerformances(Performances):
 
     def _grounded(self, kept: np.ndarray) -> Ground:
         """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
+        return self._stood(kept, 0.0)
+
+    def _stood(self, kept: np.ndarray, moved: np.ndarray | float) -> Ground:
+        """The same with posture coefficients moved by ``moved`` (n, P)."""
         model, n, lengths = self.model, len(self), self.bone_length_m
         posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
         near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
-        centre = [model.scale.centre[model.scale.block(name)] for name in ("posture", "root")]
+        centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
         posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
+        posture = posture + moved
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
         aligned = model.decoder.directions(posture, clock)
         flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
