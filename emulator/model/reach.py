@@ -21,8 +21,8 @@ from emulator.people.workers import WorkerEffect
 
 HIT_M = 1e-3
 """How near a component of a law comes to its target, and how loosely noise is held: a millimetre."""
-MARK_M = 0.005
-"""How well places are known: half a centimetre. It keeps what a place that hardly varied tells from growing wild."""
+MARK_M = 0.03
+"""How well a place tells: three centimetres. It keeps what places that hardly varied tell from growing wild."""
 STEP = 1e-3
 ROUNDS = 8
 SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25)

@@ -9,16 +9,24 @@ from typing import Any
 
 import numpy as np
 
+from emulator.model.arms import Arms
+from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
 from emulator.model.gaussian import Law
 from emulator.model.performances import Ground, MotionPerformances
 from emulator.model.reach import LocalRegression, ReachedLaw, errors_scale, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
+from emulator.performances import Floats
 
 HIT_M = 0.003
 """A decoded body whose joint is nearer than this to its target at the mark is left as it is."""
-ROUNDS = 6
+FAR_M = 0.10
+"""Beyond it the whole body is moved, feet and all; nearer, trunk and arms are."""
+ROUNDS = 4
+LONGEST = 1.5
+"""A step is at most so many times as long as the way that is left, or it would lead far aside."""
+STEP_M = 0.005
 KEPT_LAWS = 256
 """Laws of workers that are kept at a time."""
 
@@ -40,7 +48,7 @@ class ReachEmulator(MotionEmulator):
         """The law of z of the worker with this effect, or (None) of a new worker each time, given the targets."""
         return self._reached(effect).law
 
-    def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
+    def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> ReachPerformances:
         """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm."""
         drawn = super().performances(scores, body_scale)
         return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale)
@@ -75,15 +83,23 @@ class ReachEmulator(MotionEmulator):
         return HandPlaces.of(self, self.targets)
 
     @cached_property
-    def posture_moving(self) -> np.ndarray:
-        """(P, R) how posture coefficients alone follow the hands, so that the hands come as far as they are to."""
+    def arms(self) -> Arms:
+        """What brings decoded hands the last way."""
         block = self.scale.block("posture")
-        way = np.zeros_like(self._reached(None).moving)
-        way[block] = self._reached(None).moving[block]
-        middle, step = self.middle, 0.01
-        moved = self.places(np.concatenate([middle[None], middle + step * way.T]))
-        turned = np.linalg.lstsq(((moved[1:] - moved[0]) / step).T, np.eye(len(self.target_m)), rcond=1e-3)[0]
-        return np.asarray(self.scale.spread[block][:, None] * way[block] @ turned)
+        near = self._trend.covariance(self.target_m)[block, block] + self.workforce.within.covariance[block, block]
+        spread = self.scale.spread[block]
+        return Arms(self.hands, tuple(self._rows), spread[:, None] * near * spread)
+
+    @cached_property
+    def whole_body(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+        """How coefficients of posture (P, R) and root (R0, R) follow the hands, and how decoded hands then go, (R, R)."""
+        blocks = [self.scale.block(name) for name in ("posture", "root")]
+        posture, root = (self.scale.spread[at, None] * self._reached(None).moving[at] for at in blocks)
+        n = len(self.target_m)
+        tried = self.performances(np.broadcast_to(self.middle, (n + 1, len(self.middle))))
+        moved = tuple(np.concatenate([np.zeros((1, len(way))), STEP_M * way.T]) for way in (posture, root))
+        places_m = tried.places(tried.stood(moved))
+        return (posture, root), (places_m[1:] - places_m[0]).T / STEP_M
 
     @cached_property
     def _rows(self) -> list[int]:
@@ -93,8 +109,13 @@ class ReachEmulator(MotionEmulator):
     @cached_property
     def _span(self) -> float:
         """Share of the recordings that lines through them look at, the same for all workers."""
+        return self._trend.span
+
+    @cached_property
+    def _trend(self) -> LocalRegression:
+        """What the recordings tell of z by places."""
         z = recorded(self, None)
-        return LocalRegression(z, self.places(z)).best(errors_scale(self)).span
+        return LocalRegression(z, self.places(z)).best(errors_scale(self))
 
     @cached_property
     def _laws(self) -> dict[Any, ReachedLaw]:
@@ -121,33 +142,84 @@ class ReachPerformances(MotionPerformances):
     model: ReachEmulator
 
     def _grounded(self, kept: np.ndarray) -> Ground:
-        """As ``MotionPerformances``, with postures moved until the joints are at their targets within ``HIT_M``."""
+        """As ``MotionPerformances``, with bodies moved until the joints are at their targets within ``HIT_M``.
+
+        Whole bodies, feet and all, where the way is long; then what the legs do not carry.
+        """
         model = self.model
-        moved = np.zeros((len(self), model.scale.sizes[0]))
-        ground = self._stood(kept, moved)
-        miss = model.target_m - self._places(ground)
-        turned = np.broadcast_to(np.eye(len(model.target_m)), (len(self), *[len(model.target_m)] * 2)).copy()
-        rows = np.flatnonzero(np.abs(miss).max(axis=1, initial=0.0) > HIT_M)
-        for _ in range(ROUNDS):
+        moved, ground = self._near(kept)
+        lifted = np.zeros_like(ground.posture)
+        miss = model.target_m - self.places(ground)
+        for _ in range(2):
+            rows = np.flatnonzero(np.abs(miss).max(axis=1, initial=0.0) > HIT_M)
             if rows.size == 0:
                 break
-            step = np.einsum("nij,nj->ni", turned[rows], miss[rows])
-            moved[rows] += step @ model.posture_moving.T
             some = self[rows]
-            again = some._stood(kept[rows], moved[rows])
-            missed = model.target_m - some._places(again)
-            turned[rows] = _broyden(turned[rows], step, miss[rows] - missed)
-            miss[rows] = missed
+            place = model.hands.clock(some.scores)
+            yaw_rad = along(ground.control[rows], np.concatenate([np.zeros((len(rows), 1)), place], axis=1))[..., 3]
+            lifted[rows] += model.arms.lifted(
+                ground.upper[rows], place, yaw_rad[:, 1:] - yaw_rad[:, :1], some.bone_length_m, miss[rows]
+            )
+            again = some._stood(kept[rows], tuple(part[rows] for part in moved), lifted[rows])
+            miss[rows] = model.target_m - some.places(again)
             for name, values in vars(again).items():
                 getattr(ground, name)[rows] = values
-            rows = rows[np.abs(missed).max(axis=1) > HIT_M]
         return ground
 
-    def _places(self, ground: Ground) -> np.ndarray:
+    def _near(self, kept: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], Ground]:
+        """How far coefficients of posture and root are moved until the joints are within ``FAR_M``, and the bodies."""
+        (posture, root), came = self.model.whole_body
+        inverse = np.broadcast_to(_bounded_inverse(came), (len(self), *came.shape)).copy()
+        at, share = np.zeros((len(self), len(came))), np.ones(len(self))
+        ground = self._stood(kept)
+        miss = self.model.target_m - self.places(ground)
+        for _ in range(ROUNDS):
+            rows = np.flatnonzero(np.linalg.norm(miss, axis=1) > FAR_M)
+            if rows.size == 0:
+                break
+            step = share[rows, None] * _shortened(np.einsum("nij,nj->ni", inverse[rows], miss[rows]), miss[rows])
+            tried = at[rows] + step
+            again = self[rows]._stood(kept[rows], (tried @ posture.T, tried @ root.T))
+            missed = self.model.target_m - self[rows].places(again)
+            inverse[rows] = _broyden(inverse[rows], step, miss[rows] - missed)
+            better = np.linalg.norm(missed, axis=1) < np.linalg.norm(miss[rows], axis=1)
+            share[rows] = np.where(better, 1.0, 0.5 * share[rows])
+            won = rows[better]
+            at[won], miss[won] = tried[better], missed[better]
+            for name, values in vars(again).items():
+                getattr(ground, name)[won] = values[better]
+        return (at @ posture.T, at @ root.T), ground
+
+    def _decoded(self, posture: np.ndarray, upper: np.ndarray, place: np.ndarray, dtype: Floats) -> np.ndarray:
+        directions = super()._decoded(posture, upper, place, dtype)
+        rows = np.flatnonzero(np.any(posture != upper, axis=1))
+        if rows.size:
+            lifted = super()._decoded(upper[rows], upper[rows], place[rows], dtype)
+            bones = self.model.arms.bones
+            directions[np.ix_(rows, np.arange(place.shape[1]), bones)] = lifted[:, :, bones]
+        return directions
+
+    def stood(self, moved: tuple[np.ndarray, ...]) -> Ground:
+        """Bodies on the ground with coefficients of posture (n, P) and root (n, R0) moved."""
+        return self._stood(np.ones(len(self)), moved)
+
+    def places(self, ground: Ground) -> np.ndarray:
         """(n, R) where the joints are of bodies that stand like this."""
         standing = replace(self)
         standing.__dict__["_ground"] = ground
         return self.model.asked(self.model.hands.decoded(standing))
+
+
+def _bounded_inverse(came: np.ndarray) -> np.ndarray:
+    """The inverse of (R, R), along no direction more than ``LONGEST``."""
+    left, size, right = np.linalg.svd(came)
+    return np.asarray(right.T @ np.diag(1.0 / np.maximum(size, 1.0 / LONGEST)) @ left.T)
+
+
+def _shortened(step: np.ndarray, miss: np.ndarray) -> np.ndarray:
+    """Steps (n, R) no longer than ``LONGEST`` times what is missed (n, R)."""
+    far = np.linalg.norm(step, axis=1) / np.maximum(LONGEST * np.linalg.norm(miss, axis=1), 1e-12)
+    return np.asarray(step / np.maximum(far, 1.0)[:, None])
 
 
 def _broyden(inverse: np.ndarray, step: np.ndarray, came: np.ndarray) -> np.ndarray:

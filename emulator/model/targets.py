@@ -191,13 +191,13 @@ class HandPlaces:
 
     def seen(self, positions_m: np.ndarray, yaw_rad: np.ndarray) -> np.ndarray:
         """(n, G, 3) from joints (n, 1 + G, J, 3) at the start and at each mark, and the heading (n,) at the start."""
-        origin = positions_m[:, 0, self._stand].mean(axis=1)
+        origin = positions_m[:, 0, self.stand].mean(axis=1)
         origin[:, 2] = 0.0
         hands = [positions_m[:, 1 + g, list(joints)].mean(axis=1) for g, joints in enumerate(self.joints)]
         return turn(np.stack(hands, axis=1) - origin[:, None], -np.asarray(yaw_rad)[:, None])
 
     @cached_property
-    def _stand(self) -> list[int]:
+    def stand(self) -> list[int]:
         """Joints that say where somebody stands: the ankles, or the root."""
         names = self.model.skeleton.names
         ankles = [names.index(name) for name in ANKLES if name in names]
@@ -206,7 +206,7 @@ class HandPlaces:
     def _block(self, z: np.ndarray, scale: np.ndarray) -> np.ndarray:
         model = self.model
         place = np.concatenate([np.zeros((len(z), 1)), self.clock(z)], axis=1)
-        flat = _along(self._posture_control, model.scale.raw(z, "posture"), place)
+        flat = _along(self.posture_control, model.scale.raw(z, "posture"), place)
         lengths = model.bone_length_m(z) * scale[:, None]
         path = self._ridden(z, lengths, place) if model.rides else self._path(z, lengths, place)
         directions = turn(model.flatten.inverse(flat), path[..., 3:])
@@ -225,7 +225,8 @@ class HandPlaces:
         return along(control_points(np.concatenate([root, yaw[..., None]], axis=-1)), place)
 
     @cached_property
-    def _posture_control(self) -> np.ndarray:
+    def posture_control(self) -> np.ndarray:
+        """(T + 2, P + 1, C) control points of posture components and their mean."""
         posture = self.model.posture
         return _control(np.concatenate([posture.basis, posture.mean[None]]), self.model.n_times)
 
@@ -241,11 +242,23 @@ def _control(rows: np.ndarray, n_times: int) -> np.ndarray:
     return np.ascontiguousarray(np.moveaxis(control, 1, 0))
 
 
-def _along(control: np.ndarray, coefficients: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Values (n, S, C) at places (n, S), in cells, of splines with coefficients (n, P) of control (T + 2, P + 1, C)."""
-    low = np.clip(place.astype(int), 0, len(control) - 4)
+def blended(control: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Values (n, S, R, C) at places (n, S), in cells, of splines with control points (T + 2, R, C)."""
+    low, weight = _cells(len(control), place)
+    return np.einsum("nsk,nskrc->nsrc", weight, control[low[..., None] + np.arange(4)])
+
+
+def _cells(n_control: int, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First of four control points (n, S), and their weights (n, S, 4), of cubic B-splines at places (n, S)."""
+    low = np.clip(place.astype(int), 0, n_control - 4)
     u = place - low
     weight = np.stack([(1 - u) ** 3, (3 * u - 6) * u**2 + 4, ((3 - 3 * u) * u + 3) * u + 1, u**3], axis=-1) / 6.0
+    return low, weight
+
+
+def _along(control: np.ndarray, coefficients: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Values (n, S, C) at places (n, S), in cells, of splines with coefficients (n, P) of control (T + 2, P + 1, C)."""
+    low, weight = _cells(len(control), place)
     with_mean = np.concatenate([coefficients, np.ones((len(coefficients), 1))], axis=1)
     out = np.zeros((*place.shape, control.shape[-1]))
     for s in range(place.shape[1]):
