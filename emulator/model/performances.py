@@ -140,10 +140,8 @@ class MotionPerformances(Performances):
         """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
         return self._stood(kept)
 
-    def _stood(
-        self, kept: np.ndarray, moved: tuple[np.ndarray, ...] | None = None, lifted: np.ndarray | float = 0.0
-    ) -> Ground:
-        """The same with coefficients of posture (n, P) and root (n, R) ``moved``, and of upper bones by ``lifted`` more."""
+    def _stood(self, kept: np.ndarray, moved: tuple[np.ndarray, ...] | None = None) -> Ground:
+        """The same with coefficients of posture (n, P) and root (n, R) ``moved``."""
         model, n, lengths = self.model, len(self), self.bone_length_m
         posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
         near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
@@ -151,9 +149,8 @@ class MotionPerformances(Performances):
         posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
         if moved is not None:
             posture, channel = posture + moved[0], channel + moved[1]
-        upper = posture + lifted
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
-        aligned = self._decoded(posture, upper, clock, np.float64)
+        aligned = model.decoder.directions(posture, clock)
         flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
         lowest_m = 0.0 if model.footing is None else -np.inf  # feet keep to floors of their own, smoothly
         root, yaw = model.channel.inverse(flat, aligned, lengths, lowest_m)
@@ -165,7 +162,7 @@ class MotionPerformances(Performances):
             time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
             path, bends, fastest = stood(self.skeleton, model.legs, aligned, lengths, path, time_s, stance)
             path[..., :2] -= path[:, :1, :2]
-        return Ground(decoding.control_points(path), bends, posture, upper, kept.copy(), fastest)
+        return Ground(decoding.control_points(path), bends, posture, posture.copy(), kept.copy(), fastest)
 
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.

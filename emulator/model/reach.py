@@ -9,7 +9,7 @@ held there, by Matheron's rule with the derivative of h at the middle of the new
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -76,12 +76,14 @@ class LocalRegression:
     """What recordings tell of z by their places: straight lines through those near a place (loess, degree 1).
 
     z (N, K), place (N, R); span : share of the N that a line looks at
+    trust : (K,) how much of what is foretold beyond the mean is believed, 0 to 1
     Source: Cleveland (1979), tricube weights without robustness; as a ridge of ``MARK_M``.
     """
 
     z: np.ndarray
     place: np.ndarray
     span: float = np.inf
+    trust: np.ndarray = field(default_factory=lambda: np.ones(1))
 
     def weights(self, at: np.ndarray) -> np.ndarray:
         """(n, N) that add to 1: how much each recording tells at places (n, R)."""
@@ -100,7 +102,8 @@ class LocalRegression:
 
     def __call__(self, at: np.ndarray) -> np.ndarray:
         """(n, K) z as foretold at places (n, R)."""
-        return np.asarray(self._smoother(at) @ self.z)
+        middle = self.z.mean(axis=0)
+        return np.asarray(middle + self.trust * (self._smoother(at) @ self.z - middle))
 
     def _smoother(self, at: np.ndarray) -> np.ndarray:
         """(n, N) what is multiplied by z: linear in it."""
@@ -117,18 +120,25 @@ class LocalRegression:
         apart = self.z - weight @ self.z
         return np.asarray(apart.T @ (weight[:, None] * apart))
 
-    def best(self, scale: np.ndarray) -> LocalRegression:
-        """With the span that foretells left-out recordings best; scale (K,) weighs the errors of z."""
+    def best(self, scale: np.ndarray, doubted: np.ndarray) -> LocalRegression:
+        """With the span that foretells left-out recordings best; scale (K,) weighs the errors of z.
+
+        doubted : (K,) coordinates of which no more is believed than left-out recordings bear out: the slope of these on
+        what is foretold of them, 0 to 1. Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
+        """
         spans = [span for span in SPANS if not np.isfinite(span) or span * len(self.z) > self.fewest]
         tried = [replace(self, span=span) for span in spans]
-        return min(tried, key=lambda one: one._left_out(scale))
+        foretold = [one._left_out() for one in tried]
+        best = int(np.argmin([np.mean(((self.z - told) * scale) ** 2) for told in foretold]))
+        told = foretold[best] - self.z.mean(axis=0)
+        slope = np.sum(told * (self.z - self.z.mean(axis=0)), axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
+        return replace(tried[best], trust=np.where(doubted, np.clip(slope, 0.0, 1.0), 1.0))
 
-    def _left_out(self, scale: np.ndarray) -> float:
-        """Mean squared error of each recording foretold by the others."""
+    def _left_out(self) -> np.ndarray:
+        """(N, K) each recording as foretold by the others."""
         smoother = self._smoother(self.place)
-        own = np.minimum(np.diag(smoother), 0.95)
-        missed = (self.z - smoother @ self.z) / (1.0 - own)[:, None]
-        return float(np.mean((missed * scale) ** 2))
+        own = np.minimum(np.diag(smoother), 0.95)[:, None]
+        return np.asarray((smoother @ self.z - own * self.z) / (1.0 - own))
 
 
 def recorded(model: JointLaw, mean: np.ndarray | None) -> np.ndarray:
@@ -144,6 +154,14 @@ def recorded(model: JointLaw, mean: np.ndarray | None) -> np.ndarray:
         both = rows if mean is not None else np.concatenate([rows, model.workforce.between.factor])
         return np.concatenate([middle + both, middle - both])
     return known.scores if mean is None else mean + within_worker(known.scores, known.owner)
+
+
+def beside_curves(model: JointLaw) -> np.ndarray:
+    """(K,) which coordinates are durations, marks and pauses: single numbers, of which places tell much or nothing."""
+    doubted = np.zeros(len(model.scale.centre), bool)
+    for name in ("duration", "marks", "dwells"):
+        doubted[model.scale.block(name)] = True
+    return doubted
 
 
 def errors_scale(model: JointLaw) -> np.ndarray:
@@ -165,19 +183,22 @@ class ReachedLaw:
 
 
 def reached_law(
-    model: JointLaw, effect: WorkerEffect | None, places: Places, target: np.ndarray, span: float
+    model: JointLaw, effect: WorkerEffect | None, places: Places, target: np.ndarray, like: LocalRegression
 ) -> ReachedLaw:
-    """The law of the worker with this effect, or (None) of anybody, given that ``places`` are at ``target`` (R,)."""
+    """The law of the worker with this effect, or (None) of anybody, given that ``places`` are at ``target`` (R,).
+
+    like : a regression whose span and trust are taken
+    """
     law = model.workforce.law(effect)
     z = recorded(model, None if effect is None else effect.z)
-    trend = LocalRegression(z, places(z), span)
+    trend = replace(like, z=z, place=places(z))
     foretold = trend(target[None])[0]
     near = trend.covariance(target) + np.mean(law.reach**2) * law.noise.covariance
     middle, moving = foretold, np.zeros((len(foretold), len(target)))
     slope = np.zeros((len(target), len(foretold)))
     for _ in range(3):
         here, slope = derivative(places, middle)
-        moving = gain(near, slope, HIT_M)
+        moving = like.trust[:, None] * gain(near, slope, HIT_M)
         middle = middle + moving @ (target - here)
         if np.abs(target - here).max() < HIT_M:
             break

@@ -14,7 +14,7 @@ from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
 from emulator.model.gaussian import Law
 from emulator.model.performances import Ground, MotionPerformances
-from emulator.model.reach import LocalRegression, ReachedLaw, errors_scale, reached_law, recorded
+from emulator.model.reach import LocalRegression, ReachedLaw, beside_curves, errors_scale, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
 from emulator.performances import Floats
@@ -107,15 +107,10 @@ class ReachEmulator(MotionEmulator):
         return [i for i, value in enumerate(asked) if value is not None]
 
     @cached_property
-    def _span(self) -> float:
-        """Share of the recordings that lines through them look at, the same for all workers."""
-        return self._trend.span
-
-    @cached_property
     def _trend(self) -> LocalRegression:
         """What the recordings tell of z by places."""
         z = recorded(self, None)
-        return LocalRegression(z, self.places(z)).best(errors_scale(self))
+        return LocalRegression(z, self.places(z)).best(errors_scale(self), beside_curves(self))
 
     @cached_property
     def _laws(self) -> dict[Any, ReachedLaw]:
@@ -128,7 +123,7 @@ class ReachEmulator(MotionEmulator):
             if len(self._laws) >= KEPT_LAWS:
                 self._laws.pop(next(iter(self._laws)))
             scale = 1.0 if effect is None else effect.scale
-            self._laws[key] = reached_law(self, effect, lambda z: self.places(z, scale), self.target_m, self._span)
+            self._laws[key] = reached_law(self, effect, lambda z: self.places(z, scale), self.target_m, self._trend)
         return self._laws[key]
 
 
@@ -146,28 +141,33 @@ class ReachPerformances(MotionPerformances):
 
         Whole bodies, feet and all, where the way is long; then what the legs do not carry.
         """
-        model = self.model
-        moved, ground = self._near(kept)
-        lifted = np.zeros_like(ground.posture)
-        miss = model.target_m - self.places(ground)
-        for _ in range(2):
-            rows = np.flatnonzero(np.abs(miss).max(axis=1, initial=0.0) > HIT_M)
-            if rows.size == 0:
-                break
+        ground = self._near(kept)
+        miss = self.model.target_m - self.places(ground)
+        rows = np.flatnonzero(np.abs(miss).max(axis=1, initial=0.0) > HIT_M)
+        if rows.size:
             some = self[rows]
-            place = model.hands.clock(some.scores)
-            yaw_rad = along(ground.control[rows], np.concatenate([np.zeros((len(rows), 1)), place], axis=1))[..., 3]
-            lifted[rows] += model.arms.lifted(
-                ground.upper[rows], place, yaw_rad[:, 1:] - yaw_rad[:, :1], some.bone_length_m, miss[rows]
-            )
-            again = some._stood(kept[rows], tuple(part[rows] for part in moved), lifted[rows])
-            miss[rows] = model.target_m - some.places(again)
-            for name, values in vars(again).items():
-                getattr(ground, name)[rows] = values
+            ground.upper[rows] += some._lifted(ground.control[rows], ground.upper[rows], miss[rows])
+            ground.fastest_m_per_s[rows] = some._fastest_m_per_s(rows_of(ground, rows))
         return ground
 
-    def _near(self, kept: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], Ground]:
-        """How far coefficients of posture and root are moved until the joints are within ``FAR_M``, and the bodies."""
+    def _lifted(self, control: np.ndarray, upper: np.ndarray, miss: np.ndarray) -> np.ndarray:
+        """(n, P) by how much coefficients of upper bones change where hands are to come by ``miss`` (n, R)."""
+        place = self.model.hands.clock(self.scores)
+        yaw_rad = along(control, np.concatenate([np.zeros((len(self), 1)), place], axis=1))[..., 3]
+        return self.model.arms.lifted(upper, place, yaw_rad[:, 1:] - yaw_rad[:, :1], self.bone_length_m, miss)
+
+    def _fastest_m_per_s(self, ground: Ground) -> np.ndarray:
+        """(n,) the greatest speed of any joint of bodies that stand like this, between frames of 1/30 s."""
+        from emulator.kernels.feet import fastest_joint
+
+        if self.model.footing is None:  # as where nothing stands: no bound
+            return np.zeros(len(self))
+        time_s = self.model.warps(self.scores) * self.duration_s[:, None]
+        bodies = self._standing(ground).positions_m(time_s)
+        return np.array([fastest_joint(body, own) for body, own in zip(bodies, time_s)])
+
+    def _near(self, kept: np.ndarray) -> Ground:
+        """As ``MotionPerformances``, with coefficients of posture and root moved until joints are within ``FAR_M``."""
         (posture, root), came = self.model.whole_body
         inverse = np.broadcast_to(_bounded_inverse(came), (len(self), *came.shape)).copy()
         at, share = np.zeros((len(self), len(came))), np.ones(len(self))
@@ -188,7 +188,7 @@ class ReachPerformances(MotionPerformances):
             at[won], miss[won] = tried[better], missed[better]
             for name, values in vars(again).items():
                 getattr(ground, name)[won] = values[better]
-        return (at @ posture.T, at @ root.T), ground
+        return ground
 
     def _decoded(self, posture: np.ndarray, upper: np.ndarray, place: np.ndarray, dtype: Floats) -> np.ndarray:
         directions = super()._decoded(posture, upper, place, dtype)
@@ -205,9 +205,18 @@ class ReachPerformances(MotionPerformances):
 
     def places(self, ground: Ground) -> np.ndarray:
         """(n, R) where the joints are of bodies that stand like this."""
+        return self.model.asked(self.model.hands.decoded(self._standing(ground)))
+
+    def _standing(self, ground: Ground) -> ReachPerformances:
+        """The same performances, standing like this."""
         standing = replace(self)
         standing.__dict__["_ground"] = ground
-        return self.model.asked(self.model.hands.decoded(standing))
+        return standing
+
+
+def rows_of(ground: Ground, rows: np.ndarray) -> Ground:
+    """Some bodies of them."""
+    return Ground(**{name: values[rows] for name, values in vars(ground).items()})
 
 
 def _bounded_inverse(came: np.ndarray) -> np.ndarray:
