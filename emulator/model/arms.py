@@ -74,7 +74,7 @@ class Arms:
         return np.swapaxes(hand - self._hand(now, lengths[::n_ways], yaw_rad[::n_ways])[:, None], 1, 2) / STEP
 
     def _hand(self, flat: np.ndarray, length_m: np.ndarray, yaw_rad: np.ndarray) -> np.ndarray:
-        """(n, R) from the root to the hands along the upper bones, of flat coordinates (n, G, C) of the chain's bones."""
+        """(n, R) from the root to the hands along upper bones, of flat coordinates (n, G, C) of the chain's."""
         steps = self._flatten.inverse(flat) * length_m[:, None, :, None]
         hands = np.einsum("gb,ngbc->ngc", self._weight, steps)
         return turn(hands, yaw_rad).reshape(len(flat), -1)[:, list(self.rows)]

@@ -23,7 +23,8 @@ class Ground:
     """Where and how n bodies stand.
 
     control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 6) what the legs bend
-    posture : (n, P) posture coefficients; upper : (n, P) those of all bones but the legs'; kept : (n,) what share of their deviation from the mean movement is kept
+    posture : (n, P) posture coefficients; upper : (n, P) those of all bones but the legs'
+    kept : (n,) what share of their deviation from the mean movement is kept
     fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
     """
 

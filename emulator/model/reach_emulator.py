@@ -34,15 +34,17 @@ KEPT_LAWS = 256
 def given_targets(model: MotionEmulator, targets: Target | Sequence[Target]) -> MotionEmulator:
     """See ``MotionEmulator.given``; targets of an emulator that has some already are added to them."""
     asked = (targets,) if isinstance(targets, Target) else tuple(targets)
+    base, before = (model.base, model.targets) if isinstance(model, ReachEmulator) else (model, ())
     own = {one.name: getattr(model, one.name) for one in fields(MotionEmulator)}
-    return ReachEmulator(**own, targets=checked(model, (*getattr(model, "targets", ()), *asked)))
+    return ReachEmulator(**own, base=base, targets=checked(model, (*before, *asked)))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ReachEmulator(MotionEmulator):
-    """A MotionEmulator given where joints are at marks, see ``MotionEmulator.given``."""
+    """A MotionEmulator given where joints are at marks, see ``MotionEmulator.given``; base : the free one."""
 
-    targets: tuple[Target, ...] = ()
+    base: MotionEmulator
+    targets: tuple[Target, ...]
 
     def law(self, effect: WorkerEffect | None) -> Law:
         """The law of z of the worker with this effect, or (None) of a new worker each time, given the targets."""
@@ -92,7 +94,7 @@ class ReachEmulator(MotionEmulator):
 
     @cached_property
     def whole_body(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
-        """How coefficients of posture (P, R) and root (R0, R) follow the hands, and how decoded hands then go, (R, R)."""
+        """How coefficients of posture (P, R) and root (R0, R) follow hands, and how decoded hands go then (R, R)."""
         blocks = [self.scale.block(name) for name in ("posture", "root")]
         posture, root = (self.scale.spread[at, None] * self._reached(None).moving[at] for at in blocks)
         n = len(self.target_m)
@@ -108,9 +110,13 @@ class ReachEmulator(MotionEmulator):
 
     @cached_property
     def _trend(self) -> LocalRegression:
-        """What the recordings tell of z by places."""
-        z = recorded(self, None)
-        return LocalRegression(z, self.places(z)).best(errors_scale(self), beside_curves(self))
+        """What the recordings tell of z by places: the same for all heights, so the free emulator keeps it."""
+        known: dict[Any, LocalRegression] = self.base.__dict__.setdefault("_trends", {})
+        key = self.hands.joints, self.hands.marks, tuple(self._rows)
+        if key not in known:
+            z = recorded(self, None)
+            known[key] = LocalRegression(z, self.places(z)).best(errors_scale(self), beside_curves(self))
+        return known[key]
 
     @cached_property
     def _laws(self) -> dict[Any, ReachedLaw]:

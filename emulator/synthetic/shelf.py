@@ -21,10 +21,10 @@ LOWEST_M, HIGHEST_M, HIGHEST_SHARE = 0.1, 1.9, 1.03
 """Heights of shelves; nobody reaches for one above this share of his stature."""
 MARK_CLOCK, MARK_SPREAD = 0.5, 0.012
 ARM_M, TRUNK_M = 0.47, 0.44
-"""How far a wrist is from its shoulder at most when a person chooses, and the shoulder from the pelvis, of a body 1.75 m
-tall: the arm itself is 0.55 m long."""
-BETWEEN, WITHIN = np.array([0.05, 0.08, 0.015]), np.array([0.05, 0.07, 0.02])
-"""Standard deviations between and within people: of trunk flexion (rad), log duration, how far ahead (m)."""
+"""How far a wrist is from its shoulder at most when a person chooses, and the shoulder from the pelvis, of a body
+1.75 m tall: the arm itself is 0.55 m long."""
+BETWEEN, WITHIN = np.array([0.05, 0.08, 0.015, 0.01]), np.array([0.05, 0.07, 0.02, 0.02])
+"""Standard deviations between and within people: of log trunk flexion, of log duration, how far ahead and aside (m)."""
 _CLOCK = np.linspace(0.0, 1.0, 201)
 
 
@@ -54,7 +54,7 @@ def highest_m(stature_m: float) -> float:
 
 @dataclass(frozen=True)
 class Reacher:
-    """A made person: the body, and by how much the three of ``BETWEEN`` differ from anybody's, (3,)."""
+    """A made person: the body, and by how much the four of ``BETWEEN`` differ from anybody's, (4,)."""
 
     body: Body
     habit: np.ndarray
@@ -62,7 +62,7 @@ class Reacher:
     @classmethod
     def of(cls, stature_m: float, rng: np.random.Generator) -> Reacher:
         """Somebody of this stature."""
-        return cls(Body(stature_m), BETWEEN * rng.standard_normal(3))
+        return cls(Body(stature_m), BETWEEN * rng.standard_normal(4))
 
 
 def crew(n: int, rng: np.random.Generator, low_m: float = 1.5, high_m: float = 2.0) -> list[Reacher]:
@@ -88,7 +88,7 @@ def make_shelf(
 
 
 def _motion(person: Reacher, height_m: float, worker: str, trial: str, rng: np.random.Generator) -> Motion:
-    luck, scale = person.habit + WITHIN * rng.standard_normal(3), person.body.scale
+    luck, scale = person.habit + WITHIN * rng.standard_normal(4), person.body.scale
     gamma = warps_of(rng.standard_normal((1, 3)))[0]
     duration_s = float(median_duration_s(np.array(height_m / scale)) * np.exp(luck[1]))
     n_times = max(round(duration_s * RATE_HZ) + 1, 20)
@@ -114,15 +114,18 @@ def _pose(clock: np.ndarray, height: float, luck: np.ndarray) -> Fields:
 
 
 def _at_shelf(height: float, luck: np.ndarray) -> Fields:
-    pitch = float(trunk_flexion_rad(np.array(height))) * (1.0 + luck[0])
+    pitch = float(trunk_flexion_rad(np.array(height))) * np.exp(luck[0])
     ahead = float(ahead_m(np.array(height))) + luck[2]
     back = -0.22 * np.sin(pitch)
     level = ahead - back - TRUNK_M * np.sin(pitch)
     most = height + np.sqrt(max(ARM_M**2 - level**2, 0.01)) - TRUNK_M * np.cos(pitch)
     sunk = 0.05 * np.log1p(np.exp((REST["pelvis"][2] - most) / 0.05))
-    wrists = {f"{side}_wrist": np.array([ahead, sign * 0.16, height]) for side, sign in (("left", 1), ("right", -1))}
+    wrists = {
+        f"{side}_wrist": np.array([ahead, sign * 0.16 + luck[3], height]) for side, sign in (("left", 1), ("right", -1))
+    }
     return wrists | {
         "pelvis": np.array([back, 0.0, REST["pelvis"][2] - sunk]),
         "pitch": np.array([pitch]),
+        "twist": np.array([1.5 * luck[3]]),
         "nod": np.array([0.1 - 0.3 * pitch]),
     }
