@@ -5,7 +5,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from emulator_evidence.reach import energy, seen_of
+from emulator_evidence.reach import drawn_of, energy, seen_of
+from motion_evidence import reach as motion_evidence
 
 from emulator import MotionEmulator, Target
 from emulator.model.gaussian import LowRankNormal
@@ -65,7 +66,7 @@ def test_hands_stay_where_they_are_under_a_condition(condition):
 
 def test_a_low_shelf_takes_the_time_and_the_trunk_that_were_put_in():
     low, high = draws(at(0.25), 64), draws(at(1.2), 64)
-    asked = np.log(median_duration_s(np.array([0.25, 1.2]) / (1.75 / 1.75)))
+    asked = np.log(median_duration_s(np.array([0.25, 1.2])))
     assert np.log(low.duration_s).mean() - np.log(high.duration_s).mean() == pytest.approx(asked[0] - asked[1], abs=0.1)
     pelvis, neck = (shelf().skeleton.names.index(name) for name in ("pelvis", "neck"))
     trunks = [
@@ -79,14 +80,8 @@ def test_draws_are_nearer_to_fresh_movements_at_the_shelf_than_free_draws():
     fresh = seen_of(
         make_shelf(crew(12, np.random.default_rng(8)), 4, rng=np.random.default_rng(9), heights_m=[0.3])
     ).rows
-    given, free = (seen_as_drawn(one).rows for one in (at(0.3), shelf()))
+    given, free = (drawn_of(one, [None], 48).rows for one in (at(0.3), shelf()))
     assert energy(given, fresh) < 0.15 * energy(free, fresh)
-
-
-def seen_as_drawn(emulator):
-    from emulator_evidence.reach import drawn_of
-
-    return drawn_of(emulator, [None], 48)
 
 
 def test_two_shelves_share_their_luck():
@@ -211,6 +206,13 @@ def test_all_mistakes_are_told_at_once():
     with pytest.raises(ValueError) as caught:
         shelf().given([Target("nose", MARK, height_m=1), Target("hands", "grap", height_m=1)])
     assert len(str(caught.value).splitlines()) == 2
+
+
+def test_the_evidence_tells_how_often_it_helped():
+    errors = np.array([[[0.2, 0.2, 0.1], [0.1, 0.1, 0.2]], [[0.2, 0.2, 0.1], [0.1, 0.1, 0.05]]])
+    told = motion_evidence.lines("squat", errors, np.array([0.0, 0.5]))
+    assert told[0] == "squat: 2 recordings left out, one at a time; 25% of the draws miss by 5 mm"
+    assert [line.split()[-1] for line in told[1:]] == ["100%", "100%", "50%"]
 
 
 # the parts
