@@ -21,8 +21,8 @@ LEAST_M = 0.01
 GAP_M = 0.50
 """What is stretched where recordings lie on both sides: a gap is bridged better than an edge is left."""
 # Measured on made shelves (emulator.synthetic.shelf), fitted to heights of 0.8-1.2 m, of 0.5-1.4 m, of 0.3 and 1.3 m
-# and of 1.0 m alone, asked at 0.1-1.8 m: within 0.10 m of a recording trunks are wrong by at most 6 degrees and times by
-# 5 %, within 0.25 m by 13 degrees and 9 %, in a gap of 0.9 m by 14 degrees and 7 %.
+# and of 1.0 m alone, asked at 0.1-1.8 m: within 0.10 m of a recording trunks are wrong by at most 6 degrees and times
+# by 5 %, within 0.25 m by 13 degrees and 9 %, in a gap of 0.9 m by 14 degrees and 7 %.
 
 
 @dataclass(frozen=True)
