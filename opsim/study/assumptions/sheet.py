@@ -20,7 +20,7 @@ from opsim.ergonomics.walking import LOOKED_AT
 from opsim.kpi.deadlock import Locked
 from opsim.kpi.material_supply import NOBODY, TO_FILL
 from opsim.plan import Plan
-from opsim.plan.model_warnings import unread
+from opsim.plan.model_warnings import stretched, unread
 from opsim.plan.resources import repairs_said
 from opsim.plan.tasks import setup_tasks
 from opsim.problems import listed
@@ -90,6 +90,7 @@ def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
                 f"{task.name}: people here move and take their time as in {said.emulator} "
                 f"({behind(report.source, report.n_sequences, report.n_workers)})",
             )
+    yield from _hands(loaded, plan)
     for task in named:
         said = tasks[task.name]
         if isinstance(said, Motions):
@@ -109,6 +110,23 @@ def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     loads = [name for name, task in tasks.items() if task.load_kg is not None]
     if loads:
         yield "loads", f"{listed(loads)}: the load is kept with the task; it does not change pace or posture"
+
+
+def _hands(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
+    """Tasks whose hands go where the scenario says."""
+    tasks = {name: task for name, task in loaded.scenario.tasks.items() if isinstance(task, Emulated) and task.hands}
+    for name, task in tasks.items():
+        at = [f"{mark} {_height(said)}" for mark, said in task.hands.items()]
+        yield (
+            "reach",
+            f"{name}: the middle of both hands is where the scenario says (at {listed(at)}); body and time follow, as "
+            "far as they went together with it in the recordings",
+        )
+    yield from (("reach", sentence) for sentence in stretched(plan))
+
+
+def _height(said: float | tuple[str, str]) -> str:
+    return f"{said:g} m" if isinstance(said, float) else ".".join(said)
 
 
 def _window(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
