@@ -134,7 +134,8 @@ def _measured(plan: Plan, task: TaskPlan) -> list[WorkerPlan]:
 
 def _effect(plan: Plan, task: TaskPlan, worker: WorkerPlan) -> Any:
     number = plan.workforce_of(0)
-    return worker_effect(task.model, task.name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
+    effect = worker_effect(task.model, task.name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
+    return getattr(effect, "effect", effect)
 
 
 def has_body(task: TaskPlan) -> bool:

@@ -129,5 +129,7 @@ def test_what_is_far_from_the_recordings_is_warned_of_and_on_the_assumption_shee
 
 
 def test_a_body_that_is_far_from_the_recordings_is_warned_of():
-    (said,) = stretched(plan(edited(("{ana: {skills", "{ana: {height: 1.45 m, skills"))))
-    assert said.startswith("pick: with the body of ana: ")
+    small = ("{ana: {skills", "{ana: {height: 1.45 m, skills")
+    for variability in ("full", "none"):
+        (said,) = stretched(plan(edited(small, ("horizon: 20 min", f"horizon: 20 min, variability: {variability}"))))
+        assert said.startswith("pick: with the body of ana: ")
