@@ -19,6 +19,7 @@ from opsim.ergonomics.trunk import has_trunk
 from opsim.ergonomics.walking import LOOKED_AT
 from opsim.kpi.deadlock import Locked
 from opsim.kpi.material_supply import NOBODY, TO_FILL
+from opsim.libraries import HandTarget
 from opsim.plan import Plan
 from opsim.plan.model_warnings import stretched, unread
 from opsim.plan.resources import repairs_said
@@ -32,7 +33,7 @@ from opsim.study.assumptions.human import human, walking
 from opsim.study.assumptions.people import asked_for_pace, people
 from opsim.study.replication import Replicated
 from opsim.task_model import behind, fit_report
-from opsim.tasks.from_scenario import emulators_of
+from opsim.tasks.from_scenario import emulators_of, hand_targets
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
@@ -116,7 +117,7 @@ def _hands(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     """Tasks whose hands go where the scenario says."""
     tasks = {name: task for name, task in loaded.scenario.tasks.items() if isinstance(task, Emulated) and task.hands}
     for name, task in tasks.items():
-        at = [f"{mark} {_height(said)}" for mark, said in task.hands.items()]
+        at = [_at(one, task.hands[one.mark]) for one in hand_targets(task, loaded.scenario.layout)]
         yield (
             "reach",
             f"{name}: the middle of both hands is where the scenario says (at {listed(at)}); body and time follow, as "
@@ -125,8 +126,9 @@ def _hands(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     yield from (("reach", sentence) for sentence in stretched(plan))
 
 
-def _height(said: float | tuple[str, str]) -> str:
-    return f"{said:g} m" if isinstance(said, float) else ".".join(said)
+def _at(target: HandTarget, said: float | tuple[str, str]) -> str:
+    level = "" if isinstance(said, float) else f" {'.'.join(said)},"
+    return f"{target.mark}{level} {target.height_m:g} m"
 
 
 def _window(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:

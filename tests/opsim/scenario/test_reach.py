@@ -125,7 +125,7 @@ def test_what_is_far_from_the_recordings_is_warned_of_and_on_the_assumption_shee
     (said,) = stretched(plan(text))
     assert said.startswith("pick: ") and "height 0.50 m lies a little outside" in said
     reach = [words for topic, words in assumptions_of(loaded(text), plan(text)) if topic == "reach"]
-    assert "grasp rack.low" in reach[0] and reach[1] == said
+    assert "(at grasp rack.low, 0.5 m, set_down bench.surface, 1 m)" in reach[0] and reach[1] == said
 
 
 def test_a_body_that_is_far_from_the_recordings_is_warned_of():
