@@ -108,6 +108,7 @@ libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
 	$(RUN) -m emulator.synthetic -o scenarios/libraries/bench_work.npz
 	$(RUN) -m emulator.synthetic.walking -o scenarios/libraries/walking.npz
+	$(RUN) -m emulator.synthetic.handling -o scenarios/libraries/handling.npz
 
 lock:
 	test -x $(RUN) || $(PYTHON) -m venv $(VENV)
