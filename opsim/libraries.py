@@ -11,7 +11,6 @@ from typing import Any
 from opsim.files import NotInside, inside
 from opsim.problems import did_you_mean, shown
 from opsim.shipped import shipped_folder
-from opsim.threads import one_blas_thread
 
 HANDS = "hands"
 """What the middle of both wrists is called among joints."""
@@ -143,10 +142,7 @@ def _reaching(path: Path, _changed: int, _size: int, task: str, hands: tuple[Han
     from emulator import Target
 
     targets = [Target(HANDS, one.mark, height_m=one.height_m, ahead_m=one.ahead_m) for one in hands]
-    model = load_library(path)[task].given(targets)
-    with one_blas_thread():  # what is worked out for anybody is kept: here, so that it is the same in every process
-        model.mean_duration_s()
-    return model
+    return load_library(path)[task].given(targets)
 
 
 @lru_cache(maxsize=8)

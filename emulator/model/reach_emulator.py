@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from emulator.model.arms import Arms
 from emulator.model.decoding import along
@@ -129,7 +130,8 @@ class ReachEmulator(MotionEmulator):
             if len(self._laws) >= KEPT_LAWS:
                 self._laws.pop(next(iter(self._laws)))
             scale = 1.0 if effect is None else effect.scale
-            self._laws[key] = reached_law(self, effect, lambda z: self.places(z, scale), self.target_m, self._trend)
+            with threadpool_limits(1, user_api="blas"):  # the last bits of a law depend on how many threads there are
+                self._laws[key] = reached_law(self, effect, lambda z: self.places(z, scale), self.target_m, self._trend)
         return self._laws[key]
 
 
