@@ -62,7 +62,9 @@ RIGHT = [
     "opsim: 1\ninclude: common.yaml\nworkers: {ana: {walk: 1 m/s}}\n",
     GOOD.replace("[0 m, 0 m]", "[-2 m, 1 ft 3 in]"),
     GOOD.replace("[0 m, 0 m]", "{at: [0 m, 0 m], levels: {low: 30 cm}, surface: 1 m, depth: 0.4 m}"),
-    with_task("emulator: w/lift, hands: {grasp: rack.low, release: 0.4 m}"),
+    with_task("emulator: w/lift, hands: {grasp: door.low, set_down: 0.9 m}")
+    .replace("[0 m, 0 m]", "{at: [0 m, 0 m], levels: {low: 40 cm}}")
+    .replace("workers:\n", "libraries: {w: libraries/bench_work.npz}\nworkers:\n"),
     GOOD.replace("like: ana", "like: ana, age: 41 years, sex: m, pace: 0.9"),
     GOOD.replace(
         "workers:\n", "workforce: {n: 12, from: population, prefix: q, like: ana, skills: {pack: 1}}\nworkers:\n"
