@@ -1,4 +1,4 @@
-# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | emulator-evidence CHECKOUT=path | same-results CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | reach-evidence | emulator-evidence CHECKOUT=path | same-results CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -10,7 +10,7 @@ BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
 PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence emulator-evidence same-results take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence reach-evidence emulator-evidence same-results take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -84,6 +84,11 @@ motion-evidence: $(READY)
 real-time-evidence: $(READY)
 	PYTHONPATH=tests $(RUN) -m motion_evidence.real_time
 
+# Made shelves of known truth, and recordings left out of which only a hand's place is told.
+reach-evidence: $(READY)
+	PYTHONPATH=tests $(RUN) -m emulator_evidence.reach
+	PYTHONPATH=tests $(RUN) -m motion_evidence.reach
+
 # CHECKOUT=path of another checkout: what the emulator of it gives, this one gives.
 emulator-evidence: $(READY)
 	PYTHONPATH=tests $(RUN) -m emulator_evidence.same $(CHECKOUT)
@@ -108,6 +113,7 @@ libraries: $(READY)
 	$(VENV)/bin/opsim motion fit $(foreach name,$(PUBLIC),$(MOTION)/uiprmd_$(name).npz) -o scenarios/libraries/public_movements.npz
 	$(RUN) -m emulator.synthetic -o scenarios/libraries/bench_work.npz
 	$(RUN) -m emulator.synthetic.walking -o scenarios/libraries/walking.npz
+	$(RUN) -m emulator.synthetic.handling -o scenarios/libraries/handling.npz
 
 lock:
 	test -x $(RUN) || $(PYTHON) -m venv $(VENV)

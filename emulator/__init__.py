@@ -25,6 +25,7 @@ _HOME = {
     "MotionEmulator": "model.emulator",
     "MotionPerformances": "model.performances",
     "MotionLibrary": "model.library",
+    "Target": "model.targets",
     "LibraryError": "model.library",
     "FitReport": "fitting.report",
     "Truth": "synthetic",

@@ -175,8 +175,12 @@ class Skeleton:
         """(J, B) 1 where the bone lies between the root and the joint."""
         reach = np.zeros((self.n_joints, self.n_bones))
         for joint in range(self.n_joints):
-            reach[joint, [self.bones.index(step) for step in self._path(joint)]] = 1.0
+            reach[joint, self.lineage(joint)] = 1.0
         return reach
+
+    def lineage(self, joint: int) -> list[int]:
+        """The bones between a joint and the root."""
+        return [self.bones.index(step) for step in self._path(joint)]
 
     def index(self, name: str) -> int:
         """The number of a joint, asked for by any alias. Raises ValueError if this skeleton has none such."""

@@ -51,12 +51,13 @@ class Ways:
         return tuple(self.places[rank] for rank in reversed(passed))
 
 
-def ways(layout: Layout) -> Ways:
-    """The shortest ways between all places of a layout, in natural order of their names."""
+def ways(layout: Layout, moved: Mapping[str, Point] | None = None) -> Ways:
+    """The shortest ways between all places of a layout, in natural order of their names; ``moved`` are elsewhere."""
+    places = {**layout.places, **(moved or {})}
     if layout.distance == "paths":
-        return _along(layout.places, layout.path_steps)
-    names = tuple(sorted(layout.places, key=natural_key))
-    return Ways(names, _as_the_crow_flies(tuple(layout.places[name] for name in names), layout.distance))
+        return _along(places, layout.path_steps)
+    names = tuple(sorted(places, key=natural_key))
+    return Ways(names, _as_the_crow_flies(tuple(places[name] for name in names), layout.distance))
 
 
 def distances_m(layout: Layout) -> Matrix:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,10 @@ from opsim.files import NotInside, inside
 from opsim.problems import did_you_mean, shown
 from opsim.shipped import shipped_folder
 
+HANDS = "hands"
+"""What the middle of both wrists is called among joints."""
+WRISTS = ("left_wrist", "right_wrist")
+
 
 class LibraryMissing(ValueError):
     """A library that is not there or cannot be read: ``message`` and ``hint`` in plain words."""
@@ -18,6 +23,15 @@ class LibraryMissing(ValueError):
     def __init__(self, message: str, hint: str = ""):
         super().__init__(f"{message}; {hint}" if hint else message)
         self.message, self.hint = message, hint
+
+
+@dataclass(frozen=True, slots=True)
+class HandTarget:
+    """Where the middle of both hands is at a mark: above the floor, and before the ankles (None: as recorded)."""
+
+    mark: str
+    height_m: float
+    ahead_m: float | None = None
 
 
 def resolve_library(name: str, folder: Path) -> Path:
@@ -87,6 +101,48 @@ def load_library(path: Path) -> Any:
     """The library itself; ``library[task]`` is a TaskModel. Read once for as long as the file does not change."""
     status = path.stat()
     return _library(path, status.st_mtime_ns, status.st_size)
+
+
+def library_model(path: Path, task: str, hands: tuple[HandTarget, ...] = ()) -> Any:
+    """The TaskModel of a task of a library, its hands at their targets where there are some.
+
+    It is worked out once for a file, a task and its targets. Raises ValueError for targets that cannot be.
+    """
+    status = path.stat()
+    return _reaching(path, status.st_mtime_ns, status.st_size, task, hands) if hands else load_library(path)[task]
+
+
+FINE, STRETCHED, REFUSED = "fine", "stretched", "refused"
+"""How a target lies to what was recorded."""
+
+
+def recorded_reach(path: Path, task: str, hand: HandTarget) -> tuple[str, str]:
+    """How a target lies to what was recorded (FINE, STRETCHED or REFUSED), and the known range in a sentence.
+
+    Raises ValueError for a mark that is not there, and for motion that hands cannot lead.
+    """
+    status = path.stat()
+    return _recorded_reach(path, status.st_mtime_ns, status.st_size, task, hand)
+
+
+@lru_cache(maxsize=256)
+def _recorded_reach(path: Path, _changed: int, _size: int, task: str, hand: HandTarget) -> tuple[str, str]:
+    from emulator import Target
+
+    model = load_library(path)[task]
+    if not hasattr(model, "reach"):
+        raise ValueError(f"{task} is motion of cycles, which hands do not lead")
+    asked = Target(HANDS, hand.mark, height_m=hand.height_m, ahead_m=hand.ahead_m)
+    found = model.reach(HANDS, hand.mark).verdict(asked)
+    return found.word, found.sentence
+
+
+@lru_cache(maxsize=64)
+def _reaching(path: Path, _changed: int, _size: int, task: str, hands: tuple[HandTarget, ...]) -> Any:
+    from emulator import Target
+
+    targets = [Target(HANDS, one.mark, height_m=one.height_m, ahead_m=one.ahead_m) for one in hands]
+    return load_library(path)[task].given(targets)
 
 
 @lru_cache(maxsize=8)

@@ -12,8 +12,8 @@ from opsim.plan import compile_plan, station_loads
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder, shipped_scenarios
 
-LIBRARIES = {"public_movements": 7, "bench_work": 9, "walking": 1}
-MADE = ("bench_work", "walking")
+LIBRARIES = {"public_movements": 7, "bench_work": 9, "walking": 1, "handling": 1}
+MADE = ("bench_work", "walking", "handling")
 
 
 @pytest.mark.parametrize("name", shipped_scenarios())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -13,6 +13,8 @@ import numpy as np
 from emulator.model.conditioning import CONDITIONS, given
 from emulator.model.joint_law import JointLaw
 from emulator.model.performances import MotionPerformances
+from emulator.model.recorded_reach import Reach
+from emulator.model.targets import Target
 from emulator.motion import MotionSet
 from emulator.people.workers import WorkerEffect
 
@@ -73,7 +75,7 @@ class MotionEmulator(JointLaw):
         if n < 0:
             raise ValueError(f"{self.task}: found n = {n}, expected a number of performances from 0")
         effect = self._effect(worker)
-        law = self.workforce.law(effect)
+        law = self.law(effect)
         z = given(self, law, n, rng, effect, condition) if condition else law.sample(n, rng)
         return self.performances(z, 1.0 if effect is None else effect.scale)
 
@@ -90,6 +92,25 @@ class MotionEmulator(JointLaw):
         """Coefficient of variation of the model's duration, of one worker or over the population."""
         mean_s, spread_s = self.moments_s(self._effect(worker))
         return spread_s / mean_s
+
+    def given(self, targets: Target | Sequence[Target]) -> MotionEmulator:
+        """An emulator of the same task whose joints are at ``targets`` at the marks that these name.
+
+        Each draw keeps its own noise and what the targets do not decide; times and marks follow. Worked out once for a
+        worker, when the worker is first asked for. How far a target is from what was recorded: ``reach``.
+        Raises ValueError, with all mistakes, for a joint or a mark that is not there, a task without marks, the same
+        joint and mark twice, or a height above anybody's reach.
+        """
+        from emulator.model.reach_emulator import given_targets
+
+        return given_targets(self, targets)
+
+    def reach(self, joint: str, mark: str | int) -> Reach:
+        """Where a joint (or "hands") was at a mark in the recordings, and how far targets are from there.
+
+        Raises ValueError for a joint or a mark that is not there, or a task without marks.
+        """
+        return Reach.of(self, joint, mark)
 
     @property
     def between_share(self) -> float:

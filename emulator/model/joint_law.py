@@ -16,6 +16,7 @@ from emulator.geometry.warps import coordinates_to_clock, evaluate, from_clr, fr
 from emulator.model.decoding import Decoder, RootChannel
 from emulator.model.dwell_times import GRID, NONE, WEIGHTS, Dwells
 from emulator.model.feet import Footing, Legs
+from emulator.model.gaussian import Law
 from emulator.model.joint_coordinates import JointScale, Margin, inverse_all
 from emulator.model.reduction import JointPCA
 from emulator.people.workers import WorkerEffect, Workforce
@@ -56,6 +57,10 @@ class JointLaw:
     dwells: Dwells = NONE
     footing: Footing | None = None
     rides: bool = False
+
+    def law(self, effect: WorkerEffect | None) -> Law:
+        """The law of z of the worker with this effect, or (None) of a new worker each time."""
+        return self.workforce.law(effect)
 
     def moving_s(self, scores: np.ndarray) -> np.ndarray:
         """(n,) seconds of movement: the duration without its pauses."""
@@ -126,6 +131,11 @@ class JointLaw:
         """(n, B) metres."""
         return np.exp(self.bones.inverse(self.scale.raw(scores, "bones")))
 
+    @cached_property
+    def middle(self) -> np.ndarray:
+        """(K,) z of the mean movement, towards which a draw is drawn in where a joint is too fast."""
+        return np.zeros(len(self.scale.centre))
+
     @property
     def channel(self) -> RootChannel:
         return RootChannel(self.skeleton, self.rides)
@@ -178,7 +188,7 @@ class JointLaw:
 
     def _moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
         """Mean and standard deviation of the duration, over the components of its law."""
-        block, law = self.scale.block("duration"), self.workforce.law(effect)
+        block, law = self.scale.block("duration"), self.law(effect)
         mean, covariance = law.coordinates(np.array([block.start]))
         raw = self.scale.centre[block] + self.scale.spread[block] * mean
         spread = self.scale.spread[block] * np.sqrt(covariance[:, 0])
@@ -187,7 +197,7 @@ class JointLaw:
         return mean_s, float(np.sqrt(max(law.weight @ second - mean_s**2, 0.0)))
 
     def _paused_moments_s(self, effect: WorkerEffect | None) -> tuple[float, float]:
-        law, at = self.workforce.law(effect), self.coordinates_of_times()
+        law, at = self.law(effect), self.coordinates_of_times()
         mean, covariance = law.coordinates(at)
         scale = self.scale.spread[at]
         mean, covariance = self.scale.centre[at] + scale * mean, covariance * np.outer(scale, scale)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,14 +71,14 @@ def mean_of(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> 
     Source: the mean of aligned sequences of Chen, Park & Srivastava, with the centre of the joint vector.
     """
     effect = model.known_worker(worker) if isinstance(worker, str) else worker
-    law = model.workforce.law(effect)
+    law = model.law(effect)
     z = law.weight @ law.mean + (law.centre if law.people is None else law.people.mean)
     dwell_s = _mean_dwell_s(model, law)
     _put(z, model, "dwells", _NO_PAUSE)
     moving_s = model.mean_duration_s(effect) - dwell_s.sum()
     _put(z, model, "duration", float(model.margin.forward(np.log(moving_s))))
     bones = np.ones(1) if effect is None else np.full(1, effect.scale)
-    return MeanPerformance(MotionPerformances(model, z[None], model.moving_s(z[None]), bones), dwell_s)
+    return MeanPerformance(replace(model.performances(z[None], bones), duration_s=model.moving_s(z[None])), dwell_s)
 
 
 def _put(z: np.ndarray, model: MotionEmulator, block: str, raw: float) -> None:

@@ -23,13 +23,15 @@ class Ground:
     """Where and how n bodies stand.
 
     control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 6) what the legs bend
-    posture : (n, P) posture coefficients; kept : (n,) what share of their deviation from the mean movement is kept
+    posture : (n, P) posture coefficients; upper : (n, P) those of all bones but the legs'
+    kept : (n,) what share of their deviation from the mean movement is kept
     fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
     """
 
     control: np.ndarray
     bends: np.ndarray
     posture: np.ndarray
+    upper: np.ndarray
     kept: np.ndarray
     fastest_m_per_s: np.ndarray
 
@@ -111,10 +113,14 @@ class MotionPerformances(Performances):
             return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
         directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
         for rows, some in self._blocks():
-            directions[rows] = model.decoder.directions(some._ground.posture, place[rows], np.dtype(dtype))
+            directions[rows] = some._decoded(some._ground.posture, some._ground.upper, place[rows], dtype)
             if model.legs is not None:
                 bend(directions[rows], some.bone_length_m, model.legs, place[rows], some._ground.bends)
         return directions
+
+    def _decoded(self, posture: np.ndarray, upper: np.ndarray, place: np.ndarray, dtype: Floats) -> np.ndarray:
+        """Directions of coefficients (n, P) at places (n, S) before legs bend; here upper bones are as all others."""
+        return self.model.decoder.directions(posture, place, np.dtype(dtype))
 
     @cached_property
     def _ground(self) -> Ground:
@@ -133,11 +139,17 @@ class MotionPerformances(Performances):
 
     def _grounded(self, kept: np.ndarray) -> Ground:
         """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
+        return self._stood(kept)
+
+    def _stood(self, kept: np.ndarray, moved: tuple[np.ndarray, ...] | None = None) -> Ground:
+        """The same with coefficients of posture (n, P) and root (n, R) ``moved``."""
         model, n, lengths = self.model, len(self), self.bone_length_m
         posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
         near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
-        centre = [model.scale.centre[model.scale.block(name)] for name in ("posture", "root")]
+        centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
         posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
+        if moved is not None:
+            posture, channel = posture + moved[0], channel + moved[1]
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
         aligned = model.decoder.directions(posture, clock)
         flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
@@ -151,7 +163,7 @@ class MotionPerformances(Performances):
             time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
             path, bends, fastest = stood(self.skeleton, model.legs, aligned, lengths, path, time_s, stance)
             path[..., :2] -= path[:, :1, :2]
-        return Ground(decoding.control_points(path), bends, posture, kept.copy(), fastest)
+        return Ground(decoding.control_points(path), bends, posture, posture.copy(), kept.copy(), fastest)
 
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.

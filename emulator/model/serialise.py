@@ -45,6 +45,8 @@ def pack(model: Any) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     from emulator.cyclic import serialise as cyclic
     from emulator.cyclic.model import CyclicEmulator
 
+    if getattr(model, "targets", ()):
+        raise ValueError(f"{model.task}: is given targets, which no library holds; save the emulator it was made of")
     return cyclic.pack(model) if isinstance(model, CyclicEmulator) else _pack(model)
 
 

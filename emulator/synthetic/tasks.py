@@ -172,11 +172,11 @@ def _truth(
     log_duration = log_duration + spread * (by_posture * z[:, 0] + by_pace * pace[:, 0] + of_its_own * own)
     latents = z[:, :N_LATENTS]
     return Truth(
-        _warps(pace), mark_clock, latents, log_duration, index, dance.mean_s, dance.cv, share, by_posture, by_pace
+        warps_of(pace), mark_clock, latents, log_duration, index, dance.mean_s, dance.cv, share, by_posture, by_pace
     )
 
 
-def _warps(pace: np.ndarray) -> np.ndarray:
+def warps_of(pace: np.ndarray) -> np.ndarray:
     """(N, 201) warps whose log slope is a sum of three waves with coefficients ``pace`` (N, 3)."""
     waves = np.stack([np.sin(2 * np.pi * _CLOCK), np.cos(2 * np.pi * _CLOCK), np.sin(4 * np.pi * _CLOCK)])
     slope = np.exp(WARP_SPREAD * (pace @ waves))

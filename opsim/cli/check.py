@@ -53,7 +53,7 @@ def _checked(loaded: dict[str, Any]) -> tuple[dict[str, Any], dict[str, list[str
     """By variant: the loads of everything, what may go wrong, and the effects that loads know nothing of."""
     from opsim.plan import compile_plan
     from opsim.plan.loads import loads_of, overloads
-    from opsim.plan.model_warnings import unmoved_bodies, unread, unseen, wide_joins
+    from opsim.plan.model_warnings import stretched, unmoved_bodies, unread, unseen, wide_joins
     from opsim.plan.sources import late_orders
     from opsim.plan.warnings import hour_risks
     from opsim.scenario.warnings import risks_of
@@ -64,7 +64,7 @@ def _checked(loaded: dict[str, Any]) -> tuple[dict[str, Any], dict[str, list[str
         loads[name], without[name] = loads_of(plan), left_out(plan)
         warnings[name] = [*overloads(plan, loads[name]), *risks_of(variant.scenario), *late_orders(plan)]
         warnings[name] += [*hour_risks(plan, loads[name]), *unread(plan), *unmoved_bodies(plan), *wide_joins(plan)]
-        warnings[name] += unseen(plan, variant.scenario.outputs)
+        warnings[name] += [*unseen(plan, variant.scenario.outputs), *stretched(plan)]
     return loads, warnings, without
 
 

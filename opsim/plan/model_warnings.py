@@ -4,6 +4,8 @@ What a scenario says of workers and no model of their tasks reads: said as warni
 
 Tasks whose bodies do not follow where fatigue, the hour or the state of the line slows their workers.
 
+Where hands go further than was recorded, and are not refused for it.
+
 Joints that the bodies of tasks lack, and what that leaves open: for warnings and the assumption sheet.
 """
 
@@ -16,11 +18,13 @@ from typing import Any
 from opsim.ergonomics.measures import missing_scores
 from opsim.external_draws import takes_shift
 from opsim.kpi.catalogue import SCORED
+from opsim.libraries import FINE
 from opsim.plan.plan import Plan
 from opsim.plan.tasks import TaskPlan
 from opsim.plan.workers import WorkerPlan
 from opsim.problems import listed
 from opsim.task_model import keys_read
+from opsim.worker_effects import worker_effect
 
 
 def wide_joins(plan: Plan) -> list[str]:
@@ -106,6 +110,33 @@ def unmoved_bodies(plan: Plan) -> Iterator[str]:
             f"{listed(shifted_by(plan))}: {listed(names)}: the emulator knows no shift of pace, so that times change "
             "and postures stay; write 'human.acts_on: time' where that is meant"
         )
+
+
+def stretched(plan: Plan) -> Iterator[str]:
+    """The warnings, by task and target: how far it lies from what was recorded, of people with heights of their own."""
+    for task in plan.tasks:
+        model: Any = task.model
+        for target in getattr(model, "targets", ()):
+            reach = model.reach(target.joint, target.mark)
+            found = reach.verdict(target)
+            if found.word != FINE:
+                yield f"{task.name}: {found.sentence}"
+                continue
+            own = {w.name: reach.verdict(target, _effect(plan, task, w)) for w in _measured(plan, task)}
+            far = [name for name, verdict in own.items() if verdict.word != FINE]
+            if far:
+                yield f"{task.name}: with the body of {listed(far)}: {own[far[0]].sentence}"
+
+
+def _measured(plan: Plan, task: TaskPlan) -> list[WorkerPlan]:
+    """Those who do a task and whose height is known."""
+    return [one for one in plan.workers if one.body.height_m is not None and task in tasks_of(plan, one)]
+
+
+def _effect(plan: Plan, task: TaskPlan, worker: WorkerPlan) -> Any:
+    number = plan.workforce_of(0)
+    effect = worker_effect(task.model, task.name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
+    return getattr(effect, "effect", effect)
 
 
 def has_body(task: TaskPlan) -> bool:

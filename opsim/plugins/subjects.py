@@ -64,9 +64,14 @@ def installed() -> dict[str, Subject]:
 
     if not entry_points(group=GROUP):
         return {}
+    from opsim.plugins.guard import fault
     from opsim.plugins.registry import plugins
 
     subjects = dict(plugins(GROUP))
+    whose: dict[str, str] = {}
+    for key, name in ((key, kpi.name) for key, one in subjects.items() for kpi in one.kpis):
+        if whose.setdefault(name, key) != key:
+            raise fault(plugins(GROUP).found(key), f"the figure {name} is one of the subject {whose[name]!r} too")
     CATALOGUE.update((kpi.name, kpi) for one in subjects.values() for kpi in one.kpis)
     return subjects
 

@@ -171,12 +171,16 @@ _AGE = {
 }
 _CLOCK = "the clock goes in steps of 2^-20 s up to 2^33 s (272 years)"
 _WIDEST_M = 1e6
+HIGHEST_M, DEEPEST_M = 100.0, 2.0
+"""Of a level, which only a vehicle may reach; of what hands reach into."""
 
 Seconds = Annotated[float, _quantity("time", above=0, at_least=STEP_S, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 SecondsOrZero = Annotated[float, _quantity("time", at_least=0, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 Length = Annotated[float, _quantity("length", at_least=-_WIDEST_M, at_most=_WIDEST_M), _as_text("length")]
 WalkLength = Annotated[float, _quantity("length", at_least=0.1, at_most=1000), _as_text("length")]
 PathLength = Annotated[float, _quantity("length", at_least=0, at_most=_WIDEST_M), _as_text("length")]
+Elevation = Annotated[float, _quantity("length", at_least=0, at_most=HIGHEST_M), _as_text("length")]
+Depth = Annotated[float, _quantity("length", at_least=0, at_most=DEEPEST_M), _as_text("length")]
 Height = Annotated[float, _body("length", "height_m"), _as_text("length")]
 Pitch = Annotated[float, _quantity("length", at_least=0.001, at_most=_WIDEST_M), _as_text("length")]
 Speed = Annotated[float, _quantity("speed", above=0, at_least=0.01, at_most=100), _as_text("speed")]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from opsim.csv_input import read_times, resolve_times
-from opsim.libraries import composite_model, load_library, resolve_library
+from opsim.libraries import HandTarget, composite_model, library_model, load_library, resolve_library
 from opsim.problems import natural_key
 from opsim.tasks.distributions import (
     Beta,
@@ -29,7 +29,7 @@ from opsim.tasks.distributions import (
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
-    from opsim.scenario.schema import Motions, Step
+    from opsim.scenario.schema import Emulated, Layout, Motions, Step
 
 WALK = "walk"
 """What a walk is called in marks, and the task a worker's own effect in it is that of: as in walks between places."""
@@ -83,7 +83,7 @@ def task_model(task: Any, loaded: Loaded) -> Any:
     match task:
         case schema.Emulated():
             file = resolve_library(loaded.scenario.libraries[task.library], loaded.folder)
-            return load_library(file)[task.library_task]
+            return library_model(file, task.library_task, hand_targets(task, loaded.scenario.layout))
         case schema.Motions():
             return motions_model(task, loaded)
         case schema.Recorded():
@@ -95,6 +95,19 @@ def task_model(task: Any, loaded: Loaded) -> Any:
             return plugin_model(task.plugin, task.said)
         case _:
             return time_model(task)
+
+
+def hand_targets(task: Emulated, layout: Layout) -> tuple[HandTarget, ...]:
+    """Where a task's hands go, in the order of its marks by name."""
+    return tuple(_target(mark, task.hands[mark], layout) for mark in sorted(task.hands, key=natural_key))
+
+
+def _target(mark: str, said: float | tuple[str, str], layout: Layout) -> HandTarget:
+    if isinstance(said, float):
+        return HandTarget(mark, said)
+    name, level = said
+    place = layout.with_heights[name]
+    return HandTarget(mark, place.heights_m[level], place.depth_m)
 
 
 def time_model(task: Any) -> Any:

@@ -95,7 +95,9 @@ def _from_road_m(point: Point, a: Point, b: Point) -> float:
 
 
 HEIGHT_M, WIDTH_M = 0.9, 1.4
-"""How high and, for one who works at it, wide a bench is."""
+"""How high, unless its place says so, and, for one who works at it, wide a bench is."""
+ABOVE_M = 0.35
+"""From the highest board of a rack to its top."""
 BESIDE_M, BEHIND_M = 0.8, 0.9
 """From one to the next who stands beside or behind him."""
 
@@ -144,7 +146,7 @@ def floor_of(plan: Plan, layout: Any, like: tuple[Plan, Any] | None = None) -> F
             posts[rank] = _post(station.place, at[station.place], facing[station.place])
             at[station.place] += 1
     bare = Floor(points, facing, posts, tuple(at), (), (), ())
-    benches = tuple(_bench(bare, plan, rank) for rank in posts)
+    benches = tuple(_bench(bare, plan, rank, layout.with_heights.get(plan.places[posts[rank].place])) for rank in posts)
     return Floor(points, facing, posts, tuple(at), benches, _piles(bare, plan), _belts(bare, plan))
 
 
@@ -178,7 +180,8 @@ def _post(place: int, number: int, facing_rad: float) -> Post:
     return Post(place, (side + pi) % (2 * pi) - pi, left_m if number % 2 == 0 else -left_m)
 
 
-def _bench(floor: Floor, plan: Plan, rank: int) -> Bench:
+def _bench(floor: Floor, plan: Plan, rank: int, place: Any) -> Bench:
+    """place : what the layout says of its heights, or None"""
     station, post = plan.stations[rank], floor.posts[rank]
     tasks = [plan.tasks[task] for task in station.tasks]
     together = max([station.servers, *(task.team for task in tasks)])
@@ -187,8 +190,12 @@ def _bench(floor: Floor, plan: Plan, rank: int) -> Bench:
     buffer_m = floor.spot_m(post.place, post.facing_rad, post.left_m + width_m / 2 + 0.5, -AHEAD_M - DEPTH_M / 2)
     alone = bool(tasks) and all(task.automatic for task in tasks)
     holds = None if station.buffer == inf else int(station.buffer)
+    levels_m = tuple(sorted(place.heights_m.values())) if place is not None and place.levels_m else ()
+    surface_m = HEIGHT_M if place is None or place.surface_m is None else place.surface_m
+    high_m = levels_m[-1] + ABOVE_M if levels_m else surface_m
     return Bench(
-        *(station.name, station.place, x, y, post.facing_rad, width_m, DEPTH_M, HEIGHT_M, alone, buffer_m, holds)
+        *(station.name, station.place, x, y, post.facing_rad, width_m, DEPTH_M, high_m, alone, buffer_m, holds),
+        levels_m,
     )
 
 

@@ -18,7 +18,7 @@ class Bench:
     """A station as it stands on the floor.
 
     x_m, y_m : the middle of the bench; facing_rad : from who stands there towards it; capacity : of the buffer
-    buffer_m : where jobs wait in front of it
+    buffer_m : where jobs wait in front of it; levels_m : heights of the boards of a rack, none of a bench
     """
 
     name: str
@@ -32,6 +32,7 @@ class Bench:
     automatic: bool
     buffer_m: tuple[float, float]
     capacity: int | None
+    levels_m: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

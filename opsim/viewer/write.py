@@ -156,6 +156,7 @@ def _told(scene: Scene) -> dict[str, Any]:
                 "depth_m": bench.depth_m,
                 "height_m": bench.height_m,
                 "automatic": bench.automatic,
+                **({"levels_m": list(bench.levels_m)} if bench.levels_m else {}),
                 "buffer": {"x": bench.buffer_m[0], "y": bench.buffer_m[1], "capacity": bench.capacity},
             }
             for bench in scene.benches

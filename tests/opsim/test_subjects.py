@@ -352,6 +352,12 @@ def test_a_subject_that_is_wrong_is_named_with_its_distribution(changed, said, c
     assert f"entry point opsim.subjects: {key} = " in str(caught.value)
 
 
+def test_two_subjects_with_one_figure_are_told_apart_before_anything_runs(cooling, counting):
+    counting(more='kpis=(Kpi("cool_downs_per_h", "Others", "1/h", LESS, FLOW),)')
+    with pytest.raises(PluginError, match=r"counting.*the figure cool_downs_per_h is one of the subject 'cooling' too"):
+        ran(COUNTED)
+
+
 @pytest.mark.parametrize("changed", [{"code": "1 / 0\n"}, {"key": "workers"}], ids=["import", "key"])
 def test_a_subject_that_is_wrong_is_in_nobodys_way_who_does_not_use_it(changed, counting):
     counting(**changed)

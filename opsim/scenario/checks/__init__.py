@@ -32,6 +32,7 @@ from opsim.scenario.checks.people import (
     rotation_problems,
     staffing_problems,
 )
+from opsim.scenario.checks.reach import hand_problems
 from opsim.scenario.checks.routes import quality_problems, routing_problems, walking_problems
 from opsim.scenario.checks.sequence import failure_problems, sequence_problems, team_problems
 from opsim.scenario.checks.shifts import shift_problems
@@ -76,6 +77,7 @@ def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
         team_problems(tree),
         rotation_problems(tree),
         ergonomic_problems(tree, base, folder),
+        hand_problems(tree, folder),
         human_problems(tree),
         addition_problems(tree, base),
         file_problems(tree, folder),

@@ -32,14 +32,26 @@ from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 
 
 def addition_problems(tree: Node, base: Node) -> Iterator[Problem]:
-    """Places, tasks and stations that are not in the base, are used by nobody, and read like one that is there."""
+    """Places, levels, tasks and stations that are not in the base, are used by nobody, and read like one that is."""
     stations, workers = entries(tree, "stations").values(), entries(tree, "workers").values()
     places = {text(station, "at") for station in stations} | {text(worker, "home") for worker in workers}
     tasks = {task.value for station in stations for task in items(station, "tasks") if isinstance(task.value, str)}
     tasks |= {time.value for station in stations for time in setup_times(station) if isinstance(time.value, str)}
-    yield from _unused(tree, base, ("layout", "places"), places, "place")
+    hands = list(_hands(tree))
+    yield from _unused(tree, base, ("layout", "places"), places | {place for place, _ in hands}, "place")
     yield from _unused(tree, base, ("tasks",), tasks, "task")
     yield from _unused(tree, base, ("stations",), visited(tree), "station")
+    for name in entries(tree, "layout", "places"):
+        levels = {level for place, level in hands if place == name}
+        yield from _unused(tree, base, ("layout", "places", name, "levels"), levels, "level")
+
+
+def _hands(tree: Node) -> Iterator[tuple[str, str]]:
+    """(place, level) wherever hands go to one."""
+    for task in entries(tree, "tasks").values():
+        for hand in entries(task, "hands").values():
+            place, _, level = (text(hand) or "").partition(".")
+            yield place.strip(), level.strip()
 
 
 def _unused(tree: Node, base: Node, path: tuple[str, ...], used: Collection, what: str) -> Iterator[Problem]:

@@ -114,7 +114,8 @@ def conveyor_problems(tree: Node) -> Iterator[Problem]:
 
 def _straight_m(belt: Node, places: dict[str, Node]) -> float | None:
     """The length of the straight line between the ends; None where it cannot be known."""
-    ends = [items(places.get(text(belt, end) or "")) for end in ("from", "to")]
+    at = [places.get(text(belt, end) or "") for end in ("from", "to")]
+    ends = [items(place) or items(place, "at") for place in at]
     points = [[_metres(coordinate) for coordinate in end] for end in ends]
     if any(len(point) != 2 or None in point for point in points):
         return None

@@ -14,7 +14,7 @@ from opsim.scenario.schema.distributions import (
     Uniform,
     Weibull,
 )
-from opsim.scenario.schema.layout import Layout, Path
+from opsim.scenario.schema.layout import Layout, Path, Place
 from opsim.scenario.schema.lines import Crew, Flow, Setup
 from opsim.scenario.schema.run import Run, Shift
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
@@ -66,6 +66,7 @@ __all__ = [
     "Motions",
     "Normal",
     "Path",
+    "Place",
     "Plugged",
     "Product",
     "Recorded",

@@ -8,6 +8,7 @@ Conveyors: belts and roller tracks that take jobs from one place to another.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
@@ -16,6 +17,8 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 from opsim.problems import shown
 from opsim.scenario.fields import (
     BeltSpeed,
+    Depth,
+    Elevation,
     Length,
     Name,
     NameText,
@@ -33,6 +36,53 @@ def _two_lengths(value: object) -> object:
     if not isinstance(value, list) or len(value) != 2:
         raise plain_error(f"expected a place as two lengths, found {shown(value)}", "such as [4 m, 1 m]")
     return tuple(value)
+
+
+At = Annotated[tuple[Length, Length], BeforeValidator(_two_lengths)]
+SURFACE = "surface"
+
+
+class Place(Block):
+    """A place with heights above the floor, such as the shelves of a rack or the top of a bench, for hands to go to."""
+
+    at: At = Field(description="x and y", examples=["[9 m, 1 m]"])
+    levels_m: dict[Name, Elevation] = Field(
+        {},
+        alias="levels",
+        description="heights above the floor, by name",
+        examples=["{low: 0.3 m, hip: 0.95 m, top: 1.6 m}"],
+    )
+    surface_m: Elevation | None = Field(
+        None, alias="surface", description="height of what one works on, a level called surface", examples=["0.95 m"]
+    )
+    depth_m: Depth | None = Field(
+        None,
+        alias="depth",
+        description="how far before the ankles hands go there; absent: as far as in the recordings",
+        examples=["0.4 m"],
+    )
+
+    @model_validator(mode="after")
+    def _one_surface(self) -> Place:
+        if self.surface_m is not None and SURFACE in self.levels_m:
+            raise plain_error("two heights are called surface", "give the level another name", on=SURFACE)
+        return self
+
+    @property
+    def heights_m(self) -> dict[str, float]:
+        """Metres above the floor by name, the surface among them."""
+        return self.levels_m if self.surface_m is None else {**self.levels_m, SURFACE: self.surface_m}
+
+
+def _point_or_block(value: object) -> object:
+    return value if isinstance(value, dict) else _two_lengths(value)
+
+
+PlaceOrPoint = Annotated[
+    Annotated[tuple[Length, Length], Tag("<at>")] | Annotated[Place, Tag("<place>")],
+    Discriminator(lambda value: "<place>" if isinstance(value, dict | Place) else "<at>"),
+    BeforeValidator(_point_or_block),
+]
 
 
 class Path(Block):
@@ -81,8 +131,10 @@ class Layout(Block):
     distance: Literal["euclidean", "rectilinear", "paths"] = Field(
         "rectilinear", description="how far it is: straight (euclidean), along the axes (rectilinear), along the paths"
     )
-    places: dict[Name, Annotated[tuple[Length, Length], BeforeValidator(_two_lengths)]] = Field(
-        description="x and y of each place; with paths, doors and crossings too", examples=["{bench: [4 m, 1 m]}"]
+    stands: dict[Name, PlaceOrPoint] = Field(
+        alias="places",
+        description="x and y of each place, heights where hands need them; with paths, doors and crossings too",
+        examples=["{bench: [4 m, 1 m], rack: {at: [9 m, 1 m], levels: {low: 0.3 m, top: 1.6 m}}}"],
     )
     paths: list[Way] | None = Field(
         None,
@@ -98,6 +150,16 @@ class Layout(Block):
         if self.paths is not None and "distance" not in self.model_fields_set:
             raise plain_error("paths are followed only with distance: paths", "add 'distance: paths'", on="paths")
         return self
+
+    @cached_property
+    def places(self) -> dict[str, tuple[float, float]]:
+        """x and y of every place, in metres."""
+        return {name: one.at if isinstance(one, Place) else one for name, one in self.stands.items()}
+
+    @property
+    def with_heights(self) -> dict[str, Place]:
+        """The places that have heights, by name."""
+        return {name: one for name, one in self.stands.items() if isinstance(one, Place)}
 
     @property
     def path_steps(self) -> list[Path]:

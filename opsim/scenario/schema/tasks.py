@@ -164,6 +164,9 @@ def _one_kind(value: object) -> object:
     if kinds == ["dist"] and value["dist"] not in list(DISTRIBUTIONS):
         hint = did_you_mean(value["dist"], DISTRIBUTIONS)
         raise plain_error(f"unknown distribution {shown(value['dist'])}", hint, on="dist")
+    if "hands" in value and kinds != ["emulator"]:
+        hint = "take 'emulator', or remove 'hands'"
+        raise plain_error(f"hands go where an emulator moves them, and this task has {kinds[0]!r}", hint, on="hands")
     return value
 
 

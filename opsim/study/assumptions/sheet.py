@@ -19,8 +19,9 @@ from opsim.ergonomics.trunk import has_trunk
 from opsim.ergonomics.walking import LOOKED_AT
 from opsim.kpi.deadlock import Locked
 from opsim.kpi.material_supply import NOBODY, TO_FILL
+from opsim.libraries import HandTarget
 from opsim.plan import Plan
-from opsim.plan.model_warnings import unread
+from opsim.plan.model_warnings import stretched, unread
 from opsim.plan.resources import repairs_said
 from opsim.plan.tasks import setup_tasks
 from opsim.plugins.subjects import subjects_of
@@ -33,7 +34,7 @@ from opsim.study.assumptions.human import human, walking
 from opsim.study.assumptions.people import asked_for_pace, people
 from opsim.study.replication import Replicated
 from opsim.task_model import behind, fit_report
-from opsim.tasks.from_scenario import emulators_of
+from opsim.tasks.from_scenario import emulators_of, hand_targets
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
@@ -92,6 +93,7 @@ def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
                 f"{task.name}: people here move and take their time as in {said.emulator} "
                 f"({behind(report.source, report.n_sequences, report.n_workers)})",
             )
+    yield from _hands(loaded, plan)
     for task in named:
         said = tasks[task.name]
         if isinstance(said, Motions):
@@ -111,6 +113,24 @@ def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     loads = [name for name, task in tasks.items() if task.load_kg is not None]
     if loads:
         yield "loads", f"{listed(loads)}: the load is kept with the task; it does not change pace or posture"
+
+
+def _hands(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
+    """Tasks whose hands go where the scenario says."""
+    tasks = {name: task for name, task in loaded.scenario.tasks.items() if isinstance(task, Emulated) and task.hands}
+    for name, task in tasks.items():
+        at = [_at(one, task.hands[one.mark]) for one in hand_targets(task, loaded.scenario.layout)]
+        yield (
+            "reach",
+            f"{name}: the middle of both hands is where the scenario says (at {listed(at)}); body and time follow, as "
+            "far as they went together with it in the recordings",
+        )
+    yield from (("reach", sentence) for sentence in stretched(plan))
+
+
+def _at(target: HandTarget, said: float | tuple[str, str]) -> str:
+    level = "" if isinstance(said, float) else f" {'.'.join(said)},"
+    return f"{target.mark}{level} {target.height_m:g} m"
 
 
 def _window(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:

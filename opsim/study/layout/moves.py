@@ -90,7 +90,8 @@ def candidate(floor: Floor, name: str, moves: Sequence[Moved]) -> Candidate:
     together = list(_too_near(floor, at))
     if together:
         raise NoLayout("\n".join(together))
-    changes: dict[str, Any] = {f"layout.places.{place}": said for place, said in moved.items()}
+    at_of = {place: f"{place}.at" for place in floor.scenario.layout.with_heights}
+    changes: dict[str, Any] = {f"layout.places.{at_of.get(place, place)}": said for place, said in moved.items()}
     changes |= changes_of(floor, {station: place for station, place in at.items() if station not in added})
     for station, (like, place) in added.items():
         changes |= added_changes(floor.loaded, station, like, place, changes)

@@ -291,8 +291,7 @@ def study_layout(asked: LayoutAsked, answers: Answers) -> LayoutFound:
 
 def ways_then(asked: LayoutAsked, one: Candidate) -> Ways:
     """The ways where a candidate's places are."""
-    layout = asked.floor.scenario.layout
-    return ways(layout.model_copy(update={"places": {**layout.places, **one.moved}})) if one.moved else asked.floor.ways
+    return ways(asked.floor.scenario.layout, one.moved) if one.moved else asked.floor.ways
 
 
 def _again(

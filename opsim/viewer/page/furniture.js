@@ -1,4 +1,4 @@
-// What stands still: benches, machines, belts, pallets for buffers and stores.
+// What stands still: benches, racks, machines, belts, pallets for buffers and stores.
 
 const TOP = 0xc9d1da,
   LEG = 0x9aa5b1,
@@ -13,12 +13,14 @@ export const BELT_M = 0.72,
 
 /** How many boxes the furniture of a variant takes at most. */
 export function furnitureCount({ stations, stores, belts }) {
-  return 8 * stations.length + 2 * stores.length + belts.reduce((sum, belt) => sum + 4 * belt.points.length, 0) + 1;
+  const boards = stations.reduce((sum, { levels_m }) => sum + (levels_m || []).length, 0),
+    rollers = belts.reduce((sum, belt) => sum + 4 * belt.points.length, 0);
+  return 8 * stations.length + boards + 2 * stores.length + rollers + 1;
 }
 
 export function furnish(boxes, marks, variant) {
   variant.stations.forEach((station) =>
-    station.automatic ? machine(boxes, marks, station) : bench(boxes, marks, station),
+    (station.automatic ? machine : station.levels_m ? rack : bench)(boxes, marks, station),
   );
   for (const { buffer } of variant.stations) if (buffer) pallet(boxes, marks, buffer);
   for (const store of variant.stores) pallet(boxes, marks, store);
@@ -47,6 +49,25 @@ function bench(boxes, marks, station) {
     );
   boxes.add(...spot(station, deep / 2 - 0.06, 0), (high - 0.05) * 0.6, 0.04, wide - 0.12, high * 0.5, facing, LEG);
   boxes.add(...spot(station, deep / 2 - 0.02, 0), high + 0.12, 0.03, wide, 0.24, facing, TOP);
+  marks.shadow(station.x, station.y, 0.002, 0.62 * Math.hypot(wide, deep), 0.3);
+}
+
+/** Four posts, and a board whose top is at each level. */
+function rack(boxes, marks, station) {
+  const { width_m: wide, depth_m: deep, height_m: high, facing } = station;
+  for (const ahead of [-1, 1])
+    for (const side of [-1, 1])
+      boxes.add(
+        ...spot(station, ahead * (deep / 2 - 0.03), side * (wide / 2 - 0.03)),
+        high / 2,
+        0.06,
+        0.06,
+        high,
+        facing,
+        LEG,
+      );
+  for (const level of station.levels_m)
+    boxes.add(...spot(station, 0, 0), Math.max(level - 0.02, 0.02), deep, wide, 0.04, facing, TOP);
   marks.shadow(station.x, station.y, 0.002, 0.62 * Math.hypot(wide, deep), 0.3);
 }
 

@@ -25,7 +25,7 @@ export function placeParts(boxes, marks, world, productColours, stateColours) {
   variant.stations.forEach((station, i) => {
     const now = world.station(i);
     if (station.buffer) stack(boxes, station.buffer, now.queue, station.facing);
-    onBench(boxes, station, now.busy, colour(busy[i]));
+    if (!station.levels_m) onBench(boxes, station, now.busy, colour(busy[i]));
     lamp(boxes, station, now.state >= 0 ? stateColours[now.state] : 0xd5dae0);
   });
   variant.stores.forEach((store, i) => stack(boxes, store, world.level(i), 0));

@@ -298,7 +298,7 @@ def test_a_folder_that_may_not_be_written_is_found_before_the_fit(folder, monkey
         ("public_movement", "no library 'public_movement'; did you mean 'public_movements'?"),
         ("bench_wrok.npz", "did you mean 'bench_work'?"),
         ("raech.npz", "did you mean 'reach.npz'?"),
-        ("zzz", "shipped ones: bench_work, public_movements, reach.npz"),
+        ("zzz", "shipped ones: bench_work, handling, public_movements, reach.npz"),
     ],
 )
 def test_a_mistyped_library_gets_the_nearest_word(folder, verb, library, said):

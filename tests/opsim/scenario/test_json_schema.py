@@ -61,6 +61,10 @@ RIGHT = [
     GOOD.replace("tasks:\n", "defaults: {tasks: {load: 3 kg}, workers: {walk: 1 m/s}}\ntasks:\n"),
     "opsim: 1\ninclude: common.yaml\nworkers: {ana: {walk: 1 m/s}}\n",
     GOOD.replace("[0 m, 0 m]", "[-2 m, 1 ft 3 in]"),
+    GOOD.replace("[0 m, 0 m]", "{at: [0 m, 0 m], levels: {low: 30 cm}, surface: 1 m, depth: 0.4 m}"),
+    with_task("emulator: w/lift, hands: {grasp: door.low, set_down: 0.9 m}")
+    .replace("[0 m, 0 m]", "{at: [0 m, 0 m], levels: {low: 40 cm}}")
+    .replace("workers:\n", "libraries: {w: libraries/bench_work.npz}\nworkers:\n"),
     GOOD.replace("like: ana", "like: ana, age: 41 years, sex: m, pace: 0.9"),
     GOOD.replace(
         "workers:\n", "workforce: {n: 12, from: population, prefix: q, like: ana, skills: {pack: 1}}\nworkers:\n"
@@ -79,6 +83,9 @@ WRONG = [
     (GOOD.replace("horizon: 8 h", "horizon: 8 hours"), ".run.horizon: '8 hours' does not look right"),
     (GOOD.replace("servers: 2", "server: 2"), ".stations.pack: unknown key server"),
     (GOOD.replace("at: bench, ", ""), ".stations.pack: at is missing"),
+    (GOOD.replace("[0 m, 0 m]", "{at: [0 m, 0 m], level: {low: 1 m}}"), ".layout.places.door: none of 2 fits"),
+    (GOOD.replace("[0 m, 0 m]", "{at: [0 m, 0 m], levels: {low: 1}}"), ".layout.places.door: none of 2 fits"),
+    (with_task("emulator: w/lift, hands: {grasp: 0.4}"), ".tasks.lift: none of"),
     (GOOD.replace("name: One bench\n", ""), ": name is missing"),
     (GOOD.replace("walked_m", "walked"), ".outputs[0]: 'walked' is not among"),
     (GOOD.replace("start: Mon 06:00", "start: '06:00'"), ".run.start: '06:00' does not look right"),

@@ -271,6 +271,8 @@ def test_the_scenario_itself_is_good_of_wrong_transport(tmp_path):
      "8: conveyors.belt.to: no place 'bb' | did you mean 'b'?"),
     ("{from: a, to: b,", "{from: a, to: a,",
      "8: conveyors.belt: from 'a' to 'a' it is 0 m: no room for a job of 1 m | add e.g. 'length: 6 m'"),
+    ("b: [6 m, 0 m]", "b: {at: [60 cm, 0 m], levels: {low: 1 m}}",
+     "8: conveyors.belt: from 'a' to 'b' it is 0.6 m: no room for a job of 1 m | add e.g. 'length: 6 m'"),
     ("pitch: 1 m", "pitch: 1 m, length: 60 cm",
      "8: conveyors.belt.length: a belt of 0.6 m has no room for a job of 1 m | make the belt longer or the pitch "
      "smaller"),

@@ -11,7 +11,7 @@ from opsim.layout import ways
 from opsim.plan import compile_plan
 from opsim.scenario.schema import Layout
 from opsim.viewer.build import notes_of, scene_of
-from opsim.viewer.floor import AHEAD_M, DEPTH_M, drawn_as, floor_of
+from opsim.viewer.floor import AHEAD_M, DEPTH_M, HEIGHT_M, drawn_as, floor_of
 from opsim.viewer.pose import joints_m
 from opsim.viewer.routes import CORNER_M, Routes, at_m, eased_heading, length_m, smooth, without_doubles, wrapped
 
@@ -53,6 +53,27 @@ def test_benches_stand_where_nobody_else_does():
     floor = floor_of(run.plan, run.loaded.scenario.layout)
     for bench in floor.benches:
         assert all(hypot(bench.x_m - x, bench.y_m - y) > 0.7 for x, y in floor.points_m)
+
+
+def test_a_bench_is_as_high_as_its_surface_and_a_rack_has_its_levels():
+    rack = "rack: {at: [4 m, 0 m], levels: {top: 1.6 m, low: 0.3 m}}"
+    places = f"{{bench: {{at: [0 m, 0 m], surface: 1.1 m}}, {rack}, far: [8 m, 0 m]}}"
+    stations = "{s1: {at: bench, tasks: [t]}, s2: {at: rack, tasks: [t]}, s3: {at: far, tasks: [t]}}"
+    text = f"""
+opsim: 1
+name: heights
+run: {{horizon: 5 min}}
+layout: {{places: {places}}}
+tasks: {{t: {{fixed: 10 s}}}}
+stations: {stations}
+products: {{part: {{route: [s1, s2, s3]}}}}
+release: {{kind: poisson, every: 1 min}}
+workers: {{ana: {{skills: {{s1: 1, s2: 1, s3: 1}}}}}}
+"""
+    bench, shelves, plain = floor_of(compile_plan(loaded(text)), loaded(text).scenario.layout).benches
+    assert (bench.height_m, bench.levels_m) == (1.1, ())
+    assert shelves.levels_m == (0.3, 1.6) and shelves.height_m > 1.6
+    assert (plain.height_m, plain.levels_m) == (HEIGHT_M, ())
 
 
 def test_two_stations_of_one_place_stand_back_to_back():

@@ -37,6 +37,16 @@ def test_changes_follow_each_other(floor):
     assert one.changes["layout.places.p2"] == ["6 m", "1.5 m"] and one.moved == {"p2": (6.0, 1.5)}
 
 
+def test_a_place_with_heights_keeps_them_where_it_is_moved(tmp_path):
+    heights = FLOOR.replace("p2: [5 m, 0 m]", "p2: {at: [5 m, 0 m], levels: {low: 0.3 m}}")
+    assert heights != FLOOR
+    floor = asked(written(tmp_path, heights)).floor
+    changes = made(floor, "move p2=6 m, 1.5 m").changes
+    assert changes == {"layout.places.p2.at": ["6 m", "1.5 m"]}
+    moved = Varied.read(floor.loaded.file).with_changes(changes).scenario.layout
+    assert moved.places["p2"] == (6.0, 1.5) and moved.with_heights["p2"].heights_m == {"low": 0.3}
+
+
 def test_what_is_done_and_undone_changes_nothing(floor):
     assert made(floor, "swap saw,drill", "swap drill,saw").changes == {}
 

@@ -1,0 +1,236 @@
+"""Reach: the law of joint coordinates z of one worker, given where joints are at marks.
+
+h(z) is where they are (``targets.HandPlaces``). What the recordings tell of z by h(z), as a local linear regression
+M (Cleveland 1979), carries each component of the law from its own place to the target, z + M(target) - M(h(z)): it
+keeps what the place does not tell of it. A few Newton steps bring each onto the target itself; the noise about it is
+held there, by Matheron's rule with the derivative of h at the middle of the new law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from emulator.model.gaussian import Law, LowRankNormal
+from emulator.model.joint_coordinates import within_worker
+from emulator.model.joint_law import JointLaw
+from emulator.people.workers import WorkerEffect
+
+HIT_M = 1e-3
+"""How near a component of a law comes to its target, and how loosely noise is held: a millimetre."""
+MARK_M = 0.03
+"""How well a place tells: three centimetres. It keeps what places that hardly varied tell from growing wild."""
+STEP = 1e-3
+ROUNDS = 8
+SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25)
+"""Shares of the recordings that a local regression looks at; infinity: all, alike."""
+
+Places = Callable[[np.ndarray], np.ndarray]
+"""z (n, K) -> (n, R) what of the places is asked for, in metres."""
+
+
+@dataclass(frozen=True)
+class HeldNormal(LowRankNormal):
+    """A LowRankNormal whose deviations are held where they do not move the hands: x - mean -> (I - G H) (x - mean).
+
+    gain : (K, R) G = C H' (H C H' + s^2)^-1; slope : (R, K) H, how the hands move with x
+    Takes the same random numbers as the free one. Source: Matheron's rule, see Journel & Huijbregts (1978), sec. VII.
+    """
+
+    gain: np.ndarray
+    slope: np.ndarray
+
+    def sample(self, n: int, rng: np.random.Generator) -> np.ndarray:
+        """n draws (n, K), see ``LowRankNormal.sample``."""
+        x = super().sample(n, rng)
+        x -= ((x - self.mean) @ self.slope.T) @ self.gain.T
+        return x
+
+    @cached_property
+    def covariance(self) -> np.ndarray:  # type: ignore[override]
+        """(K, K)."""
+        held = np.eye(len(self.mean)) - self.gain @ self.slope
+        return np.asarray(held @ super().covariance @ held.T)
+
+    def covariance_with(self, index: int) -> np.ndarray:
+        """(K,) covariance of every coefficient with coefficient ``index``."""
+        return np.asarray(self.covariance[:, index])
+
+
+def held(free: LowRankNormal, slope: np.ndarray) -> HeldNormal:
+    """The free one held for this derivative of the hands (R, K)."""
+    return HeldNormal(free.mean, free.factor, free.spread, free.rho, gain(free.covariance, slope, HIT_M), slope)
+
+
+def gain(covariance: np.ndarray, slope: np.ndarray, spread_m: float) -> np.ndarray:
+    """(K, R) how z (K,) moves with the hands: C H' (H C H' + s^2 I)^-1."""
+    across = covariance @ slope.T
+    return np.asarray(np.linalg.solve(slope @ across + spread_m**2 * np.eye(len(slope)), across.T).T)
+
+
+@dataclass(frozen=True, eq=False)
+class LocalRegression:
+    """What recordings tell of z by their places: straight lines through those near a place (loess, degree 1).
+
+    z (N, K), place (N, R); span : share of the N that a line looks at
+    trust : (K,) how much of what is foretold beyond the mean is believed, 0 to 1
+    Source: Cleveland (1979), tricube weights without robustness; as a ridge of ``MARK_M``.
+    """
+
+    z: np.ndarray
+    place: np.ndarray
+    span: float = np.inf
+    trust: np.ndarray = field(default_factory=lambda: np.ones(1))
+
+    def weights(self, at: np.ndarray) -> np.ndarray:
+        """(n, N) that add to 1: how much each recording tells at places (n, R)."""
+        n = len(self.z)
+        if not np.isfinite(self.span):
+            return np.full((len(at), n), 1.0 / n)
+        far = np.linalg.norm(at[:, None] - self.place, axis=-1)
+        last = np.sort(far, axis=1)[:, min(n, max(self.fewest, int(np.ceil(self.span * n)))) - 1]
+        weight = np.maximum(1.0 - (far / np.maximum(1.05 * last, 1e-9)[:, None]) ** 3, 0.0) ** 3
+        return np.asarray(weight / weight.sum(axis=1, keepdims=True))
+
+    @property
+    def fewest(self) -> int:
+        """Recordings that a line needs."""
+        return 3 * (self.place.shape[1] + 1)
+
+    def __call__(self, at: np.ndarray) -> np.ndarray:
+        """(n, K) z as foretold at places (n, R)."""
+        middle = self.z.mean(axis=0)
+        return np.asarray(middle + self.trust * (self._smoother(at) @ self.z - middle))
+
+    def _smoother(self, at: np.ndarray) -> np.ndarray:
+        """(n, N) what is multiplied by z: linear in it."""
+        weight = self.weights(at)
+        middle = weight @ self.place
+        apart = self.place - middle[:, None]
+        square = np.einsum("nir,ni,nis->nrs", apart, weight, apart) + MARK_M**2 * np.eye(self.place.shape[1])
+        lever = np.linalg.solve(square, (at - middle)[..., None])[..., 0]
+        return np.asarray(weight * (1.0 + np.einsum("nir,nr->ni", apart, lever)))
+
+    def covariance(self, at: np.ndarray) -> np.ndarray:
+        """(K, K) of z near one place (R,)."""
+        weight = self.weights(at[None])[0]
+        apart = self.z - weight @ self.z
+        return np.asarray(apart.T @ (weight[:, None] * apart))
+
+    def best(self, scale: np.ndarray, doubted: np.ndarray) -> LocalRegression:
+        """With the span that foretells left-out recordings best; scale (K,) weighs the errors of z.
+
+        doubted : (K,) coordinates of which no more is believed than left-out recordings bear out: the slope of these on
+        what is foretold of them, 0 to 1. Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
+        """
+        spans = [span for span in SPANS if not np.isfinite(span) or span * len(self.z) > self.fewest]
+        tried = [replace(self, span=span) for span in spans]
+        foretold = [one._left_out() for one in tried]
+        best = int(np.argmin([np.mean(((self.z - told) * scale) ** 2) for told in foretold]))
+        told = foretold[best] - self.z.mean(axis=0)
+        slope = np.sum(told * (self.z - self.z.mean(axis=0)), axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
+        return replace(tried[best], trust=np.where(doubted, np.clip(slope, 0.0, 1.0), 1.0))
+
+    def _left_out(self) -> np.ndarray:
+        """(N, K) each recording as foretold by the others."""
+        smoother = self._smoother(self.place)
+        own = np.minimum(np.diag(smoother), 0.95)[:, None]
+        return np.asarray((smoother @ self.z - own * self.z) / (1.0 - own))
+
+
+def recorded(model: JointLaw, mean: np.ndarray | None) -> np.ndarray:
+    """(N, K) joint coordinates that tell how z goes with places.
+
+    mean : (K,) of a worker: the recordings as if that worker had made them; None: the recordings as they are
+    A library of plain Gaussians, which has none, tells it by deviations of one standard deviation along each row.
+    """
+    known = model.workforce.smoothed
+    if known is None:
+        rows = model.workforce.within.factor
+        middle = model.workforce.between.mean if mean is None else mean
+        both = rows if mean is not None else np.concatenate([rows, model.workforce.between.factor])
+        return np.concatenate([middle + both, middle - both])
+    return known.scores if mean is None else mean + within_worker(known.scores, known.owner)
+
+
+def beside_curves(model: JointLaw) -> np.ndarray:
+    """(K,) which coordinates are durations, marks and pauses: single numbers, of which places tell much or nothing."""
+    doubted = np.zeros(len(model.scale.centre), bool)
+    for name in ("duration", "marks", "dwells"):
+        doubted[model.scale.block(name)] = True
+    return doubted
+
+
+def errors_scale(model: JointLaw) -> np.ndarray:
+    """(K,) what errors of z count: postures by their size, log duration as much as all of these, the rest nothing."""
+    scale, posture = np.zeros(len(model.scale.centre)), model.scale.block("posture")
+    size = model.scale.spread[posture]
+    scale[posture] = size / max(float(np.linalg.norm(size)), 1e-12)
+    scale[model.scale.block("duration")] = 1.0
+    return scale
+
+
+@dataclass(frozen=True, eq=False)
+class ReachedLaw:
+    """law : of z given the target; middle : (K,) its most likely z; moving : (K, R) how z follows the hands there."""
+
+    law: Law
+    middle: np.ndarray
+    moving: np.ndarray
+
+
+def reached_law(
+    model: JointLaw, effect: WorkerEffect | None, places: Places, target: np.ndarray, like: LocalRegression
+) -> ReachedLaw:
+    """The law of the worker with this effect, or (None) of anybody, given that ``places`` are at ``target`` (R,).
+
+    like : a regression whose span and trust are taken
+    """
+    law = model.workforce.law(effect)
+    z = recorded(model, None if effect is None else effect.z)
+    trend = replace(like, z=z, place=places(z))
+    foretold = trend(target[None])[0]
+    near = trend.covariance(target) + np.mean(law.reach**2) * law.noise.covariance
+    middle, moving = foretold, np.zeros((len(foretold), len(target)))
+    slope = np.zeros((len(target), len(foretold)))
+    for _ in range(3):
+        here, slope = derivative(places, middle)
+        moving = like.trust[:, None] * gain(near, slope, HIT_M)
+        middle = middle + moving @ (target - here)
+        if np.abs(target - here).max() < HIT_M:
+            break
+    middle = on_target(places, middle[None], moving, target)[0]
+    centre = law.mean + (law.centre if law.people is None else law.people.mean)
+    moved = on_target(places, centre + foretold - trend(places(centre)), moving, target)
+    people = None if law.people is None else held(law.people, slope)
+    base = law.centre if law.people is None else law.people.mean
+    own = replace(law, mean=moved - base, noise=held(law.noise, slope), people=people)
+    return ReachedLaw(own, middle, moving)
+
+
+def derivative(places: Places, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places (R,) at z (K,) and how they move with it, (R, K)."""
+    around = places(np.concatenate([z[None], z + STEP * np.eye(len(z))]))
+    return around[0], (around[1:] - around[0]).T / STEP
+
+
+def on_target(places: Places, z: np.ndarray, moving: np.ndarray, target: np.ndarray) -> np.ndarray:
+    """z (n, K) moved along ``moving`` (K, R) until they are at ``target``, by Newton steps halved where they miss."""
+    z = np.array(z)
+    miss = target - places(z)
+    size, step = np.linalg.norm(miss, axis=1), np.ones(len(z))
+    for _ in range(ROUNDS):
+        rows = np.flatnonzero(size > HIT_M)
+        if rows.size == 0:
+            break
+        tried = z[rows] + step[rows, None] * (miss[rows] @ moving.T)
+        missed = target - places(tried)
+        length = np.linalg.norm(missed, axis=1)
+        better = length < size[rows]
+        step[rows] = np.where(better, np.minimum(2.0 * step[rows], 1.0), 0.5 * step[rows])
+        won = rows[better]
+        z[won], miss[won], size[won] = tried[better], missed[better], length[better]
+    return z

@@ -1,0 +1,191 @@
+"""Prints how made people at shelves of any height are met by an emulator that was fitted to others of them.
+
+``python -m emulator_evidence.reach``: 20 heights for people of 5 statures, against fresh made movements of known truth;
+then how many of 10,000 draws are off their shelf, too fast, or slide.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from emulator import MotionEmulator, MotionSet, Target
+from emulator.judge.clips import Clips
+from emulator.judge.feet import footing, standing_m
+from emulator.judge.joint_speeds import peak_ratio, share_too_fast
+from emulator.motion import Motion
+from emulator.synthetic import RATE_HZ
+from emulator.synthetic.shelf import LOWEST_M, MARK, Reacher, crew, highest_m, make_shelf
+
+STATURES_M = (1.5, 1.625, 1.75, 1.875, 2.0)
+N_PEOPLE, N_EACH, N_TIMES = 24, 10, 21
+WORST_BIAS, WORST_ENERGY = 0.03, 0.1
+N_CLIPS = 50
+HIT_M, SHARE_M, SHARE_LOG_S = 0.005, 0.1, 0.1
+"""A joint's 10 cm count as much as a tenth of the time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """n movements: bodies (n, 1 + N_TIMES, J, 3) at the mark and at even times, seconds (n,)."""
+
+    bodies: np.ndarray
+    duration_s: np.ndarray
+
+    @property
+    def rows(self) -> np.ndarray:
+        """(n, D) in which distances are those of movements: posture at the mark, whole movement, log duration."""
+        n, n_joints = len(self.bodies), self.bodies.shape[2]
+        at_mark, whole = self.bodies[:, 0].reshape(n, -1), self.bodies[:, 1:].reshape(n, -1)
+        scaled = at_mark / np.sqrt(n_joints) / SHARE_M, whole / np.sqrt(n_joints * N_TIMES) / SHARE_M
+        return np.concatenate([*scaled, np.log(self.duration_s)[:, None] / SHARE_LOG_S], axis=1)
+
+    def angles_deg(self, names: tuple[str, ...]) -> np.ndarray:
+        """(n, 2) flexion of the trunk and elevation of the right upper arm against it, at the mark."""
+        joint = {name: self.bodies[:, 0, i] for i, name in enumerate(names)}
+        trunk, arm = joint["neck"] - joint["pelvis"], joint["right_elbow"] - joint["right_shoulder"]
+        size = np.linalg.norm(trunk, axis=1)
+        lifted = -np.sum(arm * trunk, axis=1) / size / np.linalg.norm(arm, axis=1)
+        return np.degrees(np.arccos(np.stack([trunk[:, 2] / size, lifted], axis=1)))
+
+
+def seen_of(motions: MotionSet) -> Seen:
+    """Of made movements."""
+    return Seen(np.stack([_bodies(one) for one in motions.motions]), motions.duration_s)
+
+
+def _bodies(one: Motion) -> np.ndarray:
+    frames = one.positions_m()
+    moments = np.concatenate([one.mark_s / one.duration_s, np.linspace(0.0, 1.0, N_TIMES)]) * (len(frames) - 1)
+    low = np.minimum(moments.astype(int), len(frames) - 2)
+    share = (moments - low)[:, None, None]
+    return frames[low] + share * (frames[low + 1] - frames[low])
+
+
+def drawn_of(emulator: MotionEmulator, effects: list[object], n: int) -> Seen:
+    """Of n draws of each worker, each worker with random numbers of his own."""
+    parts = []
+    for i, effect in enumerate(effects):
+        drawn = emulator.sample(n, np.random.default_rng([9, i]), worker=effect)
+        even = np.linspace(0.0, 1.0, N_TIMES) * drawn.duration_s[:, None]
+        parts.append((drawn.positions_m(np.concatenate([drawn.mark_s, even], axis=1)), drawn.duration_s))
+    bodies, duration_s = zip(*parts)
+    return Seen(np.concatenate(bodies), np.concatenate(duration_s))
+
+
+def energy(a: np.ndarray, b: np.ndarray) -> float:
+    """Energy distance of rows (n, D) and (m, D), without bias (Szekely & Rizzo 2013)."""
+    from scipy.spatial.distance import cdist
+
+    n, m = len(a), len(b)
+    within = cdist(a, a).sum() / (n * (n - 1)) + cdist(b, b).sum() / (m * (m - 1))
+    return float(2.0 * cdist(a, b).mean() - within)
+
+
+def balanced(people: list[Reacher]) -> list[Reacher]:
+    """The same people with habits that average out: else a dozen people are 2 % slower than anybody, by luck."""
+    middle = np.mean([person.habit for person in people], axis=0)
+    return [replace(person, habit=person.habit - middle) for person in people]
+
+
+def rows(emulator: MotionEmulator, n_heights: int, rng: np.random.Generator) -> np.ndarray:
+    """A row a height and stature: both, log seconds made and drawn, angles made (2) and drawn (2), the same of their
+    standard deviations, energy distances given the height and not.
+    """
+    names, out = emulator.skeleton.names, []
+    for stature_m in STATURES_M:
+        people = balanced([Reacher.of(stature_m, rng) for _ in range(N_PEOPLE)])
+        effects = [
+            emulator.draw_worker(np.random.default_rng([7, i]), {"height_m": stature_m}) for i in range(N_PEOPLE)
+        ]
+        anywhere = drawn_of(emulator, effects, N_EACH).rows
+        for height_m in np.linspace(LOWEST_M, highest_m(stature_m), n_heights):
+            made = seen_of(make_shelf(people, N_EACH, rng=rng, heights_m=[height_m]))
+            given = emulator.given(Target("hands", MARK, height_m=float(height_m)))
+            drawn = drawn_of(given, effects, N_EACH)
+            numbers = [np.column_stack([np.log(one.duration_s), one.angles_deg(names)]) for one in (made, drawn)]
+            far = energy(drawn.rows, made.rows), energy(anywhere, made.rows)
+            moments = [f(part, axis=0) for f in (np.mean, np.std) for part in numbers]
+            out.append(np.concatenate([[stature_m, height_m], *moments, far]))
+            print(_line(out[-1]), flush=True)
+    return np.array(out)
+
+
+def _line(row: np.ndarray) -> str:
+    made, drawn, made_sd, drawn_sd = row[2:14].reshape(4, 3)
+    words = [f"{row[0]:5.3f} m tall, shelf {row[1]:4.2f} m: {np.exp(made[0]):4.2f} -> {np.exp(drawn[0]):4.2f} s"]
+    for i, name in ((1, "trunk"), (2, "upper arm")):
+        words.append(f"{name} {made[i]:5.1f} ({made_sd[i]:.1f}) -> {drawn[i]:5.1f} ({drawn_sd[i]:.1f}) deg")
+    return ", ".join(words) + f", energy {row[14]:.3f} of {row[15]:.3f}: {row[14] / row[15]:.3f}"
+
+
+def summary(found: np.ndarray) -> list[str]:
+    """What holds of it: biases in shares of the mean time and of the range of each angle."""
+    made, drawn = found[:, 2:5], found[:, 5:8]
+    time = np.abs(np.exp(drawn[:, 0] - made[:, 0]) - 1.0)
+    angle = np.abs(drawn[:, 1:] - made[:, 1:]) / np.ptp(made[:, 1:], axis=0)
+    out = []
+    for name, bias in (("time", time), ("trunk flexion", angle[:, 0]), ("upper arm elevation", angle[:, 1])):
+        numbers = f"mean {bias.mean():.1%}, 90 % of them within {np.quantile(bias, 0.9):.1%}, largest {bias.max():.1%}"
+        out.append(f"bias of {name}: {numbers}; {np.mean(bias <= WORST_BIAS):.0%} within {WORST_BIAS:.0%}")
+    ratio = found[:, 14] / found[:, 15]
+    held = np.mean(ratio <= WORST_ENERGY)
+    return [*out, f"energy distance: median {np.median(ratio):.3f}, largest {ratio.max():.3f}; {held:.0%} within 0.1"]
+
+
+def bodies_of(emulator: MotionEmulator, motions: MotionSet, n: int) -> list[str]:
+    """How many of n draws at 20 heights are off the shelf, too fast, or slide, beside the recordings and free draws."""
+    wrists = [emulator.skeleton.names.index(f"{side}_wrist") for side in ("left", "right")]
+    heights = np.linspace(LOWEST_M, highest_m(1.6), 20)
+    off, given_clips, free_clips = [], [], []
+    for i, height_m in enumerate(heights):
+        worker = emulator.draw_worker(np.random.default_rng([11, i]))
+        for one, clips in (
+            (emulator.given(Target("hands", MARK, height_m=float(height_m))), given_clips),
+            (emulator, free_clips),
+        ):
+            drawn = one.sample(n // len(heights), np.random.default_rng([12, i]), worker=worker)
+            clips.append(Clips.drawn(drawn[:N_CLIPS], RATE_HZ))
+            if one is not emulator:
+                blocks = [drawn[start : start + 100] for start in range(0, len(drawn), 100)]
+                places = [some.positions_m(some.mark_s)[:, 0, wrists, 2].mean(axis=1) for some in blocks]
+                off.append(np.abs(np.concatenate(places) - height_m))
+    off_m, recorded = np.concatenate(off), Clips.recorded(motions)
+    out = [
+        f"{len(off_m)} draws: farthest from the shelf {off_m.max() * 1e3:.2f} mm, {np.sum(off_m > HIT_M)} beyond 5 mm"
+    ]
+    for name, parts in (("given", given_clips), ("free", free_clips)):
+        clips = Clips(
+            emulator.skeleton,
+            tuple(place for part in parts for place in part.positions_m),
+            np.concatenate([part.duration_s for part in parts]),
+        )
+        feet, jerk = footing(clips, standing_m(recorded)), peak_ratio(clips, recorded, 3)
+        out.append(
+            f"{name}: too fast {share_too_fast(clips, recorded):.1%}, peak jerk {jerk:.2f} of the recorded, "
+            f"feet slide {np.nanmean(feet.slide_cm):.2f} cm, stray {np.nanmean(feet.wander_cm):.2f} cm"
+        )
+    own = footing(recorded, standing_m(recorded))
+    return [*out, f"recorded: slide {np.nanmean(own.slide_cm):.2f} cm, stray {np.nanmean(own.wander_cm):.2f} cm"]
+
+
+def main() -> int:
+    """0 where biases are within 3 % on average and every draw is within 5 mm of its shelf, else 1."""
+    parser = argparse.ArgumentParser(prog="python -m emulator_evidence.reach", description=__doc__)
+    parser.add_argument("--heights", type=int, default=20)
+    parser.add_argument("--draws", type=int, default=10000)
+    options = parser.parse_args()
+    rng = np.random.default_rng(0)
+    motions = make_shelf(balanced(crew(12, rng)), 20, rng=rng)
+    emulator = MotionEmulator.fit(motions)
+    print("\n".join(summary(rows(emulator, options.heights, rng))), flush=True)
+    said = bodies_of(emulator, motions, options.draws)
+    print("\n".join(said))
+    return int(" 0 beyond 5 mm" not in said[0])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
