@@ -51,6 +51,8 @@ def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(monkeypa
     assert found("fast engine").said == f"compiled when it is first used, in {tmp_path}"
     code_cache.keep(code_cache.Code({7: "", 8: ""}, (), {}, b""))
     assert found("fast engine").said == f"2 of its steps are compiled, in {tmp_path}"
+    monkeypatch.setattr(code_cache, "shipped", lambda: tmp_path / "image")
+    assert found("fast engine").said == f"2 of its steps are compiled, in {tmp_path / 'image'} and {tmp_path}"
 
 
 @pytest.mark.parametrize("name", ["made", "made/in/it"])
