@@ -13,6 +13,7 @@ from collections import ChainMap
 from collections.abc import Callable, Iterable
 from functools import cache
 from hashlib import blake2b
+from itertools import count
 from types import FunctionType
 from typing import Any
 
@@ -41,6 +42,7 @@ class Module:
 
     is_elsewhere : whether the step of a line is compiled already, and called by the table
     steps : those in it, by their lines; calls : lines of those elsewhere; failures : what it may raise, by numbers
+    functions : all that are in it
     """
 
     def __init__(self, roots: Iterable[Step], is_elsewhere: Callable[[int], bool]):
@@ -50,6 +52,7 @@ class Module:
         self.failures: dict[int, tuple[str, str]] = {}
         self.functions = set[FunctionType]()
         self._helpers: dict[Any, Body] = {}
+        self._under_way, self._numbers = set[Any](), count()
         self._declared: dict[str, None] = {}
         self._texts: list[str] = []
         self._todo: list[Step] = []
@@ -78,13 +81,18 @@ class Module:
         return True
 
     def helper(self, function: FunctionType, how: str, kinds: tuple[Kind, ...]) -> Body:
-        """A function for some kinds of arguments."""
+        """A function for some kinds of arguments. Raises TypeError for one that calls itself."""
         key = function, kinds, how
+        if key in self._under_way:
+            raise TypeError(f"{function.__name__} calls itself, which only a step may")
         if key not in self._helpers:
-            name = f'@"{function.__qualname__}.{len(self._helpers)}"'
+            self._under_way.add(key)
+            name = f'@"{function.__qualname__}.{next(self._numbers)}"'
             answer = said_kind(function.__annotations__.get("return", "Any"))
-            self._helpers[key] = made = Body(self, function, kinds, answer, name, f"internal {how}")
+            made = Body(self, function, kinds, answer, name, f"internal {how}")
             self._texts.append(made.text())
+            self._helpers[key] = made
+            self._under_way.remove(key)
         return self._helpers[key]
 
     def syntax_of(self, function: FunctionType) -> ast.FunctionDef:

@@ -291,6 +291,7 @@ class Expressions(Text):
         if (emit := BUILTINS.get(known)) is not None:
             return emit(self, *given)
         if isinstance(known, Step):
+            _count(known.name, len(given), len(known.kinds), len(known.kinds))
             return self._step(known, [(self.cast(v, k), k) for v, k in zip(given, known.kinds, strict=True)])
         return self._helper(known, given, named or {})
 
@@ -307,8 +308,11 @@ class Expressions(Text):
         function, how = (known.function, known.how) if isinstance(known, Helper) else (known, "")
         if not isinstance(function, FunctionType):
             raise TypeError(f"{known!r} is not compiled")
-        names = [parameter.arg for parameter in self.module.syntax_of(function).args.args]
+        parameters = self.module.syntax_of(function).args
+        names = [one.arg for one in parameters.args]
         given = [*given, *(named[name] for name in names[len(given) :] if name in named)]
+        least = len(names) - len(parameters.defaults)
+        _count(function.__name__, len(given), least, len(given) if parameters.vararg else len(names))
         values = []
         for number, value in enumerate(given):
             said = said_kind(function.__annotations__.get(names[number], "Any")) if number < len(names) else None
@@ -355,3 +359,9 @@ class Expressions(Text):
         if name not in LISTS:
             raise TypeError(f"lists have no {name!r}; {did_you_mean(name, LISTS)}")
         return self.called(LISTS[name], values)
+
+
+def _count(name: str, given: int, least: int, most: int) -> None:
+    if not least <= given <= most:
+        wanted = str(most) if least == most else f"{least} to {most}"
+        raise TypeError(f"{name} is called with {given}, expected {wanted}")

@@ -107,7 +107,7 @@ class Text:
             return self.truth(value)
         if kind.kind == found.kind == "tuple":
             return self.tuple_of([(self.cast(v, k), k) for v, k in zip(self.items(value), kind.items)])[0]
-        raise TypeError(f"{found} is no {kind}")
+        raise TypeError(f"{found.said}, expected {kind.said}")
 
     def truth(self, value: Value) -> str:
         """Whether it is there, is not 0, or has items."""
@@ -176,7 +176,7 @@ def common(one: Kind, other: Kind) -> Kind:
         return Kind("tuple", "", tuple(map(common, one.items, other.items)))
     if {one.kind, other.kind} <= {"int", "float", "bool"}:
         return FLOAT if FLOAT in (one, other) else INT
-    raise TypeError(f"{one} and {other} in one place")
+    raise TypeError(f"{one.said} and {other.said} in one place")
 
 
 def zero(kind: Kind) -> str:

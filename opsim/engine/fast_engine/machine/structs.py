@@ -132,7 +132,7 @@ class Kind:
     def said(self) -> str:
         """In words, for errors."""
         words = {"ref": f"a {self.of}", "list": f"a list of {self.of}", "array": f"an array of {self.of}"}
-        return words.get(self.kind, "nothing" if self.kind == "none" else self.kind)
+        return {**words, "none": "nothing", "tuple": "a tuple"}.get(self.kind, self.kind)
 
     @property
     def llvm(self) -> str:

@@ -17,6 +17,10 @@ _NUMBERS = count()
 NAMES = ("drop", "index_of", "inlined")
 
 
+def endless(n, m=0):
+    return endless(n + m)
+
+
 def rule_of(text, folder):
     """The function of a file, and its names, with some statements in which ``xs`` is a list and ``n`` a number."""
     path = folder / f"rule_{next(_NUMBERS)}.py"
@@ -30,6 +34,7 @@ def rule_of(text, folder):
 def function_of(path, machine):
     space = {name: getattr(machine, name) for name in NAMES if hasattr(machine, name)} | {
         "PAIR": (2, 3),
+        "endless": endless,
         "__name__": "tried",
     }
     exec(compile(path.read_text(), str(path), "exec"), space)
@@ -91,7 +96,10 @@ def test_what_may_be_said_does_what_python_does(text, n, tmp_path):
         ("xs.sort()", "lists have no 'sort'"),
         ("with n:\n    pass", "no With in a step"),
         ("y = sorted(n)", "is not compiled"),
-        ("n = 1 if n else (2, 3)", "in one place"),
+        ("n = 1 if n else (2, 3)", "int and a tuple in one place"),
+        ("y = index_of(xs)", "index_of is called with 1, expected 2"),
+        ("y = endless()", "endless is called with 0, expected 1 to 2"),
+        ("given.box = n", "int, expected a Box"),
     ],
 )
 def test_what_cannot_be_compiled_is_refused_with_its_file_and_line(written, words, tmp_path):
@@ -104,9 +112,13 @@ def test_what_cannot_be_compiled_is_refused_with_its_file_and_line(written, word
     assert (raised.value.filename, raised.value.lineno) == (str(path), 4)
 
 
-def test_a_mistake_in_a_helper_is_on_the_helpers_line(tmp_path):
+@pytest.mark.parametrize(
+    ("written", "words"),
+    [("n.wrong", "int has no fields"), ("helper(n)", "helper calls itself, which only a step may")],
+)
+def test_a_mistake_in_a_helper_is_on_the_helpers_line(written, words, tmp_path):
     path = tmp_path / "helped.py"
-    path.write_text("def helper(n):\n    return n.wrong\n\n\ndef rule(floor, given):\n    return helper(given.n)\n")
+    path.write_text(f"def helper(n):\n    return {written}\n\n\ndef rule(floor, given):\n    return helper(given.n)\n")
     space = {"__name__": "tried"}
     exec(compile(path.read_text(), str(path), "exec"), space)
     space["rule"].__annotations__ = {"floor": Floor, "given": Given, "return": int}
@@ -114,7 +126,7 @@ def test_a_mistake_in_a_helper_is_on_the_helpers_line(tmp_path):
     del STEPS[one.line]
     with pytest.raises(NotSo) as raised:
         Module([one], lambda _line: False)
-    assert (raised.value.filename, raised.value.lineno) == (str(path), 2)
+    assert (raised.value.msg, raised.value.filename, raised.value.lineno) == (words, str(path), 2)
 
 
 def test_what_was_imported_is_compiled_also_where_the_file_is_another_one_by_then(tmp_path):
