@@ -350,8 +350,14 @@ class Expressions(Text):
                 raise self.wrong(node, f"{of[1].said} has no {func.attr!r} that is compiled")
             return self.called(METHODS[of[1].of, func.attr], [of, *given])
         if func.attr == "pop":
+            if given not in ([], [("0", INT)]):
+                raise TypeError("'pop' takes the last item out of a list, or the first one, pop(0), in a step")
             return self.machine("pop_first" if given else "pop_last", [of])
-        floor = [self.value(ast.Name("floor", ast.Load()))] if func.attr in ("append", "insert") else []
+        floor = (
+            [self.value(ast.copy_location(ast.Name("floor", ast.Load()), node))]
+            if func.attr in ("append", "insert")
+            else []
+        )
         return self.machine(func.attr, [*floor, of, *given])
 
     def machine(self, name: str, values: list[Value]) -> Value:

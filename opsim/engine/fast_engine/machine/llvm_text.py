@@ -74,14 +74,14 @@ class Text:
 
     @property
     def returned(self) -> str:
-        """LLVM's word for what is answered: where it may fail, with 0 for fine, or the number of the failure and 1."""
+        """LLVM's word for what is answered: where it may fail, beside 0 or a failure's number."""
         assert self.answer is not None
         if not self.fails:
             return "void" if self.answer == NONE else self.answer.llvm
         return f"{{{'i64' if self.answer == NONE else self.answer.llvm}, i64}}"
 
     def ended(self, number: int, at: int, text: str) -> str:
-        """The end of it: with an answer (at 0), or a failure (at 1)."""
+        """A way out of it: with the answer (at 0), or a failure's number (at 1)."""
         assert self.answer is not None
         if not self.fails:
             return "ret void" if self.answer == NONE else f"ret {self.answer.llvm} {text}"

@@ -97,6 +97,7 @@ def test_what_may_be_said_does_what_python_does(text, n, tmp_path):
         ("with n:\n    pass", "no With in a step"),
         ("y = sorted(n)", "is not compiled"),
         ("n = 1 if n else (2, 3)", "int and a tuple in one place"),
+        ("y = xs.pop(1)", "'pop' takes the last item out of a list, or the first one"),
         ("y = index_of(xs)", "index_of is called with 1, expected 2"),
         ("y = endless()", "endless is called with 0, expected 1 to 2"),
         ("given.box = n", "int, expected a Box"),
