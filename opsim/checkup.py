@@ -109,7 +109,7 @@ def _fast_engine() -> Iterator[Finding]:
     """How much of the fast engine is compiled, of these sources and by this numba."""
     from numba import config
 
-    from opsim.engine.fast_engine.machine.code_cache import folder
+    from opsim.engine.fast_engine.machine.code_cache import folder, kept, shipped
 
     where = folder()
     if getattr(config, "DISABLE_JIT", 0):
@@ -117,9 +117,10 @@ def _fast_engine() -> Iterator[Finding]:
     elif where is None:
         yield Finding("fast engine", NOTE, "compiled anew by each command, as it can be kept nowhere")
     else:
-        n_steps = len(list(where.glob("*.step")))
+        n_steps = len({line for code in kept() for line in code.steps})
         said = f"{n_steps} of its steps are compiled" if n_steps else "compiled when it is first used"
-        yield Finding("fast engine", OK, f"{said}, in {where}")
+        places = " and ".join(str(one) for one in (shipped(), where) if one is not None)
+        yield Finding("fast engine", OK, f"{said}, in {places}")
 
 
 def _place_of(beside: Path) -> Path | None:

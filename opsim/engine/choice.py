@@ -45,7 +45,7 @@ def visits(plan: Plan) -> float:
 
 ENGINES = ("simpy", "fast", "auto")
 SIMPY, FAST, AUTO = ENGINES
-COMPILING_S, LOADING_S = 20.0, 1.0
+COMPILING_S, LOADING_S = 8.0, 1.0
 """What the fast engine costs before its first row: compiled on a machine that nothing is known of, and read later."""
 Run = Callable[["Plan", int], "EventLog"]
 Told = Callable[[int, int], None]

@@ -31,7 +31,7 @@ def test_first_run(tmp_path, name):
 def _told(what, one, target):
     to_first, cpu_s = (sum(one[f"{step}{of}_s"] for step in ("ready", "run")) for of in ("", "_cpu"))
     print(f"\n{what}: {to_first:.2f} s by the clock, {cpu_s:.2f} s of CPU from a plan to its rows (target {target})")
-    print(f"ready {one['ready_s']:.2f} s, {one['compiled']} steps compiled; first run {one['run_s']:.2f} s, ", end="")
+    print(f"ready {one['ready_s']:.2f} s, {one['compiled']} parts compiled; first run {one['run_s']:.2f} s, ", end="")
     print(f"next {one['again_s']:.3f} s; CPU {one['ready_cpu_s']:.2f} s and {one['run_cpu_s']:.2f} s")
     print(f"before: read {one['read_s']:.2f} s, engine imported {one['import_s']:.2f} s, ", end="")
     print(f"CPU {one['before_cpu_s']:.2f} s; whole process {one['whole_s']:.2f} s", end="")

@@ -1,8 +1,8 @@
 """Faults planted into the engines of a process of its own: the source of one function, some words replaced.
 
 A rule of the floor has one source, which two drivers read: SimPy's (``SIMPY``) and the compiled one (``FAST``).
-Steps into whose machine code the function goes are compiled anew, in memory alone; all others are the sound ones from
-disk. So no machine code of a sound engine stands in for a faulty one, nor the other way round.
+A process with a fault compiles all steps that a floor needs, in memory alone. So no machine code of a sound engine
+stands in for a faulty one, nor the other way round.
 """
 
 from __future__ import annotations
@@ -14,20 +14,31 @@ import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import Any
 
+from pytest import MonkeyPatch
+
+from opsim.engine.fast_engine.machine import code_cache, table
+from opsim.engine.fast_engine.machine.code_cache import source_of
+from opsim.engine.fast_engine.machine.compiler import Module
+from opsim.engine.fast_engine.run import built
 from opsim.plan import Plan
 
 FAST, SIMPY = "opsim.engine.fast_engine", "opsim.engine.floor"
-_KEPT: list[Any] = []
 
 
 def plant(place: str, old: str, new: str) -> Callable:
     """The function of a ``file.name``, with other words from now on, for whoever compiles it. Raises ValueError."""
     module, function, text = _with_words(FAST, place, old, new)
     known: dict[str, Any] = {}
-    exec(_code(text, place), vars(module), known)
+    with NamedTemporaryFile("w", suffix=".py", delete=False) as file:  # what is compiled is read from its file
+        file.write(f"from __future__ import annotations\n{text}")
+    exec(compile(Path(file.name).read_text(), file.name, "exec"), vars(module), known)
     function.__code__ = known[function.__name__].__code__
+    source_of(file.name)
+    os.unlink(file.name)
     return function
 
 
@@ -74,61 +85,16 @@ def _line_of(function: Any) -> int:
     return first + next(i for i, line in enumerate(lines) if line.lstrip().startswith("def "))
 
 
-def _code(text: str, place: str) -> Any:
-    """A function as it stands in a rule of the floor, or in the engine itself: the latter stays as it is."""
-    from opsim.engine.fast_engine.lowering import lowered
-
-    tree = lowered(f"from __future__ import annotations\n@step\n{text}", place)
-    tree.body[-1].decorator_list = []  # type: ignore[attr-defined]
-    return compile(tree, place, "exec")
-
-
-def make_ready(plan: Plan, faulty: Callable) -> int:
-    """Have the steps of a plan in the table, those with a faulty function in them compiled; how many these are.
-
-    Raises RuntimeError where a sound step is not on disk: ``fast_engine.ready`` of a process without faults puts it.
-    """
-    from opsim.engine.fast_engine.machine import TABLE, needed
-    from opsim.engine.fast_engine.machine.table import is_on_disk
-    from opsim.engine.fast_engine.run import built
-
-    touched = 0
-    for one in needed(built(plan).steps.values()):
-        has_it = any(function is faulty for function in _within(one.function, set()))
-        touched += has_it
-        if not TABLE[one.line] and has_it:
-            TABLE[one.line] = _compiled(one)
-        elif not TABLE[one.line] and not is_on_disk(one):
-            raise RuntimeError(f"{one.name} is not on disk")
-    return touched
-
-
-def _compiled(one: Any) -> int:
-    """The address of the machine code of a step that nobody keeps."""
-    import numba
-
-    from opsim.engine.fast_engine.machine.compiling import NO_WRAPPERS
-
-    compiled = numba.njit(one.signature, **NO_WRAPPERS)(one.function)
-    _KEPT.append(compiled)
-    result = compiled.overloads[tuple(one.signature.args)]
-    return int(result.library.get_pointer_to_function(result.fndesc.llvm_func_name))
-
-
-def _within(function: Callable, seen: set[int]) -> Iterator[Callable]:
-    """A function, and all that are compiled into it."""
-    from opsim.engine.fast_engine.machine.steps import _values
-
-    if id(function) not in seen:
-        seen.add(id(function))
-        yield function
-        for value in _values(function):
-            if hasattr(value, "py_func"):
-                yield from _within(value.py_func, seen)
+def make_ready(plan: Plan, faulty: Callable) -> bool:
+    """Have the steps of a plan in the table, compiled after the fault was planted; whether the function is in them."""
+    steps = built(plan).steps.values()
+    with MonkeyPatch.context() as alone:
+        alone.setattr(code_cache, "kept", list)
+        alone.setattr(code_cache, "keep", lambda _code: False)
+        table.complete(steps)
+    return faulty in Module(steps, lambda _line: False).functions
 
 
 def _written(value: Any) -> Callable:
     """The Python function behind a step, or behind what is compiled into steps."""
-    from opsim.engine.fast_engine.machine import step_of
-
-    return value.py_func if hasattr(value, "py_func") else step_of(value).function
+    return value.function

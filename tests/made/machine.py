@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
 from opsim.engine.fast_engine.floor_state import Floor
 
-from opsim.engine.fast_engine.machine import TABLE, Arena, Handle, List, cast, step, struct
-from opsim.ergonomics.kernels.compiled import compiled
+from opsim.engine.fast_engine.machine import TABLE, Arena, Array, Handle, List, complete, step, struct
+from opsim.engine.fast_engine.machine.calling import caller
 
 
 @struct
@@ -20,9 +24,33 @@ class Box:
     weight: float
 
 
-entered = compiled(nogil=True)
-"""A function that Python calls."""
-as_box, as_floor = cast(Box), cast(Floor)
+@struct
+class Given:
+    """What Python gives a step that is tried: numbers, arrays of numpy, and a struct or two."""
+
+    a: Array[int]
+    b: Array[int]
+    c: Array[int]
+    floats: Array[float]
+    n: int
+    m: int
+    box: Box
+    any: Any
+
+
+def entered(function: Callable) -> Callable[..., int]:
+    """A step of the floor and of what is given, called with the floor's address and fields of ``Given``."""
+    made: Any = step(function)
+    call = caller(made)
+
+    def called(floor: int, **fields: Any) -> int:
+        complete([made])
+        given = Arena().new("Given")
+        for name, value in fields.items():
+            setattr(given, name, value.ctypes.data if isinstance(value, np.ndarray) else value)
+        return call(floor, given.address)
+
+    return called
 
 
 def empty_floor() -> tuple[Arena, Handle]:

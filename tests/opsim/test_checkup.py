@@ -4,6 +4,7 @@ import pytest
 
 from opsim import checkup
 from opsim.checkup import NOTE, OK, WRONG, findings
+from opsim.engine.fast_engine.machine import code_cache
 
 
 def found(what):
@@ -45,10 +46,13 @@ def test_where_nothing_can_be_written_it_is_said_and_not_wrong(monkeypatch):
 
 
 def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(monkeypatch, tmp_path):
-    monkeypatch.setattr("opsim.engine.fast_engine.machine.code_cache.folder", lambda: tmp_path)
+    monkeypatch.setattr(code_cache, "folder", lambda: tmp_path)
+    monkeypatch.setattr(code_cache, "shipped", lambda: None)
     assert found("fast engine").said == f"compiled when it is first used, in {tmp_path}"
-    (tmp_path / "00001-a.step").touch()
-    assert found("fast engine").said == f"1 of its steps are compiled, in {tmp_path}"
+    code_cache.keep(code_cache.Code({7: "", 8: ""}, (), {}, b""))
+    assert found("fast engine").said == f"2 of its steps are compiled, in {tmp_path}"
+    monkeypatch.setattr(code_cache, "shipped", lambda: tmp_path / "image")
+    assert found("fast engine").said == f"2 of its steps are compiled, in {tmp_path / 'image'} and {tmp_path}"
 
 
 @pytest.mark.parametrize("name", ["made", "made/in/it"])

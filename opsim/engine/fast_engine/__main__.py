@@ -15,14 +15,9 @@ from opsim.engine.fast_engine.run import ready_for
 
 def main() -> int:
     """Every step that there is; how many were compiled."""
-
-    def told(done: int, total: int) -> None:
-        if done % 100 == 0 or done == total:
-            print(f"compiling the fast engine: {done} of {total}", flush=True)
-
     lowering.know_all()
-    n_compiled = len(list(lacking(STEPS.values())))
-    ready_for(STEPS.values(), told)
+    n_compiled = len(lacking(STEPS.values()))
+    ready_for(STEPS.values())
     print(f"{len(STEPS)} steps are ready, {n_compiled} of them compiled now")
     return 0
 

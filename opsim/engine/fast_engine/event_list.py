@@ -3,43 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Any
-
-from llvmlite import ir
-from numba.core import types
 
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import Array, address_of, fresh, give_back, inlined, words_at
-from opsim.engine.fast_engine.machine.compiling import intrinsic
+from opsim.engine.fast_engine.machine.intrinsics import array_at, rounded
+from opsim.engine.fast_engine.machine.intrinsics import lowest_bit as lowest_bit
 from opsim.engine.fast_engine.machine.lists import give_bytes_back, take_bytes
-from opsim.engine.fast_engine.machine.structs import array_at
 from opsim.engine.fast_engine.state import Event, Worker
 from opsim.engine.rules import COMPLETION
 
 TICKS, STEP = 2.0**20, 2.0**-20
 INF, NAN = math.inf, math.nan
-
-
-@intrinsic
-def rounded(_typingctx: Any, number: Any) -> Any:
-    """To the nearest whole number, halves to the even one, as ``round``."""
-
-    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        double = ir.DoubleType()
-        rint = builder.module.declare_intrinsic("llvm.rint", [double], ir.FunctionType(double, [double]))
-        return builder.call(rint, args)
-
-    return types.float64(types.float64), codegen
-
-
-@intrinsic
-def lowest_bit(_typingctx: Any, bits: Any) -> Any:
-    """The number of the lowest bit that is set; of 0: 64."""
-
-    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        return builder.cttz(args[0], ir.Constant(ir.IntType(1), 0))
-
-    return types.int64(types.int64), codegen
 
 
 @inlined

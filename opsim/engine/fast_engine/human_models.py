@@ -11,21 +11,17 @@ from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
-import numba
 import numpy as np
-from numba.core import types
-from numba.extending import overload_method, register_jitable
 
 from opsim.engine.fast_engine.floor_state import NO_LUCK, Floor
 from opsim.engine.fast_engine.human_state import Human, Model, pass_to_now, posts_by_strain
 from opsim.engine.fast_engine.machine import call_out, inlined, step
 from opsim.engine.fast_engine.machine.arena import MORE
 from opsim.engine.fast_engine.machine.calling import handled
-from opsim.engine.fast_engine.machine.compiling import intrinsic
-from opsim.engine.fast_engine.machine.structs import LAYOUTS, Pointer
+from opsim.engine.fast_engine.machine.expressions import METHODS
+from opsim.engine.fast_engine.machine.intrinsics import call_floats
+from opsim.engine.fast_engine.machine.structs import LAYOUTS
 from opsim.engine.fast_engine.state import Station, Worker
-from opsim.ergonomics.kernels.muscles import rest, rest_to_s, spend
-from opsim.human import learning
 from opsim.human.catalogue import catalogue
 from opsim.human.fatigue import Lffrm, piece
 from opsim.human.learning import Curve, DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
@@ -34,19 +30,11 @@ from opsim.plan.workers import EFFECTS
 
 CURVES: tuple[Any, ...] = (Wright, Plateau, DeJong, StanfordB, Hyperbolic, DualPhase)
 """By their numbers, ``model.kind``."""
-for _helper in (learning.slope, learning.power_work, learning.hyperbola_work):
-    register_jitable(_helper)
 _shapes: Any = [inlined(curve.shape) for curve in CURVES]
 _works: Any = [inlined(curve.work) for curve in CURVES]
 _wright, _plateau, _de_jong, _stanford_b, _hyperbolic, _dual_phase = _shapes
 _wright_work, _plateau_work, _de_jong_work, _stanford_b_work, _hyperbolic_work, _dual_phase_work = _works
 multiplier_of: Any = inlined(Curve.multiplier)
-
-
-@overload_method(Pointer, "shape")
-def _shape_of_a_model(self, n):
-    """What ``Curve.multiplier`` calls of itself."""
-    return (lambda self, n: _shape(self, n)) if self.of == "Model" else None
 
 
 @inlined
@@ -62,6 +50,9 @@ def _shape(self: Model, n: float) -> float:
     if self.kind == 4:
         return _hyperbolic(self, n)
     return _dual_phase(self, n)
+
+
+METHODS["Model", "shape"] = _shape
 
 
 @inlined
@@ -83,10 +74,8 @@ def work_of(model: Model, n: float) -> float:
 _rested: Any = inlined(Lffrm.rested)
 
 
-@overload_method(Pointer, "rested")
-def _rested_of_a_model(self, state, seconds):
-    """What ``Lffrm.passed`` calls of itself."""
-    return (lambda self, state, seconds: _rested(self, state, seconds)) if self.of == "Model" else None
+METHODS["Model", "rested"] = _rested
+"""What ``Curve.multiplier`` and ``Lffrm.passed`` call of themselves."""
 
 
 def refuse_strangers(plan: Any) -> None:
@@ -227,38 +216,19 @@ def kept_muscles(build: Any, shares: Any) -> int:
     return int(build.floats(shares.ravel()))
 
 
-@intrinsic
-def _floats_at(_typingctx: Any, address: Any) -> Any:
-    pointer = types.CPointer(types.float64)
-
-    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return builder.inttoptr(args[0], context.get_value_type(sig.return_type))
-
-    return pointer(types.int64), codegen
-
-
-@inlined
-def muscles_at(address: int) -> Any:
-    """(J, 5), as ``kernels.compartments`` has the state of muscles."""
-    return numba.carray(_floats_at(address), (N_JOINTS, N_NUMBERS))
-
-
-@inlined
-def course_at(address: int) -> Any:
-    """(PARTS, J) loads."""
-    return numba.carray(_floats_at(address), (PARTS, N_JOINTS))
-
-
 _piece = inlined(piece)
 _muscles_shift: Any = inlined(ThreeCompartment.shift)
 
 
 def install_muscles(build: Any, effects: Any) -> None:
     """Fresh muscles for every worker."""
+    from opsim.ergonomics.kernels import muscles
+
     effects.pass_line, effects.rest_line = build.line(muscles_pass_on), build.line(muscles_have_to_rest)
     build.hang(effects.shifts, slowed_by_muscles)
     bodies = bodies_of(build)
     effects.ask_burden = bodies.asks(bodies.answer_course)
+    effects.call_passed, effects.call_rest_to_s = (one.address for one in muscles.for_c())
     effects.spare = kept_muscles(build, build.plan.human.fatigue.fresh().shares * 0.0)
     for worker in build.workers:
         worker.human.shares = kept_muscles(build, build.plan.human.fatigue.fresh().shares)
@@ -276,11 +246,11 @@ def slowed_by_muscles(floor: Floor, worker: Worker, station: Station) -> None:
 @step
 def muscles_pass_on(floor: Floor, human: Human) -> None:
     """Time goes on for his muscles until now, which is later than when it did last."""
-    at_s, muscles = human.at_s, muscles_at(human.shares)
+    at_s, call = human.at_s, human.effects.call_passed
     human.at_s = floor.now
     task = human.task
     if task < 0:
-        human.tired = rest(muscles, floor.now - at_s)
+        human.tired = call_floats(call, human.shares, 0, N_JOINTS, 0, 0.0, 0.0, 0.0, floor.now - at_s)
         return
     first, last, work_s, rest_s = _piece(at_s, floor.now, human.begun_s, human.until_s, human.done)
     if floor.now >= human.until_s:
@@ -291,16 +261,17 @@ def muscles_pass_on(floor: Floor, human: Human) -> None:
             raise RuntimeError("nobody said how heavy a task is")
     course = human.courses[task]
     if not course:
-        human.tired = rest(muscles, work_s + rest_s)
+        human.tired = call_floats(call, human.shares, 0, N_JOINTS, 0, 0.0, 0.0, 0.0, work_s + rest_s)
     else:
-        human.tired = spend(muscles, course_at(course), first, last, work_s, rest_s)
+        human.tired = call_floats(call, human.shares, course, N_JOINTS, PARTS, first, last, work_s, rest_s)
 
 
 @step
 def muscles_have_to_rest(floor: Floor, human: Human) -> None:
     """For how many seconds, until none of his joints is too tired."""
     effects = human.effects
-    effects.answer = rest_to_s(muscles_at(human.shares), muscles_at(effects.spare), effects.rest.until)
+    until = effects.rest.until
+    effects.answer = call_floats(effects.call_rest_to_s, human.shares, effects.spare, N_JOINTS, until)
 
 
 _shift: Any = inlined(Lffrm.shift)

@@ -6,7 +6,7 @@ from typing import Any
 
 from opsim.engine import rules
 from opsim.engine.fast_engine.floor_state import Floor
-from opsim.engine.fast_engine.machine import ask_3, inlined, new_floats
+from opsim.engine.fast_engine.machine import inlined, new_floats
 from opsim.engine.fast_engine.state import Job, Station, Worker
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.plan.compile import LEAST_EXPOSED
@@ -84,7 +84,7 @@ def pair_key(floor: Floor, worker: Worker, station: Station, job: Job, n_waiting
     """The key of a free worker and a calling station; ``job`` is the one that calls, since some time."""
     begin_key(floor)
     for i in range(len(floor.prefixes)):
-        ask_3(floor.prefixes[i].line, floor, worker, station, job)
+        floor.prefixes[i].line(floor, worker, station, job)
     found = pair_numbers(floor, worker, station, n_waiting, since_s)
     put(floor, found[0])  # NOTE: a loop over them jumps by a table six times
     put(floor, found[1])

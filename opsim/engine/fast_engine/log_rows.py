@@ -21,10 +21,11 @@ import numpy as np
 
 from opsim.engine.fast_engine.event_list import NAN
 from opsim.engine.fast_engine.floor_state import Floor, Row
-from opsim.engine.fast_engine.machine import Arena, Array, Handle, call_out, cast, inlined, step, tell_0
+from opsim.engine.fast_engine.machine import Arena, Array, Handle, call_out, cast, inlined, step
 from opsim.engine.fast_engine.machine.arena import MORE
-from opsim.engine.fast_engine.machine.lists import take_bytes, words_at
-from opsim.engine.fast_engine.machine.structs import LAYOUTS, set_byte, set_half, size_of
+from opsim.engine.fast_engine.machine.intrinsics import set_byte, set_half, words_at
+from opsim.engine.fast_engine.machine.lists import take_bytes
+from opsim.engine.fast_engine.machine.structs import LAYOUTS, size_of
 from opsim.engine.fast_engine.state import Job, Worker
 from opsim.log import COLUMNS, ORDER, SETUP, WALK, WORK
 
@@ -36,7 +37,7 @@ _as_row = cast(Row)
 def new_row(floor: Floor, kind: int, start_s: float) -> Row:
     """A row of a kind from a time until now, with nothing else in it."""
     if floor.row_at == floor.row_end:
-        tell_0(floor.flush_line, floor)
+        floor.flush_line(floor)
     row: Row = _as_row(floor.row_at)
     floor.row_at += ROW_BYTES
     row.kind, row.start_s, row.end_s = kind, start_s, floor.now

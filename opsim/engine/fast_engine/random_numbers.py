@@ -6,8 +6,7 @@ from typing import Any
 
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import address_of, call_out, fresh, inlined, step
-from opsim.engine.fast_engine.machine.lists import words_at
-from opsim.engine.fast_engine.machine.structs import array_at
+from opsim.engine.fast_engine.machine.intrinsics import array_at, words_at
 from opsim.engine.fast_engine.records import Stream
 from opsim.streams import BLOCK
 

@@ -14,11 +14,9 @@ from opsim.engine.fast_engine.build import Build
 from opsim.engine.fast_engine.event_list import is_last_of_instant, pop_event
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.log_rows import Columns, flush_rows
-from opsim.engine.fast_engine.machine import TABLE, complete, here, line_of, needed, step
+from opsim.engine.fast_engine.machine import TABLE, Step, complete, here, line_of, step
 from opsim.engine.fast_engine.machine.calling import Waiting, caller, signals_wait
 from opsim.engine.fast_engine.machine.code_cache import folder, is_marked, mark
-from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Told, n_helpers
-from opsim.engine.fast_engine.machine.steps import Step
 from opsim.engine.fast_engine.machine.table import lacking
 from opsim.engine.fast_engine.numbers import Numbers
 from opsim.engine.fast_engine.random_numbers import MOST_RANKS
@@ -91,21 +89,23 @@ close_floor = caller(close)
 """The rows that are open at the horizon."""
 
 
-STEP_S, LUCK_S, EMULATED_S = 0.07, 12.0, 3.0
-"""About so many CPU seconds are compiled for a step, what draws numbers and every floor's steps, emulators."""
+Told = Callable[[int, int], None]
+STEPS_S, STEP_S, LUCK_S, EMULATED_S = 1.5, 0.03, 3.0, 3.0
+"""About so many CPU seconds are compiled for any steps, for each that a floor's lines lead to, for what draws numbers,
+and for emulators."""
 LUCK, EMULATED = "luck", "emulated"
 """Noted on disk by these names when it was compiled. NOTE: to find out otherwise takes as long as to run it."""
 
 
 def compiling_s(plan: Plan) -> float:
     """About how long ``ready`` compiles for a Plan, by the clock; 0: it is compiled, here or on disk."""
-    n_steps = sum(1 for _ in lacking(needed(built(plan).steps.values())))
-    cpu_s = n_steps * STEP_S
-    if _luck():
+    n_steps = len(lacking(built(plan).steps.values()))
+    cpu_s = STEPS_S + n_steps * STEP_S if n_steps else 0.0
+    if _luck_is_new():
         cpu_s += LUCK_S
     if _emulated(plan) and not is_marked(EMULATED):
         cpu_s += EMULATED_S
-    return cpu_s / (1 + n_helpers() if n_steps >= WORTH_HELP else 1)
+    return cpu_s
 
 
 def is_kept() -> bool:
@@ -116,20 +116,34 @@ def is_kept() -> bool:
 def ready(plan: Plan, told: Told | None = None) -> None:
     """Compile what a Plan needs and is not compiled yet; ``told(done, total)`` says how far it is."""
     emulated = [] if is_marked(EMULATED) else _emulated(plan)
-    ready_for(needed(built(plan).steps.values()), told, [partial(_draw, plan, emulated)] if emulated else [])
+    ready_for(built(plan).steps.values(), told, [partial(_draw, plan, emulated)] if emulated else [])
 
 
-def ready_for(steps: Iterable[Step], told: Told | None = None, only_here: Iterable[Callable[[], object]] = ()) -> None:
-    """The same for some steps, and for what draws numbers; ``only_here``: what no other process knows of."""
-    luck = _luck()
-    complete(steps, told, luck, only_here)
-    if luck:
-        mark(LUCK)
+def ready_for(steps: Iterable[Step], told: Told | None = None, more: Iterable[Callable[[], object]] = ()) -> None:
+    """The same for some steps, for what draws numbers, and for more."""
+    wanted = list(steps)
+    jobs = list(more)
+    if _luck_is_new():
+        jobs.insert(0, _compile_luck)
+    if lacking(wanted):
+        jobs.insert(0, partial(complete, wanted))
+    for done, job in enumerate(jobs):
+        if told is not None:
+            told(done, len(jobs))
+        job()
+    if told is not None and jobs:
+        told(len(jobs), len(jobs))
+    complete(wanted)  # where they were on disk: other processes may begin with what this one has
 
 
-def _luck() -> list[Callable[[], object]]:
-    """What compiles all that draws numbers, where that is not done: the look at it that a first run takes anyway."""
-    return [] if is_marked(LUCK) or is_trusted.cache_info().currsize else [is_trusted]
+def _luck_is_new() -> bool:
+    return not is_marked(LUCK) and not is_trusted.cache_info().currsize
+
+
+def _compile_luck() -> None:
+    """All that draws numbers, by the look at it that a first run takes anyway."""
+    is_trusted()
+    mark(LUCK)
 
 
 def _emulated(plan: Plan) -> list[int]:
@@ -159,7 +173,7 @@ class Machine:
         refuse_too_many(plan)
         self.plan, self.build = plan, built(plan)
         self.floor = self.build.floor
-        complete(needed(self.build.steps.values()), told)
+        complete(self.build.steps.values(), told)
         self.floor.table = TABLE.ctypes.data
         self.numbers = Numbers(plan, self.build.arena, self.floor)
         self.columns = Columns(self.build.arena, self.floor)

@@ -76,6 +76,8 @@ class Effects:
     first_s: Array[float]
     fed: Array[int]
     ask_burden: int
+    call_passed: int
+    call_rest_to_s: int
     spare: int
     worked: List[Worker]
     n_resting: int

@@ -28,6 +28,17 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
     return decorate
 
 
+@cache
+def called_from_c(function: Callable, signature: str) -> Any:
+    """A function as C calls it, ``address`` is where; kept as ``compiled`` is. Its helpers are to stand in its file."""
+    try:
+        return numba.cfunc(signature, cache=True)(function)
+    except RuntimeError as error:
+        if "locator" not in str(error):
+            raise
+        return numba.cfunc(signature)(function)
+
+
 def _seeing_helpers(made: Any, function: Callable) -> Any:
     """numba compiles anew when the file of a function changes: now too when that of one does that it calls.
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from math import exp, log
+from typing import Any
 
-from opsim.ergonomics.kernels.compiled import compiled
+from numba import carray
+
+from opsim.ergonomics.kernels.compiled import called_from_c, compiled
 
 TRACKING_PER_S = 10.0
 """As ``opsim.human.muscle_fatigue``; a test compares them."""
@@ -159,6 +162,24 @@ def rest_to_s(state, spare, level):
         else:
             high = middle
     return high
+
+
+def _passed(state, course, n_joints, n_parts, first, last, work_s, rest_s):
+    muscles = carray(state, (n_joints, 5))
+    if n_parts == 0:
+        return rest(muscles, rest_s)
+    return spend(muscles, carray(course, (n_parts, n_joints)), first, last, work_s, rest_s)
+
+
+def _rest_to_s(state, spare, n_joints, level):
+    return rest_to_s(carray(state, (n_joints, 5)), carray(spare, (n_joints, 5)), level)
+
+
+def for_c() -> tuple[Any, Any]:
+    """``spend``, or ``rest`` of a course without parts, and ``rest_to_s``: as C calls them, by addresses."""
+    numbers, size = "CPointer(float64), CPointer(float64)", "int64"
+    passed = called_from_c(_passed, f"float64({numbers}, {size}, {size}, float64, float64, float64, float64)")
+    return passed, called_from_c(_rest_to_s, f"float64({numbers}, {size}, float64)")
 
 
 @compiled(error_model="numpy", nogil=True)

@@ -117,8 +117,8 @@ def test_where_nothing_can_be_kept_compiling_is_not_said_to_be_once(monkeypatch)
 
 def test_what_is_compiled_on_other_machines_is_not_known_here(monkeypatch):
     stand_in(monkeypatch).is_compiled = True
-    chosen = choose("auto", plan(SHORT), 10.0, here=False)
-    assert chosen.engine == "simpy" and "compiled (about 20 s, once on each machine)" in chosen.why
+    chosen = choose("auto", plan(SHORT), 5.0, here=False)
+    assert chosen.engine == "simpy" and "compiled (about 8 s, once on each machine)" in chosen.why
 
 
 def test_where_the_work_is_over_auto_is_what_can_run_the_plan(monkeypatch):

@@ -1,10 +1,7 @@
-"""Machine code of steps on disk: a folder for each stamp of the sources, in it one small file for each step.
+"""Machine code on disk: a folder for each stamp of the sources, in it a file for each set of steps compiled together.
 
-numba's own files take 10 ms each to read, as they hold more than machine code, and know of changes of no file but the
-one that a function stands in: a step that reads a field of a struct, or calls another step, must be compiled anew when
-that one changes. So a stamp of all sources stands in every type, and these files hold machine code alone, linked all at
-once by a linker of the engine's own. A file is written beside and then moved to its name, so that a reader finds it
-whole or not at all, and two processes may write the same one.
+A file is written beside and then moved to its name, so that a reader finds it whole or not at all, and two processes
+may write the same one.
 """
 
 from __future__ import annotations
@@ -13,10 +10,8 @@ import json
 import os
 import shutil
 import sys
-import warnings
-from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache
 from hashlib import blake2b
 from os.path import relpath
@@ -24,31 +19,16 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
+import llvmlite
 import llvmlite.binding as llvm
-
-
-class SlowCompiling(UserWarning):
-    """The engine compiles in a slower way, or cannot keep what it has compiled."""
-
-
-_SAID = set[str]()
-
-
-def say(name: str, what: str, error: BaseException) -> None:
-    """NOTE: once for each kind of error, not for each function: where numba is another one, all of them fail alike."""
-    if type(error).__name__ + what not in _SAID:
-        _SAID.add(type(error).__name__ + what)
-        first = next(iter(str(error).splitlines()), "")
-        warnings.warn(f"{name}: {what} ({type(error).__name__}: {first})", SlowCompiling, stacklevel=3)
-
 
 ENGINE = Path(__file__).parents[1]
 OPSIM = ENGINE.parents[1]
 COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
 SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "layout", "log", "streams", "threads"))
 """Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
-SEEN_FROM_PYTHON = ("arena.py", "calling.py", "code_cache.py", "table.py", "__init__.py")
-"""Nothing of these is compiled."""
+SEEN_FROM_PYTHON = ("arena.py", "calling.py", "code_cache.py", "__init__.py")
+"""Nothing of these is compiled, nor says how."""
 
 
 def sources() -> list[Path]:
@@ -59,14 +39,19 @@ def sources() -> list[Path]:
 
 
 @cache
+def source_of(path: str) -> bytes:
+    """What stands in a file when it is first asked for: what is compiled is what was imported. Raises OSError."""
+    return Path(path).read_bytes()
+
+
 def stamp_of(path: str) -> str:
-    """Of what stands in a file when it is first asked for; nothing where it cannot be read.
+    """Of what stands in a file; nothing where it cannot be read.
 
     NOTE: times would be quicker, but an image or an archive may give two versions of a file the same time, and one
     version two times.
     """
     try:
-        return blake2b(Path(path).read_bytes(), digest_size=16).hexdigest()
+        return blake2b(source_of(path), digest_size=8).hexdigest()
     except OSError:
         return ""
 
@@ -80,8 +65,8 @@ def _stamp() -> str:
 STAMP = _stamp()
 
 
-FORMAT = b"opsim step 1\n"
-PREFIX = "steps-"
+FORMAT = b"opsim steps 2\n"
+PREFIX, SUFFIX = "steps-", ".steps"
 MOST_FOLDERS = 6
 """Of stamps. Those not used for longest are removed when another one is begun; whoever needs them compiles anew."""
 _DIGEST = 16
@@ -89,14 +74,25 @@ _DIGEST = 16
 
 @dataclass(frozen=True)
 class Code:
-    """name : of the function in it; needs : of those elsewhere that it calls; machine_code : an object file"""
+    """steps : by the lines of those in it, the stamps of their files; calls : lines of others, by the table
 
-    name: str
-    needs: tuple[str, ...]
+    failures : what it may raise, by numbers: the name of the class, and what it says; machine_code : an object file
+    """
+
+    steps: dict[int, str]
+    calls: tuple[int, ...]
+    failures: dict[int, tuple[str, str]]
     machine_code: bytes
 
+    @property
+    def name(self) -> str:
+        """Of its file: the same for the same steps, also where one of their files has changed."""
+        return blake2b(repr(sorted(self.steps)).encode(), digest_size=8).hexdigest()
+
     def packed(self) -> bytes:
-        told = json.dumps({"name": self.name, "needs": self.needs}).encode() + b"\n" + self.machine_code
+        """As it is kept."""
+        said = {name: value for name, value in asdict(self).items() if name != "machine_code"}
+        told = json.dumps(said).encode() + b"\n" + self.machine_code
         return FORMAT + blake2b(told, digest_size=_DIGEST).digest() + told
 
     @staticmethod
@@ -108,7 +104,9 @@ class Code:
             return None
         head, _, machine_code = told.partition(b"\n")
         said = json.loads(head)
-        return Code(said["name"], tuple(said["needs"]), machine_code)
+        failures = {int(number): (name, words) for number, (name, words) in said["failures"].items()}
+        steps = {int(line): stamp for line, stamp in said["steps"].items()}
+        return Code(steps, tuple(said["calls"]), failures, machine_code)
 
 
 def place() -> Path | None:
@@ -123,23 +121,18 @@ def place() -> Path | None:
 
 @cache
 def folder() -> Path | None:
-    """Where the machine code of these sources is, or will be, by this Python and numba for this processor."""
+    """Where the machine code of these sources is, or will be, by this Python and LLVM for this processor."""
     found = place()
     return None if found is None else found / (PREFIX + _key())
 
 
 def _key() -> str:
-    """Of all that machine code depends on besides the file of its step."""
-    import llvmlite
+    """Of all that machine code depends on, and what numba compiles for draws of numbers."""
     import numba
-    from numba.core import config
-    from numba.core.registry import cpu_target
 
-    processor = cpu_target.target_context.codegen().magic_tuple()
-    versions = (sys.implementation.cache_tag, sys.version, numba.__version__, llvmlite.__version__)
-    known: Any = config
-    settings = (str(known.OPT), known.ENABLE_AVX)
-    return blake2b(repr((STAMP, versions, processor, settings)).encode(), digest_size=8).hexdigest()
+    processor = llvm.get_process_triple(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
+    versions = sys.implementation.cache_tag, sys.version, numba.__version__, llvmlite.__version__
+    return blake2b(repr((STAMP, versions, processor)).encode(), digest_size=8).hexdigest()
 
 
 @cache
@@ -155,47 +148,27 @@ def shipped() -> Path | None:
     return found if not known.CACHE_DIR and found != folder() and found.is_dir() else None
 
 
-def path_of(function: Callable, line: int) -> Path | None:
-    """The file of a step: another one when the file changes in which the step is written."""
-    where = folder() or shipped()
-    if where is None:
-        return None
-    stamp = stamp_of(function.__code__.co_filename)
-    told = f"{function.__module__}.{function.__qualname__} {function.__code__.co_firstlineno} {stamp}"
-    return where / f"{line:05d}-{blake2b(told.encode(), digest_size=6).hexdigest()}.step"
+def kept() -> list[Code]:
+    """All that is there to read, be it shipped; what is not whole is as none."""
+    found = []
+    for where in (folder(), shipped()):
+        if where is not None:
+            with suppress(OSError):
+                found += [Code.unpacked(one.read_bytes()) for one in sorted(where.glob("*" + SUFFIX))]
+    return [one for one in found if one is not None]
 
 
-def _places(path: Path | None) -> list[Path]:
-    """Where it may be: where it would be written, then where it was shipped."""
-    if path is None:
-        return []
-    other = shipped()
-    return [path] if other is None or other == path.parent else [path, other / path.name]
-
-
-def read(path: Path | None) -> Code | None:
-    """What is kept there, or was shipped; None: nothing, or nothing of use."""
-    for one in _places(path):
-        with suppress(OSError):
-            if (found := Code.unpacked(one.read_bytes())) is not None:
-                return found
-    return None
-
-
-def is_kept(path: Path | None) -> bool:
-    """Whether there is something to read."""
-    return any(one.is_file() for one in _places(path))
-
-
-def keep(path: Path | None, code: Code) -> bool:
+def keep(code: Code) -> bool:
     """Keep machine code for later; whether that was possible."""
-    if path is None or path.parent == shipped():
+    where = folder()
+    if where is None:
         return False
+    path = where / (code.name + SUFFIX)
     beside = path.with_name(f"{path.name}.{uuid4().hex[:12]}")
     try:
-        if not path.parent.is_dir():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            forget_old(path.parent)
+        if not where.is_dir():
+            where.mkdir(parents=True, exist_ok=True)
+            forget_old(where)
         beside.write_bytes(code.packed())
         os.replace(beside, path)
     except OSError:  # a full disk, say: the next process compiles anew
@@ -215,15 +188,16 @@ def mark(name: str) -> None:
 
 
 def is_marked(name: str) -> bool:
+    """Whether that was noted."""
     where = folder()
     return where is not None and (where / f"{name}.done").is_file()
 
 
-def used(path: Path | None) -> None:
-    """Say that a folder is in use, so that others are forgotten first."""
-    if path is not None:
+def used() -> None:
+    """Say that the folder is in use, so that others are forgotten first."""
+    if (where := folder()) is not None:
         with suppress(OSError):
-            os.utime(path.parent)
+            os.utime(where)
 
 
 def forget_old(current: Path) -> None:
@@ -237,40 +211,3 @@ def forget_old(current: Path) -> None:
     others = [one for one in current.parent.glob(PREFIX + "*") if one != current]
     for one in sorted(others, key=used_at)[: max(0, len(others) + 1 - MOST_FOLDERS)]:
         shutil.rmtree(one, ignore_errors=True)
-
-
-RUNTIME = "NRT_"
-
-
-@cache
-def _linker() -> Any:
-    """NOTE: what it has linked lives as long as the process, as the table leads to it."""
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    machine = llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(jit=True)
-    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), machine)
-
-
-def can_link(code: Code) -> bool:
-    """Whether all is there that it calls. NOTE: LLVM would end the process where something is not."""
-    if any(name.startswith(RUNTIME) for name in code.needs):
-        _know_runtime()
-    return all(llvm.address_of_symbol(name) for name in code.needs)
-
-
-@cache
-def _know_runtime() -> None:
-    """Have numba's runtime known by its names, which code with arrays in it calls."""
-    from numba.core.registry import cpu_target
-    from numba.core.runtime import rtsys
-
-    rtsys.initialize(cpu_target.target_context)
-
-
-def link(codes: Iterable[Code]) -> list[int]:
-    """Addresses of their functions."""
-    wanted, linker = list(codes), _linker()
-    for code in wanted:
-        linker.add_object_file(llvm.ObjectFileRef.from_data(code.machine_code))
-    linker.finalize_object()
-    return [int(linker.get_function_address(code.name)) for code in wanted]

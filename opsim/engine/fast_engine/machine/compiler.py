@@ -1,282 +1,335 @@
-"""numba's compiler with less around it: what steps and their helpers do not need is left out.
+"""Steps and what they are made of -> LLVM's text, from their syntax: kinds of values are found on the way, in one pass.
 
-A third of numba's time goes into passes for closures, arrays and literals, of which there are none here; another third
-into making machine code of helpers that is never run, as each is compiled into the steps that call it; then passes over
-declarations, checks of LLVM code, and helpers linked into helpers. NOTE: these are numba's inner parts, which may
-change from one version to the next: ``compiling`` goes on without them where they fail, and says so.
+A name of a function has one kind throughout. Where a later line widens it (a number becomes a float, nothing becomes a
+reference), the function is gone through once more. A helper without annotations is compiled for the kinds that it is
+given, as formulas are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import ast
+import builtins
+from collections import ChainMap
+from collections.abc import Callable, Iterable
 from functools import cache
-from types import SimpleNamespace
+from hashlib import blake2b
+from itertools import count
+from types import FunctionType
 from typing import Any
 
-import llvmlite.binding as llvm
-from numba.core import typed_passes, untyped_passes
-from numba.core.cgutils import normalize_ir_text
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, CompilerBase
-from numba.core.compiler_lock import global_compiler_lock
-from numba.core.compiler_machinery import PassManager, _pass_registry, register_pass
-from numba.core.environment import lookup_environment
-from numba.core.errors import NumbaError
-from numba.core.registry import CPUDispatcher
-from numba.core.runtime import rtsys
-from numba.core.sigutils import normalize_signature
-
-from opsim.engine.fast_engine.machine.code_cache import Code, say
-
-
-class _Library(JITCodeLibrary):
-    """LLVM code of one function, of which numba makes no machine code."""
-
-    @property
-    def codegen(self) -> Any:
-        """For ``get_executable``, which would look for the environment of a function in the machine code."""
-        return SimpleNamespace(set_env=lambda _name, _environment: None)
-
-    def get_pointer_to_function(self, name: str) -> int:
-        """There is none."""
-        self._ensure_finalized()
-        return 0
-
-    def add_linking_library(self, library: Any) -> None:
-        """NOTE: but for numba's own runtime, which counts references to arrays, and of which nothing is used."""
-        if library is not rtsys.library:
-            super().add_linking_library(library)
-
-    def add_ir_module(self, ir_module: Any) -> None:
-        """NOTE: it is looked at once, when it is whole: numba does so for each part."""
-        module = llvm.parse_assembly(normalize_ir_text(str(ir_module)))
-        self._optimize_functions(module)
-        self._final_module.link_in(module)
-
-
-class HelperLibrary(_Library):
-    """Only ever linked into steps. NOTE: not into the helpers that call it, each step links all that it needs once."""
-
-    def _optimize_functions(self, module: Any) -> None:
-        """Once for all steps. NOTE: numba makes a row of passes for each function, and runs it on declarations too."""
-        module.data_layout = self._codegen._data_layout
-        builder = _pass_builder(self._codegen)
-        passes = builder.getFunctionPassManager()
-        for function in module.functions:
-            if not function.is_declaration:
-                passes.run(function, builder)
-
-    def finalize(self) -> None:
-        """Nothing is linked into it."""
-        self._raise_if_finalized()
-        self._finalized = True
-
-    def _get_module_for_linking(self) -> Any:
-        """For what numba compiles by all of its passes: with all that it needs in turn."""
-        if self._shared_module is None:
-            whole = self._final_module.clone()
-            for code in _all_linked(self):
-                whole.link_in(code, preserve=True)
-            for one in whole.functions:
-                if not one.is_declaration:
-                    one.linkage = llvm.Linkage.linkonce_odr
-            self._shared_module = whole
-        return self._shared_module
-
-
-class StepLibrary(_Library):
-    """Of a step and all helpers compiled into it."""
-
-    machine_code: bytes
-
-    def _optimize_functions(self, module: Any) -> None:
-        """Left to the passes over all of it."""
-        module.data_layout = self._codegen._data_layout
-
-    def finalize(self) -> None:
-        """Optimized once, by LLVM's second level: numba's three rounds and its third level took longer and ran no
-        faster.
-
-        NOTE: helpers become the step's own. Names of numba's count functions as a process meets them, so that helpers
-        of two processes could share one, and LLVM links all of a name to the first.
-        """
-        self._raise_if_finalized()
-        module = self._final_module
-        own = {one.name for one in module.functions if not one.is_declaration}
-        for code in _all_linked(self):
-            module.link_in(code, preserve=True)
-        for one in module.functions:
-            if not one.is_declaration and one.name not in own:
-                one.linkage = llvm.Linkage.internal
-        module.verify()
-        builder = _pass_builder(self._codegen)
-        builder.getModulePassManager().run(module, builder)
-        self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
-        self.machine_code = _machine(self._codegen).emit_object(module)
-        self._finalized = True
-
-
-def _all_linked(library: Any) -> Iterator[Any]:
-    """The code of all that is to be linked into a step: helpers, each once, then what numba has made by itself.
-
-    NOTE: in this order, as the code of the others is dropped where nobody calls it yet.
-    """
-    todo, seen, others = list(library._linking_libraries), set[Any](), dict[Any, None]()
-    while todo:
-        one = todo.pop()
-        if isinstance(one, HelperLibrary) and one not in seen:
-            seen.add(one)
-            todo += one._linking_libraries
-            yield one._final_module
-        elif not isinstance(one, HelperLibrary):
-            others[one] = None
-    yield from (one._get_module_for_linking() for one in others)
-
-
-def _pass_builder(codegen: Any) -> Any:
-    """LLVM's second level. NOTE: unrolled loops over a handful of jobs or stations are only longer."""
-    options = llvm.create_pipeline_tuning_options(speed_level=2)
-    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
-    return llvm.create_pass_builder(codegen._tm, options)
+from opsim.engine.fast_engine.machine.code_cache import source_of
+from opsim.engine.fast_engine.machine.expressions import Expressions
+from opsim.engine.fast_engine.machine.llvm_text import Value, common, zero
+from opsim.engine.fast_engine.machine.steps import Step
+from opsim.engine.fast_engine.machine.structs import INT, NONE, Kind, said_kind
 
 
 @cache
-def _machine(codegen: Any) -> Any:
-    """Makes machine code as numba does for this processor, by LLVM's second level too, which ran as fast."""
-    options = {"opt": 2}
-    codegen._customize_tm_options(options)
-    return llvm.Target.from_triple(llvm.get_process_triple()).create_target_machine(**options)
+def _functions_of(path: str) -> dict[tuple[int, str], ast.FunctionDef]:
+    tree = ast.parse(source_of(path), path)
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    return {(min([n.lineno, *(one.lineno for one in n.decorator_list)]), n.name): n for n in found}
 
 
-ENVIRONMENT = "_ZN08NumbaEnv"
-"""How the names of pointers to Python's objects begin that compiled code may use; steps use none."""
-_Dispatcher: Any = CPUDispatcher
-
-PASSES: tuple[Any, ...] = (
-    *(untyped_passes.TranslateByteCode, untyped_passes.FixupArgs, untyped_passes.IRProcessing),
-    *(untyped_passes.GenericRewrites, untyped_passes.ReconstructSSA),
-    *(typed_passes.NopythonTypeInference, typed_passes.PreLowerStripPhis),
-    *(typed_passes.NoPythonSupportedFeatureValidation, typed_passes.IRLegalization),
-)
-"""Before the lowering. NOTE: GenericRewrites is what makes ``x ** 2`` a product, as in all that numba compiles."""
+def syntax_of(function: FunctionType) -> ast.FunctionDef:
+    """As it is written."""
+    code = function.__code__
+    return _functions_of(code.co_filename)[code.co_firstlineno, code.co_name]
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-class StepLowering(typed_passes.NativeLowering):
-    """To machine code, of which an object file can be kept."""
+class Module:
+    """What is compiled together: some steps, all that these come to, and the helpers in them.
 
-    _name = "step_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        state.library = StepLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        return bool(super().run_pass(state))
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class HelperLowering(typed_passes.NativeLowering):
-    """To LLVM code, and no further."""
-
-    _name = "helper_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        state.library = HelperLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        return bool(super().run_pass(state))
-
-
-class Passes(PassManager):
-    """Run one after the other. NOTE: numba's own way writes down what each is given, for those who listen: nobody."""
-
-    def run(self, state: Any) -> None:
-        for kind, _ in self.passes:
-            one = _pass_registry.get(kind).pass_inst
-            one.analysis = self._analysis
-            for part in (one.run_initialization, one.run_pass, one.run_finalizer):
-                part(state)
-
-
-def _passes(name: str, lowering: Any) -> list[PassManager]:
-    manager = Passes(name)
-    for one in (*PASSES, lowering, typed_passes.NoPythonBackend):
-        manager.add_pass(one)
-    manager.finalize()
-    return [manager]
-
-
-HELPER_PASSES, STEP_PASSES = _passes("helper", HelperLowering), _passes("step", StepLowering)
-
-
-class HelperCompiler(CompilerBase):
-    def define_pipelines(self) -> list[PassManager]:
-        return HELPER_PASSES
-
-
-class StepCompiler(CompilerBase):
-    def define_pipelines(self) -> list[PassManager]:
-        return STEP_PASSES
-
-
-class Helper(_Dispatcher):
-    """A function that is compiled into others, without numba's timers, which would be told of each by all around it."""
-
-    @global_compiler_lock
-    def compile(self, sig: Any) -> Any:
-        args, answer = normalize_signature(sig)
-        found = self.overloads.get(tuple(args))
-        if found is None:
-            if not self._can_compile:
-                raise RuntimeError("compilation disabled")
-            with self._compiling_counter:
-                found = self._made(args, answer)
-                self.add_overload(found)
-        return found.entry_point
-
-    def _made(self, args: Any, answer: Any) -> Any:
-        """With all passes, where the few are not enough."""
-        try:
-            return self._compiler._compile_core(args, answer)
-        except (NumbaError, NotImplementedError) as error:
-            few, self._compiler.pipeline_class = self._compiler.pipeline_class, Compiler
-            try:
-                made = self._compiler._compile_core(args, answer)
-            finally:
-                self._compiler.pipeline_class = few
-            say(self.py_func.__qualname__, "compiled by all of numba's passes, which takes longer", error)
-            return made
-
-
-def options(**more: bool) -> dict[str, Any]:
-    """As ``numba.njit`` gives them to a function that Python does not call."""
-    said = {"nopython": True, "nogil": True, "boundscheck": None}
-    return {**said, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, **more}
-
-
-def helper(**more: bool) -> Callable[[Callable], Any]:
-    """What makes of a function one that is compiled into each that calls it."""
-
-    def made(function: Callable) -> Any:
-        return Helper(py_func=function, locals={}, targetoptions=options(**more), pipeline_class=HelperCompiler)
-
-    return made
-
-
-def compiled_step(signature: Any, function: Callable) -> Code:
-    """The machine code of a function compiled for one signature.
-
-    Raises LookupError where it refers to something of this process: such code cannot be kept.
+    is_elsewhere : whether the step of a line is compiled already, and called by the table
+    steps : those in it, by their lines; calls : lines of those elsewhere; failures : what it may raise, by numbers
+    functions : all that are in it
     """
-    made = Helper(py_func=function, locals={}, targetoptions=options(), pipeline_class=StepCompiler)
-    made.compile(signature)
-    return _code(made.overloads[tuple(signature.args)])
+
+    def __init__(self, roots: Iterable[Step], is_elsewhere: Callable[[int], bool]):
+        self.is_elsewhere = is_elsewhere
+        self.steps: dict[int, Step] = {}
+        self.calls = set[int]()
+        self.failures: dict[int, tuple[str, str]] = {}
+        self.functions = set[FunctionType]()
+        self._helpers: dict[Any, Body] = {}
+        self._under_way, self._numbers = set[Any](), count()
+        self._declared: dict[str, None] = {}
+        self._texts: list[str] = []
+        self._todo: list[Step] = []
+        for one in roots:
+            self.wants(one)
+        while self._todo:
+            one = self._todo.pop()
+            # NOTE: every step can fail, as who calls by the table does not know which of them it is
+            body = Body(self, one.function, one.kinds, one.answer, one.symbol, "internal noinline", fails=True)
+            self._texts.append(body.text())
+
+    @property
+    def text(self) -> str:
+        """All of it."""
+        return "\n".join([*self._declared, *self._texts])
+
+    def wants(self, one: Step) -> bool:
+        """Whether a step that is come to is in this module, and not elsewhere."""
+        if one.line in self.steps:
+            return True
+        if self.is_elsewhere(one.line):
+            self.calls.add(one.line)
+            return False
+        self.steps[one.line] = one
+        self._todo.append(one)
+        return True
+
+    def helper(self, function: FunctionType, how: str, kinds: tuple[Kind, ...]) -> Body:
+        """A function for some kinds of arguments. Raises TypeError for one that calls itself."""
+        key = function, kinds, how
+        if key in self._under_way:
+            raise TypeError(f"{function.__name__} calls itself, which only a step may")
+        if key not in self._helpers:
+            self._under_way.add(key)
+            name = f'@"{function.__qualname__}.{next(self._numbers)}"'
+            answer = said_kind(function.__annotations__.get("return", "Any"))
+            made = Body(self, function, kinds, answer, name, f"internal {how}")
+            self._texts.append(made.text())
+            self._helpers[key] = made
+            self._under_way.remove(key)
+        return self._helpers[key]
+
+    def syntax_of(self, function: FunctionType) -> ast.FunctionDef:
+        """As it is written; it is in this module then."""
+        self.functions.add(function)
+        return syntax_of(function)
+
+    def declare(self, line: str) -> None:
+        """A function of C's library or of LLVM."""
+        self._declared[line] = None
+
+    def failure(self, name: str, words: str) -> int:
+        """Its number, which is the same everywhere, and not 0."""
+        number = 1 + int.from_bytes(blake2b(f"{name} {words}".encode(), digest_size=6).digest(), "little")
+        self.failures[number] = name, words
+        return number
 
 
-def _code(result: Any) -> Code:
-    """Machine code that refers to nothing of this process but functions known by their names."""
-    library, name = result.library, result.fndesc.llvm_func_name
-    module = library._final_module
-    outside = [one.name for one in (*module.functions, *module.global_variables) if one.is_declaration]
-    environments = [one.name for one in module.global_variables if one.name.startswith(ENVIRONMENT)]
-    known = [found for name in environments if (found := lookup_environment(name)) is not None]
-    if library.has_dynamic_globals or any(one.consts for one in known):
-        raise LookupError(f"{name} refers to objects of Python")
-    return Code(name, tuple(one for one in outside if not one.startswith("llvm.")), library.machine_code)
+class _Widened(Exception):
+    """A name is of a wider kind than was known before."""
+
+
+class Body(Expressions):
+    """Of one function for some kinds of arguments. ``how`` : LLVM's words for it; ``loops`` : where to go on, and after
+
+    widest : kind of what was returned so far
+    """
+
+    def __init__(
+        self,
+        module: Module,
+        function: Any,
+        kinds: tuple[Kind, ...],
+        answer: Kind | None,
+        name: str,
+        how: str,
+        *,
+        fails: bool = False,
+    ):
+        super().__init__(answer, fails=fails)
+        self.module, self.function, self.kinds, self.name, self.how = module, function, kinds, name, how
+        self.node = module.syntax_of(function)
+        self.names: dict[str, Kind] = {}
+        self.widest: Kind | None = answer
+        cells = {
+            n: c.cell_contents for n, c in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True)
+        }
+        self.known = ChainMap(cells, function.__globals__, vars(builtins))
+
+    def text(self) -> str:
+        """All of it."""
+        while True:
+            try:
+                return self._text()
+            except _Widened:
+                continue
+
+    def _text(self) -> str:
+        self.begin_anew()
+        self.passes_on = False
+        self.loops: list[tuple[str, str]] = []
+        given = self.node.args
+        names = [one.arg for one in given.args]
+        for number, (name, kind) in enumerate(zip(names, self.kinds, strict=False)):
+            self._assign(name, (f"%a{number}", kind))
+        if given.vararg is not None:
+            rest = [(f"%a{number}", kind) for number, kind in enumerate(self.kinds)][len(names) :]
+            self._assign(given.vararg.arg, self.tuple_of(rest))
+        for name, default in zip(
+            names[len(self.kinds) :], given.defaults[len(self.kinds) - len(names) :], strict=False
+        ):
+            self._assign(name, self.value(default))
+        self.body(self.node.body)
+        answer = self.answer or self.widest or NONE
+        if self.open:
+            self.give("0" if answer == NONE else zero(answer))
+        if self.passes_on:
+            self.put("failed:")
+            self.give_up(self.op("load i64, ptr %state"))
+        self.answer = answer
+        kinds = ", ".join(f"{kind.llvm} %a{number}" for number, kind in enumerate(self.kinds))
+        slots = [f"%v.{name} = alloca {kind.llvm}" for name, kind in self.names.items()]
+        slots += ["%state = alloca i64"] if self.passes_on else []
+        linkage, _, how = self.how.partition(" ")
+        lines = [one if isinstance(one, str) else self.ended(number, *one) for number, one in enumerate(self.lines)]
+        head = f"define {linkage} {self.returned} {self.name}({kinds}) nounwind {how} {{"
+        return "\n".join([head, "entry:", *slots, *lines, "}", ""])
+
+    def body(self, statements: list[ast.stmt]) -> None:
+        """Statements one after the other, as far as they are come to. Raises NotSo."""
+        for node in statements:
+            if not self.open:
+                return
+            try:
+                getattr(self, "on_" + type(node).__name__, self.unknown)(node)
+            except (TypeError, LookupError, AttributeError, ValueError) as error:
+                raise self.wrong(node, str(error)) from error
+
+    def _assign(self, name: str, value: Value) -> None:
+        before = self.names.get(name)
+        kind = value[1] if before is None else common(before, value[1])
+        self.names[name] = kind
+        if before not in (None, kind):
+            raise _Widened
+        self.put(f"store {kind.llvm} {self.cast(value, kind)}, ptr %v.{name}")
+
+    def on_Pass(self, node: ast.Pass) -> None:
+        pass
+
+    def on_Expr(self, node: ast.Expr) -> None:
+        if isinstance(node.value, ast.Call):
+            self.call(node.value, wanted=False)
+        elif not isinstance(node.value, ast.Constant):
+            self.value(node.value)
+
+    def on_Assign(self, node: ast.Assign) -> None:
+        target, given = node.targets[0], node.value
+        if isinstance(target, ast.Tuple) and isinstance(given, ast.Tuple):
+            values = [self.value(one) for one in given.elts]
+            for one, value in zip(target.elts, values, strict=True):
+                self.store(one, value)
+            return
+        value = self.value(given)
+        for one in node.targets:
+            self.store(one, value)
+
+    def on_AnnAssign(self, node: ast.AnnAssign) -> None:
+        assert node.value is not None
+        self.store(node.target, self.value(node.value))
+
+    def on_AugAssign(self, node: ast.AugAssign) -> None:
+        before = self.value(_loaded(node.target))
+        self.store(node.target, self.binary(type(node.op), before, self.value(node.value)))
+
+    def store(self, target: ast.expr, value: Value) -> None:
+        """Give a name, a field, an item, or several of those a value."""
+        if isinstance(target, ast.Name):
+            self._assign(target.id, value)
+        elif isinstance(target, ast.Tuple):
+            for one, item in zip(target.elts, self.items(value), strict=True):
+                self.store(one, item)
+        else:
+            at, kind = self.place(target)
+            self.put(f"store {kind.llvm} {self.cast(value, kind)}, ptr {at}")
+
+    def on_Delete(self, node: ast.Delete) -> None:
+        of = node.targets[0]
+        if len(node.targets) > 1 or not isinstance(of, ast.Subscript) or isinstance(of.slice, ast.Slice):
+            raise self.wrong(node, "'del' takes one item out of a list in a step")
+        self.machine("drop_at", [self.value(of.value), self.value(of.slice)])
+
+    def on_Return(self, node: ast.Return) -> None:
+        value = ("null", NONE) if node.value is None else self.value(node.value)
+        if self.answer is None:
+            wider = value[1] if self.widest is None else common(self.widest, value[1])
+            before, self.widest = self.widest, wider
+            if before not in (None, wider):
+                raise _Widened
+        wanted = self.answer or self.widest
+        assert wanted is not None
+        self.give("0" if wanted == NONE else self.cast(value, wanted))
+
+    def on_Raise(self, node: ast.Raise) -> None:
+        said = node.exc
+        kind = self.static(said.func if isinstance(said, ast.Call) else said)
+        words = said.args[0].value if isinstance(said, ast.Call) and said.args else ""  # type: ignore[attr-defined]
+        self.fail(kind, words)
+
+    def on_If(self, node: ast.If) -> None:
+        yes, no, after = self.label(), self.label(), self.label()
+        self.jump(node.test, yes, no)
+        self.begin(yes)
+        self.body(node.body)
+        self.go(after)
+        self.begin(no)
+        self.body(node.orelse)
+        self.go(after)
+        self.begin(after)
+
+    def on_While(self, node: ast.While) -> None:
+        if node.orelse:
+            self.unknown(node)
+        again, inside, after = self.label(), self.label(), self.label()
+        self.begin(again)
+        self.jump(node.test, inside, after)
+        self.begin(inside)
+        self._loop(node.body, again, after)
+        self.go(again)
+        self.begin(after)
+
+    def on_Break(self, node: ast.Break) -> None:
+        self.go(self.loops[-1][1])
+
+    def on_Continue(self, node: ast.Continue) -> None:
+        self.go(self.loops[-1][0])
+
+    def on_For(self, node: ast.For) -> None:
+        if node.orelse or not isinstance(node.target, ast.Name):
+            raise self.wrong(node, "'for' takes the items of one list, each by a name, and has no 'else' in a step")
+        if isinstance(node.iter, ast.Call) and ast.unparse(node.iter.func) == "range":
+            given = [self.cast(self.value(one), INT) for one in node.iter.args]
+            first, last, by = {1: ["0", *given, "1"], 2: [*given, "1"], 3: given}[len(given)]
+            if not by.lstrip("-").isdigit():
+                raise TypeError("the stride of a range is a number that is known in a step")
+            self._count(node, first, lambda: last, by, lambda at: (at, INT))
+            return
+        items = self.value(node.iter)
+        if items[1].kind != "list":
+            raise TypeError("'for' goes through a list")
+        self._count(node, "0", lambda: self.length(items), "1", lambda at: self.item(items, at))
+
+    def _count(self, node: Any, first: str, last: Callable[[], str], by: str, item: Callable[[str], Value]) -> None:
+        """NOTE: of a list that grows meanwhile the new items come too, as Python has it."""
+        self.n += 1
+        counter = f".{self.n}"
+        self._assign(counter, (first, INT))
+        top, inside, again, after = (self.label() for _ in range(4))
+        self.begin(top)
+        at = self.op(f"load i64, ptr %v.{counter}")
+        goes_on = self.op(f"icmp {'sgt' if by.startswith('-') else 'slt'} i64 {at}, {last()}")
+        self.end(f"br i1 {goes_on}, label %{inside}, label %{after}")
+        self.begin(inside)
+        self._assign(node.target.id, item(at))
+        self._loop(node.body, again, after)
+        self.begin(again)
+        following = self.op(f"add i64 {self.op(f'load i64, ptr %v.{counter}')}, {by}")
+        self.put(f"store i64 {following}, ptr %v.{counter}")
+        self.go(top)
+        self.begin(after)
+
+    def _loop(self, body: list[ast.stmt], again: str, after: str) -> None:
+        self.loops.append((again, after))
+        self.body(body)
+        self.loops.pop()
+
+
+def _loaded(node: Any) -> ast.expr:
+    """A target as a value."""
+    made: ast.expr = type(node)(**{name: getattr(node, name) for name in node._fields if name != "ctx"}, ctx=ast.Load())
+    return ast.copy_location(made, node)

@@ -6,25 +6,33 @@ changed in the middle by moving what is behind.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import copysign, fmod
 from typing import Any
 
-from llvmlite import ir
-from numba.core import types
-
-from opsim.engine.fast_engine.machine.compiling import inlined, intrinsic
-from opsim.engine.fast_engine.machine.structs import (
-    I64,
-    POINTER,
-    Array,
-    Pointer,
+from opsim.engine.fast_engine.machine.expressions import LISTS
+from opsim.engine.fast_engine.machine.intrinsics import (
+    Helper,
     address_of,
     array_at,
+    call_out,
     cast,
+    divided,
+    float_floor,
+    remainder,
     set_word,
-    size_of,
-    struct,
     word,
+    words_at,
 )
+from opsim.engine.fast_engine.machine.structs import Array, List, size_of, struct
+
+inlined = Helper
+
+
+def apart(function: Callable) -> Any:
+    """A helper that is called, as it is seldom needed."""
+    return Helper(function, "noinline cold")
+
 
 SMALL, CLASSES = 128, 192
 """Sizes below SMALL x 16 bytes have a list of their own of what was given back; larger ones one for each power of 2,
@@ -42,28 +50,6 @@ class Memory:
     end: int
     more: int
     free: Array[int]
-
-
-@intrinsic
-def call_out(_typingctx: Any, address: Any, one: Any, other: Any) -> Any:
-    """The answer of a C function at an address, ``int64 f(int64, int64)``.
-
-    NOTE: where Python fails in it before its first ``try``, that is printed and lost, and the answer is anything: who
-    calls looks at what should have been done.
-    """
-
-    def codegen(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-        kind = ir.FunctionType(I64, [I64, I64])
-        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
-
-    return types.int64(types.int64, types.int64, types.int64), codegen
-
-
-@intrinsic
-def words_at(_typingctx: Any, address: Any) -> Any:
-    """The words at an address."""
-    array = Pointer("int", "array")
-    return array(types.int64), lambda _c, builder, _s, args: builder.inttoptr(args[0], POINTER)
 
 
 @inlined
@@ -118,7 +104,7 @@ def fresh(struct_of: Any) -> Any:
     n_bytes, made = size_of(struct_of), cast(struct_of)
 
     @inlined
-    def new(floor):
+    def new(floor: Any) -> Any:
         return made(take_bytes(floor.memory, n_bytes))
 
     return new
@@ -126,12 +112,10 @@ def fresh(struct_of: Any) -> Any:
 
 def give_back(struct_of: Any) -> Any:
     """A compiled function of the floor and a struct that nobody refers to any more."""
-    from opsim.engine.fast_engine.machine.structs import address_of
-
     n_bytes = size_of(struct_of)
 
     @inlined
-    def give(floor, one):
+    def give(floor: Any, one: Any) -> None:
         give_bytes_back(floor.memory, address_of(one), n_bytes)
 
     return give
@@ -168,8 +152,8 @@ DATA, FIRST, N, ROOM = range(4)
 """The words of a list. NOTE: its items lie from the FIRST on, so that taking the first one moves nothing."""
 
 
-@inlined
-def _make_room(floor: Any, items: Any) -> None:
+@apart
+def _make_room(floor: Any, items: List[Any]) -> None:
     """Room for one more behind the last: by moving up to the beginning, or in twice as much memory."""
     data, first, n = word(items, DATA), word(items, FIRST), word(items, N)
     room: int = word(items, ROOM)
@@ -281,3 +265,46 @@ def clear(items: Any) -> None:
     """Take all items out; their room stays."""
     set_word(items, FIRST, 0)
     set_word(items, N, 0)
+
+
+@inlined
+def floor_of_ints(a: int, b: int) -> int:
+    """``a // b``."""
+    quotient = divided(a, b)
+    return quotient - 1 if (a < 0) != (b < 0) and quotient * b != a else quotient
+
+
+@inlined
+def rest_of_ints(a: int, b: int) -> int:
+    """``a % b``."""
+    rest = remainder(a, b)
+    return rest + b if rest != 0 and (rest < 0) != (b < 0) else rest
+
+
+@inlined
+def rest_of_floats(a: float, b: float) -> float:
+    """``a % b``, as CPython has it."""
+    rest = fmod(a, b)
+    if rest != 0.0:
+        return rest + b if (b < 0.0) != (rest < 0.0) else rest
+    return copysign(0.0, b)
+
+
+@inlined
+def floor_of_floats(a: float, b: float) -> float:
+    """``a // b``, as CPython has it."""
+    quotient = (a - fmod(a, b)) / b
+    rest = fmod(a, b)
+    if rest != 0.0 and (b < 0.0) != (rest < 0.0):
+        quotient -= 1.0
+    if quotient == 0.0:
+        return copysign(0.0, a / b)
+    whole = float_floor(quotient)
+    return whole + 1.0 if quotient - whole > 0.5 else whole
+
+
+LISTS |= {
+    **{"append": push, "insert": insert, "pop_first": pop_first, "pop_last": pop_last, "drop_at": drop_at},
+    **{"has": has, "clear": clear, "floor_of_ints": floor_of_ints, "floor_of_floats": floor_of_floats},
+    **{"rest_of_ints": rest_of_ints, "rest_of_floats": rest_of_floats},
+}

@@ -1,144 +1,145 @@
-"""The table of addresses: steps are compiled, or their machine code is found on disk, when a floor needs them first."""
+"""The table of addresses: steps are compiled, or their machine code is found on disk, when a floor needs them first.
+
+What lacks is compiled at once, with all that it comes to: such steps call each other directly, and are compiled into
+each other where that is faster. What was compiled before is called by the table.
+"""
 
 from __future__ import annotations
 
-import gc
-import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
-from functools import partial
-from importlib import import_module
-from pathlib import Path
+import ctypes
+from collections.abc import Callable, Iterable
+from functools import cache
 from threading import RLock
+from typing import Any
 
+import llvmlite.binding as llvm
 import numpy as np
 
-from opsim.engine.fast_engine.machine.code_cache import can_link, folder, is_kept, keep, link, path_of, read, used
-from opsim.engine.fast_engine.machine.compiling import WORTH_HELP, Job, Told, Work, by_numba, compiled, helped
+from opsim.engine.fast_engine.machine import code_cache
+from opsim.engine.fast_engine.machine.code_cache import Code, stamp_of
+from opsim.engine.fast_engine.machine.compiler import Module
 from opsim.engine.fast_engine.machine.steps import LINES, STEPS, Step
 
 TABLE = np.zeros(LINES, dtype=np.int64)
-FIRST = ("opsim.engine.fast_engine.settle",)
-"""Files whose steps take longest to compile: nobody is left waiting for them at the end."""
-_ALIVE: list[object] = []
+FAILURES: dict[int, tuple[str, str]] = {}
+"""Exceptions that compiled code raises, by their numbers: the name of the class, and what it says."""
+SPEED_LEVEL, INLINING_THRESHOLD = 2, 150
+_FRAME = """
+define i64 @enter_{name}(ptr %function, ptr %answer, ptr %floor, i64 %given) {{
+ %both = call {{i64, i64}} %function(ptr %floor, i64 %given)
+ %found = extractvalue {{i64, i64}} %both, 0
+ store i64 %found, ptr %answer
+ %state = extractvalue {{i64, i64}} %both, 1
+ ret i64 %state
+}}
+@steps_{name} = constant [{n} x ptr] [{addresses}]
+!0 = !{{!"branch_weights", i32 1, i32 2000}}
+"""
+"""What is seen of a module from elsewhere: how Python enters a step, whose answer has two parts, and the addresses."""
 _LOCK = RLock()
+_ENTRIES: list[int] = []
 
 
-def complete(
-    steps: Iterable[Step],
-    told: Told | None = None,
-    more: Iterable[Callable[[], object]] = (),
-    only_here: Iterable[Callable[[], object]] = (),
-) -> None:
-    """Have every one of some steps in the table; ``told(done, total)`` of those that have to be compiled.
+def complete(steps: Iterable[Step], told: Callable[[int, int], None] | None = None) -> None:
+    """Have some steps, and all that they come to, in the table; ``told(done, total)`` where any have to be compiled.
 
-    more : functions of modules that compile something else, to disk, and are called here or in another process
-    only_here : what no other process knows of, and is called in this one, first
+    Raises NotSo, with the file and the line, for what cannot be compiled.
     """
     with _LOCK:
-        new = _linked(sorted((one for one in steps if not TABLE[one.line]), key=_place_in_order))
-        jobs = [*(Job("", one) for one in only_here), *(Job(_name(one), partial(_put, one)) for one in new)]
-        jobs += [Job(f"{one.__module__}:{one.__qualname__}", one) for one in more]
-        if jobs:
-            shared = len(jobs) >= WORTH_HELP and folder() is not None
-            work = Work(jobs)
-            with no_garbage_looked_for(), helped(work, ["-m", __name__]) if shared else nullcontext():
-                _work_off(work, len(jobs), told)
-            for one in _linked([one for one in new if not TABLE[one.line]]):
-                _put(one)  # was done elsewhere, and could not be kept
+        found, lines = _found(steps)
+        _link(found)
+        if lines:
+            told = told or (lambda _done, _total: None)
+            told(0, len(lines))
+            made = compiled(STEPS[line] for line in lines)
+            code_cache.keep(made)
+            _link([made])
+            told(len(lines), len(lines))
 
 
-def _place_in_order(one: Step) -> tuple[bool, str, int]:
-    """File by file."""
-    return one.function.__module__ not in FIRST, one.function.__module__, one.line
+def lacking(steps: Iterable[Step]) -> list[int]:
+    """Lines of those of some steps that would have to be compiled, and of those known that they come to."""
+    return _found(steps)[1]
 
 
-def _name(one: Step) -> str:
-    return f"{one.function.__module__}:{one.line}"
+def _found(steps: Iterable[Step]) -> tuple[list[Code], list[int]]:
+    """What is on disk for some steps and is not in the table, those with most of them first; and what lacks."""
+    lines = {one.line for one in steps if not TABLE[one.line]}
+    kept = [one for one in code_cache.kept() if _is_of_today(one)] if lines else []
+    found: list[Code] = []
+    while lines and kept:
+        best = max(kept, key=lambda one: len(lines & one.steps.keys()))
+        if not lines & best.steps.keys():
+            break
+        kept.remove(best)
+        found.append(best)
+        has = {line for one in found for line in one.steps}
+        lines = {line for line in lines.union(best.calls) if line not in has and not TABLE[line]}
+    return found, sorted(lines)
 
 
-def _work_off(work: Work, total: int, told: Told | None) -> None:
-    told = told or (lambda _done, _total: None)
-    while (job := work.first()) is not None:
-        told(total - work.n_open - 1, total)
-        job.here()
-    told(total, total)
+def _is_of_today(code: Code) -> bool:
+    """Whether the files that its steps stand in, as far as they were imported, are those that it was compiled from."""
+    ours = ((STEPS[line], stamp) for line, stamp in code.steps.items() if line in STEPS)
+    return all(stamp_of(one.function.__code__.co_filename) == stamp for one, stamp in ours)
 
 
-@contextmanager
-def no_garbage_looked_for() -> Iterator[None]:
-    """While it is compiled all is kept by somebody: to look through it again and again took a tenth of the time."""
-    before = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if before:
-            gc.enable()
+def compiled(steps: Iterable[Step]) -> Code:
+    """Machine code of some steps, and of all that they come to and is not in the table. Raises NotSo."""
+    made = Module(steps, lambda line: bool(TABLE[line]))
+    lines = sorted(made.steps)
+    stamps = {line: stamp_of(made.steps[line].function.__code__.co_filename) for line in lines}
+    code = Code(stamps, tuple(sorted(made.calls)), made.failures, b"")
+    addresses = ", ".join(f"ptr {made.steps[line].symbol}" for line in lines)
+    frame = _FRAME.format(name=code.name, n=len(lines), addresses=addresses)
+    return Code(code.steps, code.calls, code.failures, machine_code(frame + made.text))
 
 
-def _linked(lacking: Sequence[Step]) -> list[Step]:
-    """Put into the table what is kept on disk, all at once. What is left."""
-    found = {one: code for one in lacking if (code := read(_path(one))) is not None and can_link(code)}
-    if found:
-        used(_path(lacking[0]))
-        for one, at in zip(found, link(found.values()), strict=True):
-            TABLE[one.line] = at
-    return [one for one in lacking if one not in found]
+def machine_code(text: str) -> bytes:
+    """An object file of what stands in LLVM's language."""
+    module, machine = llvm.parse_assembly(text), _machine()
+    module.verify()
+    options = llvm.create_pipeline_tuning_options(speed_level=SPEED_LEVEL)
+    options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = False
+    options.inlining_threshold = INLINING_THRESHOLD
+    passes = llvm.create_pass_builder(machine, options)
+    passes.getModulePassManager().run(module, passes)
+    made: bytes = machine.emit_object(module)
+    return made
 
 
-def _put(one: Step) -> None:
-    """Have a step in the table: from disk, where another process has compiled it meanwhile."""
-    if _linked([one]):
-        TABLE[one.line] = _made(one)
+@cache
+def _machine() -> Any:
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    target = llvm.Target.from_triple(llvm.get_process_triple())
+    features = llvm.get_host_cpu_features().flatten()
+    return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=2, jit=True)
 
 
-def _made(one: Step) -> int:
-    """Compile a step, and keep it. Its address."""
-    made = compiled(one.signature, one.function)
-    if made.code is not None and not can_link(made.code):
-        made = by_numba(one.signature, one.function)
-    if made.code is None:
-        _ALIVE.append(made.alive)
-        return made.at
-    keep(_path(one), made.code)
-    return link([made.code])[0]
+@cache
+def _linker() -> Any:
+    """NOTE: what it has linked lives as long as the process, as the table leads to it."""
+    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
 
 
-def _path(one: Step) -> Path | None:
-    return path_of(one.function, one.line)
+def _link(codes: list[Code]) -> None:
+    """Put what they hold into the table."""
+    if not codes:
+        return
+    linker = _linker()
+    for one in codes:
+        linker.add_object_file(llvm.ObjectFileRef.from_data(one.machine_code))
+    linker.finalize_object()
+    for one in codes:
+        lines = sorted(one.steps)
+        at = linker.get_global_value_address(f"steps_{one.name}")
+        TABLE[lines] = np.ctypeslib.as_array((ctypes.c_int64 * len(lines)).from_address(at))
+        FAILURES.update(one.failures)
+        _ENTRIES.append(int(linker.get_function_address(f"enter_{one.name}")))
+    code_cache.used()
 
 
-def lacking(steps: Iterable[Step]) -> Iterator[Step]:
-    """Those of some steps that would have to be compiled."""
-    return (one for one in steps if not (TABLE[one.line] or is_on_disk(one)))
-
-
-def is_on_disk(one: Step) -> bool:
-    """Whether the machine code of a step is kept."""
-    return is_kept(_path(one))
-
-
-def help_out(names: Iterable[str]) -> None:
-    """In another process: do each job that is named, to disk, and say so by a line."""
-    print(flush=True)
-    with no_garbage_looked_for():
-        for name in names:
-            do_elsewhere(name.strip())
-            print(flush=True)
-
-
-def do_elsewhere(name: str) -> None:
-    """A step ``module:line`` that is not on disk yet, or a function ``module:name``."""
-    module, _, what = name.rpartition(":")
-    found = import_module(module)
-    if not what.isdigit():
-        getattr(found, what)()
-    elif not is_on_disk(one := STEPS[int(what)]):
-        made = compiled(one.signature, one.function)
-        if made.code is not None and can_link(made.code):
-            keep(_path(one), made.code)
-
-
-if __name__ == "__main__":
-    help_out(sys.stdin)
+def entry() -> int:
+    """The address of what enters a step of the table."""
+    return _ENTRIES[0]

@@ -3,11 +3,11 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made.machine import as_floor, empty_floor, entered
+from made.machine import Floor, Given, empty_floor, entered
 from twins import twins
 
 from opsim.engine.fast_engine.log_rows import AT_ONCE, MOST_SORTED, Columns, flush_all, flush_rows, new_row
-from opsim.engine.fast_engine.machine import complete, line_of, needed, step_of
+from opsim.engine.fast_engine.machine import complete, line_of
 from opsim.log import COLUMNS, OFF, ORDER
 
 CLOSED = """
@@ -27,21 +27,26 @@ rows = st.tuples(*([st.integers(0, 3)] * len(ORDER)))
 
 
 @entered
-def written(floor_at, found):
-    """Writes rows that end when they say, in the order of ``ORDER``; ``performance_id`` is which one it is."""
-    floor = as_floor(floor_at)
-    for i in range(found.shape[0]):
-        floor.now = found[i, 0]
-        row = new_row(floor, found[i, 2], found[i, 1])
-        row.worker, row.station, row.source = found[i, 3], found[i, 4], found[i, 5]
-        row.job, row.k, row.performance_id = found[i, 6], found[i, 7], i
+def _written(floor: Floor, given: Given) -> None:
+    found = given.a
+    for i in range(given.n):
+        at = i * given.m
+        floor.now = found[at]
+        row = new_row(floor, found[at + 2], found[at + 1])
+        row.worker, row.station, row.source = found[at + 3], found[at + 4], found[at + 5]
+        row.job, row.k, row.performance_id = found[at + 6], found[at + 7], i
     floor.now = 1e9
     flush_all(floor)
 
 
+def written(floor, found):
+    """Writes rows that end when they say, in the order of ``ORDER``; ``performance_id`` is which one it is."""
+    _written(floor, a=found, n=found.shape[0], m=found.shape[1])
+
+
 def columns_of(found, times=1):
     arena, floor = empty_floor()
-    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    complete([flush_rows, flush_all])
     floor.flush_line = line_of(flush_rows)
     columns = Columns(arena, floor)
     arena.freeze()
@@ -84,7 +89,7 @@ def test_an_instant_of_more_rows_than_are_put_in_order_at_all_is_sorted_at_the_e
     n = MOST_SORTED + 10
     found = [(3, 0, 0, 0, 0, 0, 0, 0), *((7, 0, 0, 0, 0, 0, -i // 2, 0) for i in range(n)), (7, 0, 0, 0, 0, 0, 1, 0)]
     arena, floor = empty_floor()
-    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    complete([flush_rows, flush_all])
     floor.flush_line = line_of(flush_rows)
     columns = Columns(arena, floor)
     arena.freeze()
@@ -103,7 +108,7 @@ def test_rows_of_the_horizon_stay_in_order_where_closed_hours_are_written_betwee
 def test_the_columns_of_one_run_stay_when_another_one_has_begun():
     first = [(i, 0, 1, 2, 3, 4, i, 5) for i in range(1000)]
     arena, floor = empty_floor()
-    complete(needed([step_of(flush_rows), step_of(flush_all)]))
+    complete([flush_rows, flush_all])
     floor.flush_line = line_of(flush_rows)
     columns = Columns(arena, floor)
     arena.freeze()

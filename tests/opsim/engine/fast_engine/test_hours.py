@@ -12,7 +12,7 @@ Plans that are too large for the ids of streams are refused in words, not run wi
 from types import SimpleNamespace
 
 import pytest
-from made.machine import as_floor, empty_floor, entered
+from made.machine import Floor, Given, empty_floor, entered
 from plans import CELL as LIMITED
 from plans import plan, queue
 from stand_in_engine import install_rule
@@ -241,14 +241,18 @@ def test_the_fast_engine_says_so_and_auto_takes_the_other(monkeypatch):
 
 
 def test_ids_of_different_ranks_differ_up_to_the_last():
-    last, ids = MOST_RANKS - 1, stream_id.py_func
+    last, ids = MOST_RANKS - 1, stream_id
     ends = [(one, two, three) for one in (0, last) for two in (0, last) for three in (0, last)]
     assert len({ids(purpose, *ranks) for purpose in (1, 13) for ranks in ends}) == 16
 
 
 @entered
-def stream_at(floor_at, visit):
-    return stream_of(as_floor(floor_at), 1, 2, 3, visit).id
+def _stream_at(floor: Floor, given: Given) -> int:
+    return stream_of(floor, 1, 2, 3, given.n).id
+
+
+def stream_at(floor, visit):
+    return _stream_at(floor, n=visit)
 
 
 def test_a_visit_beyond_is_an_error_and_not_another_stream():

@@ -15,14 +15,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made.machine import as_floor, empty_floor, entered
+from made.machine import Floor, Given, empty_floor, entered
 from plans import plan, queue
 from twins import twins
 
 from opsim.engine.fast_engine import run
 from opsim.engine.fast_engine.event_list import forget_event, new_event, pop_event, push_event
 from opsim.engine.fast_engine.keys import ROUTING, SEQUENCING
-from opsim.engine.fast_engine.run import EMULATED, LUCK_S, STEP_S, compiling_s, ready
+from opsim.engine.fast_engine.run import EMULATED, LUCK_S, STEP_S, STEPS_S, compiling_s, ready
 from opsim.log import AWAY, BAD, BREAK, CREATE, FINISH, HELD, SETUP, SPLIT, TRANSPORT, WORK
 
 SHOP = """
@@ -168,7 +168,7 @@ def made():
 @pytest.fixture
 def cold(monkeypatch):
     """Nothing compiled, nothing noted."""
-    monkeypatch.setattr(run, "lacking", lambda steps: iter(steps))
+    monkeypatch.setattr(run, "lacking", list)
     monkeypatch.setattr(run, "is_marked", lambda _what: False)
     run.is_trusted.cache_clear()
 
@@ -178,13 +178,17 @@ def test_what_is_ready_needs_no_compiling(made):
     assert compiling_s(made) == 0
 
 
-def test_compiling_takes_time_for_each_step_shared_by_all_processes(made, cold, monkeypatch):
-    monkeypatch.setattr(run, "n_helpers", lambda: 0)
-    alone_s = compiling_s(made)
-    n_steps = (alone_s - LUCK_S) / STEP_S
-    assert n_steps == pytest.approx(round(n_steps)) and n_steps > 16
-    monkeypatch.setattr(run, "n_helpers", lambda: 3)
-    assert compiling_s(made) == pytest.approx(alone_s / 4)
+def test_compiling_takes_time_for_each_step_and_for_what_draws_numbers(made, cold):
+    n_steps = (compiling_s(made) - STEPS_S - LUCK_S) / STEP_S
+    assert n_steps == pytest.approx(round(n_steps)) and n_steps > 9
+
+
+def test_what_is_ready_is_said_part_by_part(made, cold, monkeypatch):
+    done, told = [], []
+    monkeypatch.setattr(run, "complete", lambda steps: done.append("steps"))
+    monkeypatch.setattr(run, "_compile_luck", lambda: done.append("luck"))
+    ready(made, lambda *so_far: told.append(so_far))
+    assert done[:2] == ["steps", "luck"] and told == [(0, 2), (1, 2), (2, 2)]
 
 
 def test_emulators_that_could_not_draw_are_not_noted_as_compiled(made, monkeypatch):
@@ -197,11 +201,11 @@ def test_emulators_that_could_not_draw_are_not_noted_as_compiled(made, monkeypat
 
 
 @entered
-def gone_through(floor_at, times, found):
-    """Pushes where a time is said and pops where it is negative; ``found`` (n,) numbers of what was popped."""
-    floor = as_floor(floor_at)
+def gone_through(floor: Floor, given: Given) -> int:
+    """Pushes where a time is said and pops where it is negative; ``a`` (n,) numbers of what was popped."""
+    times, found = given.floats, given.a
     n = 0
-    for i in range(times.size):
+    for i in range(given.n):
         if times[i] >= 0:
             event = new_event(floor)
             event.number = i
@@ -220,7 +224,7 @@ def test_the_heap_is_that_of_python(times):
     arena, floor = empty_floor()
     arena.freeze()
     found = np.zeros(len(times), dtype=np.int64)
-    n = gone_through(floor.address, np.array(times), found)
+    n = gone_through(floor.address, floats=np.array(times), a=found, n=len(times))
     heap, wanted = [], []
     for i, at_s in enumerate(times):
         if at_s >= 0:

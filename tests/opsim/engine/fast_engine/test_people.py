@@ -20,11 +20,11 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made.machine import as_floor, empty_floor, entered
+from made.machine import Floor, Given, empty_floor, entered
 from opsim.engine.fast_engine.rotations import WIDTH, Posts, one_each, posts_of
 from twins import twins
 
-from opsim.engine.fast_engine.machine import cast, complete, needed, step_of
+from opsim.engine.fast_engine.machine import cast
 from opsim.engine.rules import ALLOCATION_RULES
 from opsim.layout import _one_each
 from opsim.log import BEHIND, BREAK, FINISH, HELD, NO_TOOL, TEAM, TOOL, TRANSPORT, WAIT, WALK, WORK
@@ -159,15 +159,13 @@ as_posts = cast(Posts)
 
 
 @entered
-def give_out(floor_at, posts_at):
-    one_each(as_floor(floor_at), as_posts(posts_at))
-    return 0
+def give_out(floor: Floor, given: Given) -> None:
+    one_each(floor, as_posts(given.any))
 
 
 def compiled(n_posts, left, can, keys):
     """{person: post} by the steps. keys : by (person, post)"""
     arena, floor = empty_floor()
-    complete(needed([step_of(one_each)]))
     n_members = max(left) + 1
     build = SimpleNamespace(
         arena=arena,
@@ -181,7 +179,7 @@ def compiled(n_posts, left, can, keys):
         for i, number in enumerate(key):
             posts.keys[(post * n_members + person) * WIDTH + i] = number
     arena.freeze()
-    give_out(floor.address, posts.address)
+    give_out(floor.address, any=posts)
     return {person: posts.taken[person] for person in left if posts.taken[person] >= 0}
 
 

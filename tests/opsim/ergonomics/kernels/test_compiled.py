@@ -8,7 +8,7 @@ import numba
 import pytest
 
 from opsim.ergonomics.kernels import compiled as compiling
-from opsim.ergonomics.kernels.compiled import compiled
+from opsim.ergonomics.kernels.compiled import called_from_c, compiled
 
 HEAD = "from opsim.ergonomics.kernels.compiled import compiled\n\n"
 INNERMOST = HEAD + "@compiled()\ndef weight():\n    return 2\n"
@@ -64,3 +64,18 @@ def test_what_is_wrong_besides_the_cache_is_said(monkeypatch):
     monkeypatch.setattr(numba, "njit", fails)
     with pytest.raises(RuntimeError, match="out of luck"):
         compiled()(lambda x: x)
+
+
+CALLED = "def double(x):\n    return 2.0 * x\n"
+
+
+def test_what_c_calls_is_kept_and_where_no_cache_can_be_written_compiled_all_the_same(tmp_path, monkeypatch):
+    (tmp_path / "called.py").write_text(CALLED)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for hits, name in ((0, "double"), (1, "double")):
+        sys.modules.pop("called", None)
+        made = called_from_c(getattr(import_module("called"), name), "float64(float64)")
+        assert (made.ctypes(4.0), made.cache_hits) == (8.0, hits)
+    space = {}
+    exec(CALLED, space)  # of no file: numba has no place for it
+    assert called_from_c(space["double"], "float64(float64)").ctypes(4.0) == 8.0

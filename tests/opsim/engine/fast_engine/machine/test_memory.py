@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made.machine import Box, as_box, as_floor, empty_floor, entered
+from made.machine import Box, Floor, Given, empty_floor, entered
 from twins import twins
 
 from opsim.engine.fast_engine.machine import (
@@ -54,30 +54,30 @@ sources:
 
 
 @entered
-def taken(floor_at, sizes, addresses):
-    for i in range(sizes.size):
-        addresses[i] = take_bytes(as_floor(floor_at).memory, sizes[i])
+def taken(floor: Floor, given: Given) -> None:
+    for i in range(given.n):
+        given.b[i] = take_bytes(floor.memory, given.a[i])
 
 
 @entered
-def given_back(floor_at, sizes, addresses):
-    for i in range(sizes.size):
-        give_bytes_back(as_floor(floor_at).memory, addresses[i], sizes[i])
+def given_back(floor: Floor, given: Given) -> None:
+    for i in range(given.n):
+        give_bytes_back(floor.memory, given.b[i], given.a[i])
 
 
 def addresses_of(floor, sizes):
     found = np.zeros(len(sizes), dtype=np.int64)
-    taken(floor.address, np.array(sizes, dtype=np.int64), found)
+    taken(floor.address, a=np.array(sizes, dtype=np.int64), b=found, n=len(sizes))
     return found
 
 
 @given(st.integers(1, 1 << 24))
 def test_a_class_has_room_for_its_sizes_and_not_for_twice_as_much(words):
     n_bytes = 16 * words
-    which = class_of.py_func(n_bytes)
-    room = room_of.py_func(which)
+    which = class_of(n_bytes)
+    room = room_of(which)
     assert n_bytes <= room < 2 * n_bytes and which < CLASSES
-    assert class_of.py_func(room) == which
+    assert class_of(room) == which
 
 
 @given(st.lists(st.integers(1, 600), min_size=1, max_size=30), st.lists(st.integers(1, 600), min_size=1, max_size=30))
@@ -86,7 +86,8 @@ def test_what_is_taken_lies_apart_also_where_it_was_given_back_before(first, sec
     arena.freeze()
     sizes = [16 * n for n in first]
     kept = addresses_of(floor, sizes)
-    given_back(floor.address, np.array(sizes[::2], dtype=np.int64), kept[::2].copy())
+    half = np.array(sizes[::2], dtype=np.int64)
+    given_back(floor.address, a=half, b=kept[::2].copy(), n=half.size)
     again = [16 * n for n in second]
     blocks = sorted([*zip(kept[1::2], sizes[1::2]), *zip(addresses_of(floor, again), again)])
     assert all(at + n_bytes <= after for (at, n_bytes), (after, _) in pairwise(blocks))
@@ -113,15 +114,15 @@ _new_box, _forget_box = fresh(Box), give_back(Box)
 
 
 @entered
-def made_boxes(floor_at, box_at, n, keep):
-    """Makes boxes, each after the other; gives all but those of ``keep`` back. How many are in the row at the end."""
-    floor, first = as_floor(floor_at), as_box(box_at)
-    for i in range(n):
+def _made_boxes(floor: Floor, given: Given) -> int:
+    """Makes boxes, each after the other; gives all but every m-th back. How many are in the row at the end."""
+    first = given.box
+    for i in range(given.n):
         box = _new_box(floor)
         if box.n != 0 or box.weight != 0 or len(box.numbers) != 0:
             return -1
         box.n, box.weight = i + 1, 0.5
-        if i % keep == 0:
+        if i % given.m == 0:
             box.next = first.next
             first.next = box
         else:
@@ -132,6 +133,10 @@ def made_boxes(floor_at, box_at, n, keep):
         count += 1
         box = box.next
     return count
+
+
+def made_boxes(floor, box, n, keep):
+    return _made_boxes(floor, box=box, n=n, m=keep)
 
 
 def test_fields_hold_what_is_written():
@@ -153,10 +158,10 @@ def test_what_was_given_back_is_used_again_and_comes_empty():
     arena, floor = empty_floor()
     box = arena.new("Box")
     arena.freeze()
-    assert made_boxes(floor.address, box.address, 100_000, 1000) == 100
+    assert made_boxes(floor.address, box, 100_000, 1000) == 100
     assert arena.n_bytes < 1_000_000, "100 boxes are kept: the others' memory serves again and again"
     arena.restore()
-    assert made_boxes(floor.address, box.address, 20_000, 1) == 20_000
+    assert made_boxes(floor.address, box, 20_000, 1) == 20_000
 
 
 def test_a_frozen_floor_is_had_again_at_the_same_addresses():
@@ -165,7 +170,7 @@ def test_a_frozen_floor_is_had_again_at_the_same_addresses():
     box.numbers.fill(range(10))
     arena.freeze()
     for _ in range(3):
-        assert made_boxes(floor.address, box.address, 50_000, 7) == 7143
+        assert made_boxes(floor.address, box, 50_000, 7) == 7143
         box.numbers.append(4)
         n_bytes = arena.n_bytes
         arena.restore()
@@ -178,10 +183,9 @@ PUSH, INSERT, POP_FIRST, POP_LAST, DROP_AT, DROP, CLEAR, INDEX = range(8)
 
 
 @entered
-def done_to(floor_at, box_at, what, which, answers):
-    floor, box = as_floor(floor_at), as_box(box_at)
-    numbers = box.numbers
-    for i in range(what.size):
+def _done_to(floor: Floor, given: Given) -> None:
+    numbers, what, which, answers = given.box.numbers, given.a, given.b, given.c
+    for i in range(given.n):
         n = len(numbers)
         at = which[i] % (n + 1)
         if what[i] == PUSH:
@@ -200,6 +204,10 @@ def done_to(floor_at, box_at, what, which, answers):
             answers[i] = pop_last(numbers)
         elif n and what[i] == DROP_AT:
             drop_at(numbers, which[i] % n)
+
+
+def done_to(floor, box, what, which, answers):
+    _done_to(floor, box=box, a=what, b=which, c=answers, n=what.size)
 
 
 def done_in_python(actions):
@@ -235,7 +243,7 @@ def test_a_list_is_what_pythons_would_be(actions):
     arena.freeze()
     what, which = (np.array([pair[i] for pair in actions], dtype=np.int64) for i in (0, 1))
     answers = np.full(len(actions), -9)
-    done_to(floor.address, box.address, what, which, answers)
+    done_to(floor.address, box, what, which, answers)
     numbers, wanted = done_in_python(actions)
     assert list(box.numbers) == numbers
     assert answers.tolist() == wanted
@@ -248,6 +256,6 @@ def test_lists_of_many_items_grow_over_several_chunks_of_memory():
     arena.freeze()
     which = np.arange(100_000, dtype=np.int64)
     for box in boxes:
-        done_to(floor.address, box.address, np.zeros_like(which), which, np.zeros_like(which))
+        done_to(floor.address, box, np.zeros_like(which), which, np.zeros_like(which))
     assert all(len(box.numbers) == 100_000 and box.numbers[99_999] == 99_999 for box in boxes)
     assert all(list(box.numbers)[:1000] == list(range(1000)) for box in boxes)

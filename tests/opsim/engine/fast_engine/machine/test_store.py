@@ -5,9 +5,10 @@ import os
 import pytest
 
 from opsim.engine.fast_engine.machine import code_cache
-from opsim.engine.fast_engine.machine.code_cache import MOST_FOLDERS, PREFIX, Code
+from opsim.engine.fast_engine.machine.code_cache import MOST_FOLDERS, PREFIX, Code, keep, kept
 
-CODE = Code("some_function", ("exp", "memset"), b"\x00\x01 machine code \n and more")
+CODE = Code({7: "a", 3: "b"}, (5, 6), {9: ("OverflowError", "too many")}, b"\x00\x01 machine code \n and more")
+OTHER = Code({8: "a"}, (), {}, b"more of it")
 
 
 @pytest.fixture
@@ -17,32 +18,34 @@ def folder(tmp_path, monkeypatch):
     return tmp_path / f"{PREFIX}now"
 
 
-def a_step(n):
-    return n
-
-
 def test_what_is_kept_is_read_again(folder):
-    path = code_cache.path_of(a_step, 7)
-    assert code_cache.read(path) is None
-    assert code_cache.keep(path, CODE)
-    assert code_cache.read(path) == CODE
-    assert [one.name for one in folder.iterdir()] == [path.name]  # nothing is left beside it
+    assert kept() == []
+    assert keep(CODE) and keep(OTHER)
+    assert {one.name: one for one in kept()} == {CODE.name: CODE, OTHER.name: OTHER}
+    assert len(list(folder.iterdir())) == 2  # nothing is left beside them
+
+
+def test_the_same_steps_of_another_file_take_the_place_of_the_old_ones(folder):
+    newer = Code({7: "c", 3: "b"}, (), {}, b"newer")
+    keep(CODE)
+    keep(newer)
+    assert kept() == [newer]
 
 
 @pytest.mark.parametrize("harm", [lambda data: data[:-1], lambda data: b"", lambda data: data[:40] + b"?" + data[41:]])
 def test_a_file_that_is_not_whole_is_as_none(folder, harm):
-    path = code_cache.path_of(a_step, 7)
-    code_cache.keep(path, CODE)
+    keep(CODE)
+    (path,) = folder.iterdir()
     path.write_bytes(harm(path.read_bytes()))
-    assert code_cache.read(path) is None
-    code_cache.keep(path, CODE)
-    assert code_cache.read(path) == CODE
+    assert kept() == []
+    keep(CODE)
+    assert kept() == [CODE]
 
 
 @pytest.fixture
 def image(tmp_path, monkeypatch, folder):
-    """A step that was shipped, and the folder where that is."""
-    code_cache.keep(code_cache.path_of(a_step, 7), CODE)
+    """The folder where a file was shipped."""
+    keep(CODE)
     there = folder.rename(tmp_path / "shipped")
     monkeypatch.setattr(code_cache, "shipped", lambda: there)
     return there
@@ -52,19 +55,18 @@ def image(tmp_path, monkeypatch, folder):
 def test_what_an_image_holds_is_read_by_who_cannot_write_there_and_not_changed(image, folder, monkeypatch, writable):
     if not writable:
         monkeypatch.setattr(code_cache, "folder", lambda: None)
-    path = code_cache.path_of(a_step, 7)
-    assert code_cache.is_kept(path) and code_cache.read(path) == CODE and not folder.exists()
+    assert kept() == [CODE] and not folder.exists()
     before = [(one.name, one.stat().st_mtime_ns) for one in image.iterdir()]
-    assert code_cache.keep(path, Code("newer", (), b"")) == writable
-    assert code_cache.read(path).name == ("newer" if writable else CODE.name)
+    assert keep(OTHER) == writable
+    assert kept() == ([OTHER, CODE] if writable else [CODE])
     assert [(one.name, one.stat().st_mtime_ns) for one in image.iterdir()] == before
 
 
 def test_a_shipped_file_that_is_not_whole_is_as_none_and_its_better_is_kept_apart(image):
-    path = code_cache.path_of(a_step, 7)
-    (image / path.name).write_bytes(b"half")
-    assert code_cache.read(path) is None
-    assert code_cache.keep(path, CODE) and code_cache.read(path) == CODE
+    (path,) = image.iterdir()
+    path.write_bytes(b"half")
+    assert kept() == []
+    assert keep(CODE) and kept() == [CODE] and path.read_bytes() == b"half"
 
 
 @pytest.mark.parametrize("named", [True, False])
@@ -79,37 +81,32 @@ def test_machine_code_is_shipped_beside_the_sources_unless_it_is_said_where_to_l
     assert code_cache.shipped.__wrapped__() is None
 
 
-def test_where_nothing_can_be_written_nothing_is_kept(monkeypatch):
-    monkeypatch.setattr(code_cache, "folder", lambda: None)
-    monkeypatch.setattr(code_cache, "shipped", lambda: None)
-    path = code_cache.path_of(a_step, 7)
-    assert path is None
-    assert not code_cache.keep(path, CODE)
-    assert code_cache.read(path) is None
-
-
-def test_a_place_that_turns_out_to_be_none_is_no_mistake(tmp_path, monkeypatch):
+@pytest.mark.parametrize("there", ["none", "a file"])
+def test_where_nothing_can_be_written_nothing_is_kept(tmp_path, monkeypatch, there):
     (tmp_path / "file").write_text("not a folder")
-    monkeypatch.setattr(code_cache, "folder", lambda: tmp_path / "file" / "steps-x")
-    assert not code_cache.keep(code_cache.path_of(a_step, 7), CODE)
+    monkeypatch.setattr(code_cache, "folder", lambda: None if there == "none" else tmp_path / "file" / "steps-x")
+    monkeypatch.setattr(code_cache, "shipped", lambda: None)
+    assert not keep(CODE) and kept() == []
+    code_cache.mark("luck")
+    assert not code_cache.is_marked("luck")
 
 
-def test_a_changed_source_has_another_file(folder, monkeypatch):
-    before = code_cache.path_of(a_step, 7)
-    monkeypatch.setattr(code_cache, "stamp_of", lambda file: "changed")
-    assert code_cache.path_of(a_step, 7) != before
+def test_what_is_compiled_besides_is_noted(folder):
+    assert not code_cache.is_marked("luck")
+    code_cache.mark("luck")
+    assert code_cache.is_marked("luck") and not code_cache.is_marked("emulated")
 
 
-@pytest.mark.parametrize("change", ["sources", "numba", "python"])
+@pytest.mark.parametrize("change", ["sources", "numba", "llvmlite", "python"])
 def test_another_stamp_or_version_has_another_folder(monkeypatch, change):
     before = code_cache._key()
     assert code_cache._key() == before
     if change == "sources":
         monkeypatch.setattr(code_cache, "STAMP", "another")
-    elif change == "numba":
-        monkeypatch.setattr("numba.__version__", "0.0.1")
-    else:
+    elif change == "python":
         monkeypatch.setattr(code_cache.sys, "version", "4.0.0")
+    else:
+        monkeypatch.setattr(f"{change}.__version__", "0.0.1")
     assert code_cache._key() != before
 
 
@@ -119,6 +116,6 @@ def test_of_many_folders_those_not_used_for_longest_are_removed(tmp_path, monkey
         os.utime(tmp_path / f"{PREFIX}{age}", (1e9 - age, 1e9 - age))
     (tmp_path / "others").mkdir()
     monkeypatch.setattr(code_cache, "folder", lambda: tmp_path / f"{PREFIX}new")
-    code_cache.keep(code_cache.path_of(a_step, 7), CODE)
+    keep(CODE)
     left = {one.name for one in tmp_path.iterdir()}
     assert left == {"others", f"{PREFIX}new", *(f"{PREFIX}{age}" for age in range(MOST_FOLDERS - 1))}

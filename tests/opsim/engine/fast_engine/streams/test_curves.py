@@ -6,29 +6,33 @@ Where a stream is looked for is the same place for Python, which makes the table
 from random import Random
 from types import SimpleNamespace
 
-import numba
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from made.machine import Floor, Given, entered
 from opsim.engine.fast_engine.human_effects import model_of
 from opsim.engine.fast_engine.human_state import Model
 
 from opsim.engine.fast_engine.human_models import CURVES, multiplier_of, work_of
-from opsim.engine.fast_engine.machine import Arena, cast
+from opsim.engine.fast_engine.machine import Arena, cast, inlined
 from opsim.engine.fast_engine.random_numbers import place_of
 from opsim.human.catalogue import entry, models_of
 
 _as_model = cast(Model)
 
 
-@numba.njit
-def _multiplier(address, n):
-    return multiplier_of(_as_model(address), n)
+@entered
+def _numbers(floor: Floor, given: Given) -> None:
+    """Multiplier and work of so many repetitions."""
+    model, n = _as_model(given.any), given.floats[0]
+    given.floats[0], given.floats[1] = multiplier_of(model, n), work_of(model, n)
 
 
-@numba.njit
-def _work(address, n):
-    return work_of(_as_model(address), n)
+def numbers(model, n):
+    found = np.array([n, 0.0])
+    _numbers(0, any=model, floats=found)
+    return tuple(found)
 
 
 def drawn(model, luck):
@@ -51,18 +55,22 @@ def test_every_curve_is_compiled_as_it_is_written(model):
         made = model_of(SimpleNamespace(arena=arena), curve)
         made.kind = CURVES.index(type(curve))
         for n in (1.0, 2.0, float(luck.randrange(1, 5000)), luck.uniform(1, 300), luck.uniform(1, 1e5)):
-            assert _multiplier(made.address, n) == curve.multiplier(n), (curve, n)
-            assert _work(made.address, n) == curve.work(n), (curve, n)
+            assert numbers(made, n) == (curve.multiplier(n), curve.work(n)), (curve, n)
 
 
 def test_there_is_a_number_for_every_curve():
     assert set(CURVES) == {entry("learning", model).cls for model in models_of("learning")}
 
 
-compiled = numba.njit("int64(int64, int64)")(place_of)
+_place_of = inlined(place_of)
+
+
+@entered
+def compiled(floor: Floor, given: Given) -> int:
+    return _place_of(given.n, given.m)
 
 
 @given(st.integers(1, 2**63 - 1), st.integers(1, 20))
 def test_python_and_compiled_code_look_at_one_place(stream, bits):
     mask = (1 << bits) - 1
-    assert compiled(stream, mask) == place_of(stream, mask) <= mask
+    assert compiled(0, n=stream, m=mask) == place_of(stream, mask) <= mask
