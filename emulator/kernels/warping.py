@@ -240,3 +240,41 @@ def monotone(x, y, at, out):
             rise = (y[c, k + 1] - y[c, k]) / width
             bend, twist = 3.0 * rise - 2.0 * slope[k] - slope[k + 1], slope[k] + slope[k + 1] - 2.0 * rise
             out[i, c] = y[c, k] + width * u * (slope[k] + u * (bend + u * twist))
+
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)
+NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0
+"""Of Gauss-Legendre's rule of four on [0, 1]."""
+
+
+@compiled(error_model="numpy", nogil=True)
+def spline_warps_at(control, moments, share):
+    """Fill share (N, E): warps whose log slope is the cubic spline of control (N, K) at moments (N, E) of the clock.
+
+    Between two control points, and from the ends to the outermost ones, the slope is integrated by Gauss-Legendre's
+    rule of four. Twin: warps.from_clr on a fine clock.
+    """
+    n, k = control.shape
+    level, cubic = np.zeros(k + 2), np.empty((k + 1, 4))
+    for i in range(n):
+        for p in range(k + 1):
+            c0, c1 = control[i, min(max(p - 2, 0), k - 1)], control[i, min(max(p - 1, 0), k - 1)]
+            c2, c3 = control[i, min(p, k - 1)], control[i, min(p + 1, k - 1)]
+            cubic[p, 0], cubic[p, 1] = (c0 + 4.0 * c1 + c2) / 6.0, (c2 - c0) / 2.0
+            cubic[p, 2], cubic[p, 3] = (c0 - 2.0 * c1 + c2) / 2.0, (c3 - 3.0 * c2 + 3.0 * c1 - c0) / 6.0
+            level[p + 1] = level[p] + _integral(cubic[p], 0.5 if p == 0 else 0.0, 0.5 if p == k else 1.0)
+        for e in range(moments.shape[1]):
+            place = moments[i, e] * k + 0.5
+            p = min(int(place), k)
+            part = _integral(cubic[p], 0.5 if p == 0 else 0.0, place - p)
+            share[i, e] = (level[p] + part) / level[k + 1]
+
+
+@compiled(error_model="numpy", nogil=True)
+def _integral(cubic, first, last):
+    """Of exp(cubic) from first to last."""
+    width, total = last - first, 0.0
+    for g in range(4):
+        u = first + width * NODES[g]
+        total += WEIGHTS[g] * np.exp(cubic[0] + u * (cubic[1] + u * (cubic[2] + u * cubic[3])))
+    return total * width

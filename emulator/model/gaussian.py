@@ -140,12 +140,17 @@ class Law:
             u = rng.random(n)
             z = self.noise.sample(n, rng)
             at = placed(self._edges, u) if given is None else chosen(self.weight_given(*given), u)
-            z *= self.reach[at, None]  # NOTE: in place; a new array of all draws costs as much as drawing them
-        z += self.mean[at] if self.people is not None else self.mean[at] + self.centre  # people bring their own centre
+            z *= self.reach.take(at)[:, None]  # NOTE: in place; a new array of all draws costs as much as drawing them
+        z += self._about.take(at, axis=0)
         if self.people is not None:
             drawn = self.people.sample(n, rng)
             z += drawn if self.size is None else self.people.mean + self.size[at, None] * (drawn - self.people.mean)
         return z if given is None else self._moved(z, at, *given)
+
+    @cached_property
+    def _about(self) -> np.ndarray:
+        """(M, K) what the noise lies about in each component; people bring their own centre."""
+        return self.mean if self.people is not None else self.mean + self.centre
 
     @cached_property
     def _edges(self) -> np.ndarray:
@@ -190,4 +195,4 @@ def chosen(weight: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 def placed(edges: np.ndarray, u: np.ndarray) -> np.ndarray:
     """The components (n,) that uniform numbers u (n,) fall on, by the running sums (M,) of their weights."""
-    return np.minimum(np.searchsorted(edges, u * edges[-1], side="right"), len(edges) - 1)
+    return np.minimum(edges.searchsorted(u * edges[-1], side="right"), len(edges) - 1)

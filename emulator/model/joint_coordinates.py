@@ -176,9 +176,8 @@ def _normal_scores(values: np.ndarray, n_knots: int, spread: float) -> Margin:
 def _line(x: np.ndarray, x_knots: np.ndarray, y_knots: np.ndarray, slope: float) -> np.ndarray:
     if len(x_knots) == 1:
         return np.asarray(y_knots[0] + slope * (x - x_knots[0]))
-    inside = np.interp(x, x_knots, y_knots)
-    below, above = np.minimum(x - x_knots[0], 0.0), np.maximum(x - x_knots[-1], 0.0)
-    return inside + slope * (below + above)
+    beyond = x - np.minimum(np.maximum(x, x_knots[0]), x_knots[-1])
+    return np.interp(x, x_knots, y_knots) + slope * beyond
 
 
 def bits(n_times: int) -> int:

@@ -89,7 +89,7 @@ class JointLaw:
     def mark_share(self, scores: np.ndarray) -> np.ndarray:
         """(n, E) the share of its own duration at which each mark of a performance falls."""
         clock = coordinates_to_clock(inverse_all(self.mark_margins, self.scale.raw(scores, "marks")))
-        share = from_clr_at(self._slopes(scores), self.n_times, clock)
+        share = from_clr_at(self._slopes(scores), clock)
         if len(self.dwells) == 0:
             return share
         moving_s, dwell_s = self.moving_s(scores)[:, None], self.dwell_s(scores)

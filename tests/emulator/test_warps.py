@@ -59,6 +59,18 @@ def test_neither_speed_nor_its_change_jumps():
         assert np.abs(np.diff(slope)).max() < 0.02 * np.abs(slope).max()
 
 
+@pytest.mark.parametrize("n_knots", [1, 2, 7, 20])
+def test_a_few_moments_are_where_a_fine_clock_has_them(n_knots):
+    rng = np.random.default_rng(n_knots)
+    control, at = rng.normal(0, 0.5, (9, n_knots)), np.sort(rng.random((9, 6)), axis=1)
+    at[:, 0], at[:, -1] = 0.0, 1.0
+    share = warp.from_clr_at(control, at)
+    assert np.abs(share - warp.evaluate(warp.from_clr(control, 20_001), at)).max() < 1e-6
+    assert np.array_equal(share[:, 0], np.zeros(9)) and np.abs(share[:, -1] - 1).max() < 1e-12
+    assert (np.diff(share, axis=1) > 0).all()
+    assert np.abs(warp.from_clr_at(0 * control, at) - at).max() < 1e-12
+
+
 def test_zero_coordinates_are_the_identity():
     assert np.allclose(warp.from_clr(np.zeros(15), 101), CLOCK, atol=1e-15)
     assert np.allclose(warp.clr(CLOCK, 15), 0, atol=1e-12)

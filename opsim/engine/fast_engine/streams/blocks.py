@@ -289,7 +289,21 @@ def drawn_ranks(ranks: Sequence[int], cumulative: Sequence[float]) -> Drawn:
     """Rank i of ``ranks`` with probability cumulative[i] - cumulative[i - 1]."""
     found, bounds = np.array(ranks, np.int64), np.array(cumulative)
     kind = "rank", *ranks, *cumulative
-    return OfAKind(kind, lambda n, rng: found[np.searchsorted(bounds, rng.random(n), side="right")])
+    return OfAKind(kind, lambda n, rng: found[_passed(bounds, rng.random(n))])
+
+
+FEW = 100
+"""Bounds that are counted one by one, which takes half as long as a search for every number."""
+
+
+def _passed(bounds: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """(n,) how many of the increasing ``bounds`` (B,) do not lie above u (n,)."""
+    if len(bounds) > FEW:
+        return np.searchsorted(bounds, u, side="right")
+    passed = np.zeros(len(u), np.int8)
+    for bound in bounds:
+        passed += (u >= bound).view(np.int8)
+    return passed.astype(np.intp)
 
 
 def ranks_by_number(rank_of: Callable[[np.ndarray], np.ndarray]) -> Drawn:
