@@ -13,7 +13,9 @@ What stops a station: breakdowns, planned maintenance, and the teams that put it
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
@@ -175,27 +177,11 @@ def _kind_tag(value: Any) -> str:
     return f"<{value['dist']}>" if kind == "dist" else f"<{kind}>"
 
 
-Task = Annotated[
-    Annotated[Emulated, Tag("<emulator>")]
-    | Annotated[Motions, Tag("<motions>")]
-    | Annotated[Plugged, Tag("<plugin>")]
-    | Annotated[Fixed, Tag("<fixed>")]
-    | Annotated[Recorded, Tag("<recorded>")]
-    | Annotated[Exponential, Tag("<exponential>")]
-    | Annotated[Lognormal, Tag("<lognormal>")]
-    | Annotated[Gamma, Tag("<gamma>")]
-    | Annotated[Uniform, Tag("<uniform>")]
-    | Annotated[Erlang, Tag("<erlang>")]
-    | Annotated[Geometric, Tag("<geometric>")]
-    | Annotated[Weibull, Tag("<weibull>")]
-    | Annotated[Triangular, Tag("<triangular>")]
-    | Annotated[Normal, Tag("<normal>")]
-    | Annotated[Hyperexponential, Tag("<hyperexponential>")]
-    | Annotated[Beta, Tag("<beta>")]
-    | Annotated[Empirical, Tag("<empirical>")],
-    Discriminator(_kind_tag),
-    BeforeValidator(_one_kind),
-]
+if TYPE_CHECKING:
+    Task = TaskBlock
+else:
+    _ways = reduce(or_, (Annotated[model, Tag(tag)] for tag, model in TASK_KINDS.items()))
+    Task = Annotated[_ways, Discriminator(_kind_tag), BeforeValidator(_one_kind)]
 
 
 class Walking(Block):

@@ -162,7 +162,8 @@ def _points(scenario: Scenario) -> Iterator[str]:
 
 def _resources(scenario: Scenario) -> Iterator[str]:
     """Tools and repair teams that nobody asks for."""
-    tools = {name for block in (*scenario.stations.values(), *scenario.tasks.values()) for name in block.needs}
+    tools = {name for station in scenario.stations.values() for name in station.needs}
+    tools |= {name for task in scenario.tasks.values() for name in task.needs}
     tools |= {task.hold.tool for task in scenario.tasks.values() if task.hold is not None}
     teams = {stop.team for station in scenario.stations.values() for stop in station.breakdowns.values()}
     teams |= {stop.team for station in scenario.stations.values() for stop in station.maintenance.values()}
