@@ -1,9 +1,4 @@
-"""The sequence of work: rules that exist and have something to look at, set-ups for every change, room to pre-empt.
-
-Stops of stations: their teams exist, each has a name of its own, and maintenance leaves time to work.
-
-Teams that can come together: enough people with the skill, and none of them on a round.
-"""
+"""Mistakes of rules (dispatch, routing, pre-emption), set-ups, stops, and teams of several people at one task."""
 
 from __future__ import annotations
 

@@ -1,14 +1,6 @@
-"""A task of several motions in a row: ``motions: [work/reach, {walk: 3 m}, {emulator: work/fasten, repeat: 4}]``.
+"""What a task may be, and what else takes time: motions in a row, walking, plain times, cycles, stops and repair teams.
 
-Which kind of task a block is: one of ``emulator``, ``motions``, ``fixed``, ``recorded``, ``dist`` stands in it.
-
-How workers walk between places: with the postures of a walking emulator. Without it walking has times alone.
-
-Times in which nobody moves, such as repairs: fixed, recorded or from a distribution, and nothing besides.
-
-Numbers of cycles between two breakdowns: always so many, or drawn.
-
-What stops a station: breakdowns, planned maintenance, and the teams that put it right.
+``TASK_KINDS`` is the table of tasks: one of the keys ``KIND_KEYS`` stands in the block, and with ``dist`` its name.
 """
 
 from __future__ import annotations

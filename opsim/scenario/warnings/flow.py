@@ -1,10 +1,5 @@
-"""Batches that may never fill: too little room, or too few cards, for the jobs of every kind that wait for others.
-
-Products that are never made, never finished, or pile up.
-
-What is said and means nothing: figures without postures, patrols and paths without use, points nobody comes by.
-
-Distances that are likely slips: centimetres for metres, two names for one point, ways shorter than straight.
+"""Risks of material: batches that never fill, products that are never made, never finished or pile up; keys that change
+nothing, of people and outputs too; distances that are likely slips.
 """
 
 from __future__ import annotations
