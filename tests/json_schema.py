@@ -10,7 +10,7 @@ TYPES = {
     "number": (int, float),
     "boolean": bool,
 }
-SAID_ONLY = {"$schema", "$id", "title", "description", "examples", "default", "definitions"}
+SAID_ONLY = {"$schema", "$id", "title", "description", "examples", "default", "definitions", "enumDescriptions"}
 
 
 def complaints(value, schema, root=None, path=""):

@@ -281,6 +281,8 @@ SEQUENCING_RULES = {
     "least_setup": least_setup,
     "downstream_first": downstream_first,
 }
+BY_DUE_DATE = ("edd", "critical_ratio")
+"""Those that mean nothing where no job has a due date."""
 
 
 def queue_key(priority, preempted, *by_rule):

@@ -1,14 +1,6 @@
-"""How long people were there: on duty, in overtime, absent; and what of it they were at work.
+"""Figures of workers: hours there and busy, interruptions, learning, fatigue and rest, walking, and the from-to chart.
 
-How often work is broken off, and what becomes of the rest.
-
-What people have learned. Figures exist only where the scenario names the effect.
-
-How tired people are as they work, and how long they rest by need. Figures exist only where the scenario names it.
-
-How far people walk.
-
-Who goes from where to where, and how often: the from-to chart of a floor.
+Those of shifts, learning, fatigue and rest exist only where the scenario names what they are of.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from typing import Any
 import yaml
 
 from opsim import units
-from opsim.kpi.catalogue import KPIS
+from opsim.kpi.catalogue import CATALOGUE
 from opsim.scenario.fields import NAME_PATTERN
 from opsim.scenario.schema import KIND_KEYS
 from opsim.scenario.schema.subjects import scenario_model
@@ -114,7 +114,8 @@ def _sharpen(properties: Schema, definitions: Schema) -> None:
     product["routing"]["additionalProperties"] = {"anyOf": [{"type": "string"}, ways]}
     for named in [properties[name] for name in (*SECTIONS, "libraries", "skill_levels")] + [layout["places"]]:
         named["propertyNames"] = {"pattern": NAME_PATTERN, "maxLength": 100}
-    properties["outputs"]["items"] = {"enum": list(KPIS)}
+    meaning = [f"{one.title} [{one.unit}]" if one.unit else one.title for one in CATALOGUE.values()]
+    properties["outputs"]["items"] = {"enum": list(CATALOGUE), "enumDescriptions": meaning}
     bought = definitions["Labour"]["properties"]["buy_back"]
     bought["anyOf"] = [{"$ref": bought.pop("$ref")}, {"enum": ["off"]}, {"type": "boolean"}]
 

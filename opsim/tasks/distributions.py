@@ -1,10 +1,9 @@
-"""Times with bounds, in which workers may differ: the normal cut off below, and the beta.
+"""Times without a body, a model each.
 
-Families from 0 upwards by mean and cv, in which workers may differ: lognormal, gamma, Weibull, hyperexponential.
-
-Times in which workers do not differ: fixed, exponential, geometric, Erlang, uniform, triangular.
-
-Times as they were seen: drawn again, replayed as a trace, or from their smoothed distribution.
+SharedTime : by mean and cv, a share of which may lie between workers: normal, beta, lognormal, gamma, Weibull,
+             hyperexponential
+TimeModel  : the same for all workers: fixed, exponential, geometric, Erlang, uniform, triangular; and times as they
+             were seen: recorded (drawn again, or as a trace) and empirical (smoothed)
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""A task of several motions -> its TaskModel.
-
-A task of a scenario -> its TaskModel.
-"""
+"""A task of a scenario, of one motion, of several or of none, -> its TaskModel."""
 
 from __future__ import annotations
 

@@ -8,14 +8,14 @@ from typing import Any
 
 from engine_evidence.more_times import Values, sources_of
 
-SEQUENCING = ("fifo", "spt", "edd", "critical_ratio", "least_setup", "downstream_first")
+from opsim.engine.rules import ROUTING_RULES, SEQUENCING_RULES
 
 
 def flow_rules(pick, values: Values) -> None:
     """A rule of sequence at every station, with due dates, and one of routing."""
     flow = values.setdefault("flow", {})
-    flow["dispatch"] = pick.one_of(SEQUENCING[1:])
-    flow.setdefault("routing", pick.one_of(["shortest_queue", "least_loaded", "first_free", "in_order"]))
+    flow["dispatch"] = pick.one_of([*SEQUENCING_RULES][1:])
+    flow.setdefault("routing", pick.one_of(list(ROUTING_RULES)))
     for product in list(values["products"].values())[:2]:
         product["due"] = f"{pick.whole(20, 90)} s"
 

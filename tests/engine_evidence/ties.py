@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from opsim import log as kinds
+from opsim.engine.rules import BY_DUE_DATE
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plan.workers import WorkerPlan
 
-BY_DUE_DATE = {"edd", "critical_ratio"}
 BY_TIME = {"poisson", "renewal", "schedule"}
 WAITS = (kinds.QUEUE, kinds.HELD, kinds.BLOCKED)
 FOR_SOMEBODY = (kinds.AWAY, kinds.BEHIND)

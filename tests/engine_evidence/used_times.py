@@ -10,14 +10,13 @@ from engine_evidence.used_material import reached
 from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.plan import Plan
 from opsim.plan.tasks import TaskPlan
+from opsim.scenario.schema import DISTRIBUTIONS
 
-LAWS = (
-    *("Fixed", "Exponential", "Lognormal", "Gamma", "Weibull", "Hyperexponential", "Erlang", "Geometric", "Uniform"),
-    *("Triangular", "Normal", "Beta", "Empirical", "recorded, resampled", "recorded, trace", "emulated", "motions"),
-)
+LAWS = ("Fixed", *(kind.__name__ for kind in DISTRIBUTIONS.values()))
+FROM_FILES = ("recorded, resampled", "recorded, trace", "emulated", "motions")
 SWITCHES = ("WithinOnly", "BetweenOnly", "NoSpread", "Shuffled")
 TIME_WORDS = (
-    *(f"time: {name}" for name in (*LAWS, "between workers", *SWITCHES)),
+    *(f"time: {name}" for name in (*LAWS, *FROM_FILES, "between workers", *SWITCHES)),
     *(
         "people: redrawn",
         "people: same pace",

@@ -6,6 +6,8 @@ from itertools import pairwise
 
 from made.floors import PLACES, Floor
 
+from opsim.engine.rules import SEQUENCING_RULES
+
 
 def buffer_after(floor: Floor) -> None:
     for _ in range(floor.pick.whole(2, 3)):
@@ -24,7 +26,7 @@ def blocking_before(floor: Floor) -> None:
 
 
 def queue_rule(floor: Floor) -> None:
-    rule = floor.pick.one_of(["spt", "edd", "critical_ratio", "least_setup", "downstream_first"])
+    rule = floor.pick.one_of([*SEQUENCING_RULES][1:])
     station = floor.some_station
     station.update(dispatch=rule, buffer=max(3, station["buffer"]))
     for name in floor.mains:

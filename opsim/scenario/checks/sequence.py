@@ -1,9 +1,4 @@
-"""The sequence of work: rules that exist and have something to look at, set-ups for every change, room to pre-empt.
-
-Stops of stations: their teams exist, each has a name of its own, and maintenance leaves time to work.
-
-Teams that can come together: enough people with the skill, and none of them on a round.
-"""
+"""Mistakes of rules (dispatch, routing, pre-emption), set-ups, stops, and teams of several people at one task."""
 
 from __future__ import annotations
 
@@ -12,14 +7,12 @@ from collections.abc import Iterator
 
 from pydantic import ValidationError
 
-from opsim.engine.rules import ROUTING_RULES, SEQUENCING_RULES
+from opsim.engine.rules import BY_DUE_DATE, ROUTING_RULES, SEQUENCING_RULES
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.lookup import stations_of, visited
 from opsim.scenario.schema.tasks import Maintenance
 from opsim.scenario.tree import Node, Part, Place, child, entries, items, problem, text
 from opsim.units import UnitError, parse
-
-_BY_DUE = ("edd", "critical_ratio")
 
 
 def sequence_problems(tree: Node) -> Iterator[Problem]:
@@ -29,7 +22,7 @@ def sequence_problems(tree: Node) -> Iterator[Problem]:
     asked |= {("stations", name, "dispatch"): child(station, "dispatch") for name, station in stations.items()}
     for path, rule in asked.items():
         yield from rule_problems(rule, path, "opsim.sequencing", SEQUENCING_RULES)
-        if rule is not None and rule.value in _BY_DUE and not _has_due_dates(tree):
+        if rule is not None and rule.value in BY_DUE_DATE and not _has_due_dates(tree):
             hint = "give a product one, such as 'due: 4 h', or a schedule with a column due"
             yield problem(rule.place, path, f"{rule.value} goes by due dates, and no job has one", hint)
     yield from rule_problems(child(tree, "flow", "routing"), ("flow", "routing"), "opsim.routing", ROUTING_RULES)

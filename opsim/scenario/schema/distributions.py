@@ -1,7 +1,4 @@
-"""Times from 0 upwards: ``dist: NAME`` and its parameters. Each says itself in a few words and knows its mean.
-
-Times between bounds, and times as they were seen.
-"""
+"""Distributions of times: ``dist: NAME`` and its parameters. Each says itself in a few words and knows its mean."""
 
 from __future__ import annotations
 

@@ -1,19 +1,13 @@
-"""A task of several motions in a row: ``motions: [work/reach, {walk: 3 m}, {emulator: work/fasten, repeat: 4}]``.
+"""What a task may be, and what else takes time: motions in a row, walking, plain times, cycles, stops and repair teams.
 
-Which kind of task a block is: one of ``emulator``, ``motions``, ``fixed``, ``recorded``, ``dist`` stands in it.
-
-How workers walk between places: with the postures of a walking emulator. Without it walking has times alone.
-
-Times in which nobody moves, such as repairs: fixed, recorded or from a distribution, and nothing besides.
-
-Numbers of cycles between two breakdowns: always so many, or drawn.
-
-What stops a station: breakdowns, planned maintenance, and the teams that put it right.
+``TASK_KINDS`` is the table of tasks: one of the keys ``KIND_KEYS`` stands in the block, and with ``dist`` its name.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
@@ -175,27 +169,11 @@ def _kind_tag(value: Any) -> str:
     return f"<{value['dist']}>" if kind == "dist" else f"<{kind}>"
 
 
-Task = Annotated[
-    Annotated[Emulated, Tag("<emulator>")]
-    | Annotated[Motions, Tag("<motions>")]
-    | Annotated[Plugged, Tag("<plugin>")]
-    | Annotated[Fixed, Tag("<fixed>")]
-    | Annotated[Recorded, Tag("<recorded>")]
-    | Annotated[Exponential, Tag("<exponential>")]
-    | Annotated[Lognormal, Tag("<lognormal>")]
-    | Annotated[Gamma, Tag("<gamma>")]
-    | Annotated[Uniform, Tag("<uniform>")]
-    | Annotated[Erlang, Tag("<erlang>")]
-    | Annotated[Geometric, Tag("<geometric>")]
-    | Annotated[Weibull, Tag("<weibull>")]
-    | Annotated[Triangular, Tag("<triangular>")]
-    | Annotated[Normal, Tag("<normal>")]
-    | Annotated[Hyperexponential, Tag("<hyperexponential>")]
-    | Annotated[Beta, Tag("<beta>")]
-    | Annotated[Empirical, Tag("<empirical>")],
-    Discriminator(_kind_tag),
-    BeforeValidator(_one_kind),
-]
+if TYPE_CHECKING:
+    Task = TaskBlock
+else:
+    _ways = reduce(or_, (Annotated[model, Tag(tag)] for tag, model in TASK_KINDS.items()))
+    Task = Annotated[_ways, Discriminator(_kind_tag), BeforeValidator(_one_kind)]
 
 
 class Walking(Block):

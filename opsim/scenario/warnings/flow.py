@@ -1,10 +1,5 @@
-"""Batches that may never fill: too little room, or too few cards, for the jobs of every kind that wait for others.
-
-Products that are never made, never finished, or pile up.
-
-What is said and means nothing: figures without postures, patrols and paths without use, points nobody comes by.
-
-Distances that are likely slips: centimetres for metres, two names for one point, ways shorter than straight.
+"""Risks of material: batches that never fill, products that are never made, never finished or pile up; keys that change
+nothing, of people and outputs too; distances that are likely slips.
 """
 
 from __future__ import annotations
@@ -162,7 +157,8 @@ def _points(scenario: Scenario) -> Iterator[str]:
 
 def _resources(scenario: Scenario) -> Iterator[str]:
     """Tools and repair teams that nobody asks for."""
-    tools = {name for block in (*scenario.stations.values(), *scenario.tasks.values()) for name in block.needs}
+    tools = {name for station in scenario.stations.values() for name in station.needs}
+    tools |= {name for task in scenario.tasks.values() for name in task.needs}
     tools |= {task.hold.tool for task in scenario.tasks.values() if task.hold is not None}
     teams = {stop.team for station in scenario.stations.values() for stop in station.breakdowns.values()}
     teams |= {stop.team for station in scenario.stations.values() for stop in station.maintenance.values()}

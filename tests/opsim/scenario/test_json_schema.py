@@ -150,6 +150,12 @@ def test_every_key_says_what_it_is():
     assert not [place for place, one in KEYS.items() if not one.get("description", "").strip()]
 
 
+def test_every_figure_that_may_be_asked_for_says_what_it_is_and_its_unit():
+    items = SCHEMA["properties"]["outputs"]["items"]
+    said = dict(zip(items["enum"], items["enumDescriptions"], strict=True))
+    assert said["walked_m"] == "Walked [m]" and said["experience"] == "Repetitions of the task behind somebody"
+
+
 def test_every_key_has_an_example_unless_its_values_are_listed():
     assert not [place for place, one in KEYS.items() if "examples" not in one and not listed(one)]
 

@@ -13,12 +13,14 @@ from engine_evidence.compared import Seen, seen
 from engine_evidence.coverage import PLAN_WORDS, VOCABULARY, blocks_of, shown_by
 from engine_evidence.equality import ENOUGH_FLOORS, compared, main, shortfalls
 from engine_evidence.floors import floor_text, replication_of
+from engine_evidence.more_times import LAWS
 from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
 from engine_evidence.ties import contested_ties
 
 from opsim.engine.floor import run_plan
 from opsim.log import EventLog
+from opsim.scenario.schema import DISTRIBUTIONS
 
 SHOP = {
     "opsim": 1,
@@ -37,6 +39,10 @@ HAND = {"tasks": {"turn": {"fixed": "7 s"}}, "release": {"kind": "renewal", "eve
 def ties(more):
     plan = plan_of(json.dumps(SHOP | more))
     return contested_ties(plan, run_plan(plan))
+
+
+def test_random_floors_draw_times_of_every_distribution():
+    assert set(LAWS) == set(DISTRIBUTIONS)
 
 
 def test_nothing_ties_where_one_job_comes_at_a_time():
