@@ -1,6 +1,6 @@
-"""PWI: at each time a Gaussian in the tangent space of that time's mean posture.
+"""The paper's representations: postures (n, T, B, 3) on one clock as flat vectors, and back; and PWI, a law of its own.
 
-Orthonormal frames of tangent planes, and vectors in their coordinates.
+PWI: at each time a Gaussian in the tangent space of that time's mean posture.
 
 SIEM: every posture by one inverse exponential map, to the tangent space of a reference posture.
 
