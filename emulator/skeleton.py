@@ -201,7 +201,7 @@ class Skeleton:
         return np.linalg.norm(self._vectors(positions), axis=-1)
 
     def directions(self, positions: np.ndarray) -> np.ndarray:
-        """Unit vectors from parent to child, (..., J, 3) -> (..., B, 3); [000] sec. 3.1.
+        """Unit vectors from parent to child, (..., J, 3) -> (..., B, 3).
 
         Raises ValueError that names joint and frame where a bone has no length or a position is not finite.
         """

@@ -20,7 +20,7 @@ Elastic registration of two sequences: S-TSRVF and the best warp between them by
 A sequence becomes q (N, D), constant on N cells of [0, 1]. Warping keeps norms, so minimising |q1 - (q2, gamma)|^2 is
 maximising the sum over path edges of sqrt(slope) times the integral of K = q1 q2': D enters through one matrix product.
 The edge (p, q) goes p cells of the common clock and q cells of the own time; both step functions are overlaid exactly.
-Source: [000] sec. 3.2 (with the L2 norm: as printed, without the square, it is not invariant).
+Source: Chen, Park & Srivastava sec. 3.2 (with the L2 norm: as printed, without the square, it is not invariant).
 Limits: slopes lie in [1/7, 7]. Within a hold (no speed) q is 0 and says nothing: the path runs straight where it can,
 but a long hold in one sequence only drives the warp to its slope limit. Cut holds out before.
 Nothing holds a warp near the identity: where postures vary in ways that look like pace, the warp follows them.
@@ -144,7 +144,8 @@ Energies = tuple[np.ndarray, np.ndarray]
 def tsrvf(directions: np.ndarray, reference: np.ndarray) -> np.ndarray:
     """Transported square-root velocity field of (..., T, B, 3) at the posture ``reference`` (B, 3): (..., T - 1, 3B).
 
-    Velocities are a unit of [0, 1]; where a posture stands still the field is 0. Source: [000] sec. 3.2.
+    Velocities are a unit of [0, 1]; where a posture stands still the field is 0.
+    Source: Chen, Park & Srivastava sec. 3.2.
     Raises ValueError where a posture is opposite to the next one or to the reference.
     """
     from emulator.kernels.warping import root_speed, transported

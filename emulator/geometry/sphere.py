@@ -25,19 +25,26 @@ def angle(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def distance(y: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Distance of two postures (..., B, 3): the sum of their arcs, (...) radians. Source: [000] eq. 1."""
+    """Distance of two postures (..., B, 3): the sum of their arcs, (...) radians.
+
+    Source: Chen, Park & Srivastava eq. 1.
+    """
     return angle(y, z).sum(-1)
 
 
 def exp(base: np.ndarray, tangent: np.ndarray) -> np.ndarray:
-    """The points reached from ``base`` along ``tangent``, both (..., 3); [000] eq. 3. Result has unit length."""
+    """The points reached from ``base`` along ``tangent``, both (..., 3), of unit length.
+
+    Source: Chen, Park & Srivastava eq. 3.
+    """
     length = np.sqrt(np.einsum("...c,...c->...", tangent, tangent))[..., None]
     return np.cos(length) * base + np.sinc(length / np.pi) * tangent
 
 
 def log(base: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Tangent vectors at ``base`` that shoot to ``point``, both (..., 3); their length is the angle; [000] eq. 2.
+    """Tangent vectors at ``base`` that shoot to ``point``, both (..., 3); their length is the angle.
 
+    Source: Chen, Park & Srivastava eq. 2.
     Raises ValueError where the points are opposite (the direction is then undefined).
     """
     cosine = np.einsum("...c,...c->...", base, point)
@@ -64,7 +71,7 @@ def log_coordinates(base: np.ndarray, point: np.ndarray, plane: np.ndarray | Non
 def transport(base: np.ndarray, target: np.ndarray, tangent: np.ndarray) -> np.ndarray:
     """``tangent`` (at ``base``) carried in parallel along the geodesic to ``target``, all (..., 3); lengths are kept.
 
-    Source: [000] sec. 3.1. Raises ValueError where base and target are opposite.
+    Source: Chen, Park & Srivastava sec. 3.1. Raises ValueError where base and target are opposite.
     """
     cosine = np.einsum("...c,...c->...", base, target)
     if np.any(cosine < -0.5):
@@ -76,8 +83,8 @@ def transport(base: np.ndarray, target: np.ndarray, tangent: np.ndarray) -> np.n
 def mean(points: np.ndarray, axis: int = 0, *, tolerance_rad: float = 1e-12, max_iterations: int = 200) -> np.ndarray:
     """Karcher mean over one axis of points (..., 3), sphere by sphere: (...) without that axis.
 
-    The element-wise mean (root-sum-square metric), not the minimiser of the summed arcs of eq. 1. By Newton's method:
-    the mean of the logs alone halves the distance in a step, this squares it.
+    The element-wise mean (root-sum-square metric), not the minimiser of the summed arcs of eq. 1 that eq. 6 asks for.
+    By Newton's method: the mean of the logs alone halves the distance in a step, this squares it.
     Raises ValueError where points cancel out (no start) or lie opposite to the mean on the way.
     """
     points = np.moveaxis(np.asarray(points, float), axis, 0)

@@ -22,7 +22,7 @@ class Comparison:
     energy            : U-statistic, around 0 for one law
     energy_stratified : the same where people were dealt out evenly (see ``energy_stratified``); NaN without strata
     p                 : of DISCO, with as many drawn as unseen
-    novelty, temporal_roughness (of [000]), roughness (second differences) : ratios, emulated over unseen
+    novelty, temporal_roughness (of the paper), roughness (second differences) : ratios, emulated over unseen
     """
 
     energy: float

@@ -1,10 +1,7 @@
-"""Held-out durations and mark times: does the emulator give what the same people did in repetitions it never saw?
+"""Recordings in two halves of the same people; everything is learned from the first, the second is seen by nobody.
 
-Recordings in two halves of the same people; everything is learned from the first, the second is seen by nobody.
-
-Draws by the people of a set of recordings, each as often as there: what recordings can be compared with.
-
-Who draws, fitted to the first half of recordings: our emulator, a scheme of the paper, and two controls.
+Who draws, fitted to the first half: our emulator, a scheme of the paper, and two controls. Durations and mark times
+beside those of the second half. The table of all figures: ``held_out_table``.
 """
 
 from __future__ import annotations

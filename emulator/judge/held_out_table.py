@@ -1,8 +1,6 @@
-"""What is told of a drawer that is held against unseen repetitions, and what each figure means.
+"""One table for a class of recordings: schemes and two controls, judged on the half that they have not seen.
 
-The figures of one drawer against the half that nobody has seen.
-
-One table for a class of recordings: schemes and two controls, judged on repetitions that they have not seen.
+``Figures`` are what is told of each, ``MEANING`` says what they are.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ _BLOCK = 200
 class Disco:
     """What the test found.
 
-    energy  : energy distance of the two samples (V-statistic), the statistic of [000]
+    energy  : energy distance of the two samples (V-statistic), the statistic of the paper
     f       : F of distance components, S / (W / (N - 2)); for two samples a rising function of ``energy``
     p       : (1 + number of permutations at least as far apart) / (1 + ``n_permutations``), in (0, 1]
     """

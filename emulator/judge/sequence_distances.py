@@ -27,7 +27,7 @@ def distances(a: np.ndarray, b: np.ndarray | None = None, *, n_threads: int = 1)
     1e-3). Raises ValueError for unequal shapes, or for what is not finite.
     All time points, always: every third of 301 would count the ends three times and shift a mean distance by 0.15 %,
     which is a tenth of the energy distances that models are told apart by.
-    Source: Chen, Park & Srivastava, eq. 1 under the integral of sec. 3.2.
+    Source: Chen, Park & Srivastava eq. 4, by eq. 1.
     """
     from emulator.kernels.sphere import add_arcs
 

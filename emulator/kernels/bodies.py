@@ -1,14 +1,14 @@
 """Bodies from directions: joints by walking down the bones, and the way of a root that rides on planted feet.
 
-Their twins: Skeleton.positions with clean.turn, RootChannel.inverse_numpy, tests/naive.
+Their twins: Skeleton.positions with motion.turn, RootChannel.inverse_numpy, tests/naive.
 
 Forward kinematics of a hierarchy of joints with channels, frame by frame. Twin: ``naive_hierarchy`` in tests.
 
 Joints of postures, and legs put on given ankles, frame by frame.
 
-Its twin: tests/naive_walk.py, all frames at once.
+Its twin: tests/naive/walk.py, all frames at once.
 
-The way of a root whose bearing feet stay, frame by frame. Its twin: naive_way in tests/naive_walk.py.
+The way of a root whose bearing feet stay, frame by frame. Its twin: naive_way in tests/naive/walk.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Where feet belong, frame by frame: planted stances, flights between them, and what is missing at both ends of these.
 
-Its twin: tests/naive_walk.py, all frames at once.
+Its twin: tests/naive/walk.py, all frames at once.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
-"""Sums of arcs between many pairs of long rows of unit vectors. Its twins: judge.distance.distances_numpy, tests.
+"""Sums of arcs between many pairs of long rows of unit vectors. Its twins: sequence_distances.distances_numpy, tests.
 
 Between neighbours on the sphere, many at a time: series only, so that the loops vectorise.
 
-Its twin: geodesic.along_numpy.
+Its twin: geometry.flattening.along_numpy.
 
 Postures at any moment from tangent coordinates on the common clock: series only, so that the loops vectorise.
 
 Between the points of the clock coordinates go along cubic B-splines, so that speed and acceleration do not jump.
-Its twin: decode.directions_numpy.
+Its twin: decoding.directions_numpy.
 
 The way uphill from every point to a mode. Its twin: a plain double loop in tests/emulator/judge.
 """

@@ -4,7 +4,7 @@ Their twin: naive_steps in tests/naive.
 
 One beat of a walk from its dynamics: drawn as far as it goes, judged, smoothed and made whole.
 
-Its twin: naive_beat in tests/naive_walk.py, which draws further and looks back.
+Its twin: naive_beat in tests/naive/walk.py, which draws further and looks back.
 
 Hidden Markov chains: smoothed state probabilities and the likeliest path. Twins: naive_smoothed, naive_path.
 """

@@ -6,7 +6,7 @@ for it (4 times slower); a slice for every tap costs as much as 80 of its elemen
 
 Square-root velocity fields: made from postures, and carried along warps.
 
-Their twins: elastic.tsrvf_numpy, fields.warped_numpy, tests/naive.
+Their twins: elastic.tsrvf_numpy, elastic.warped_numpy, tests/naive.
 
 Between values without a jump of the slope and without overshoot. Twin: scipy's PchipInterpolator.
 

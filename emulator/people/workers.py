@@ -52,7 +52,8 @@ class WorkerEffect:
 class Workforce:
     """Between-worker Gaussian of u, within-worker Gaussian of e, and the people seen in training.
 
-    between, within : LowRankNormal over K coordinates (within has mean 0)
+    between, within : LowRankNormal over K coordinates (within has mean 0). Every density keeps their covariances, by
+        which a pace, a duration or a place that is asked for moves z
     names : W worker names; effects : (W, K) their shrunk means; doubt : (W, K) standard deviations about these
     smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
     group : whose names these are: two tasks of one group were done by the same people where names agree

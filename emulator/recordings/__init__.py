@@ -1,4 +1,4 @@
-"""Readers: one file a format, each gives a MotionSet. So far the ``.npz`` form."""
+"""The repetitions of an ``.npz`` recording as a MotionSet; ``importing`` reads other files, a reader each form."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ def read_motions(
     if not path.exists():
         raise RecordingError(f"{path}: no such file")
     if path.suffix.lower() != ".npz":
-        raise RecordingError(f"{path}: recordings end in .npz, found {path.suffix or 'no ending'!r}")
+        from emulator.recordings.importing import FORMATS
+
+        way = "; opsim motion import makes one of such files" if path.suffix.lower() in FORMATS else ""
+        raise RecordingError(f"{path}: recordings end in .npz, found {path.suffix or 'no ending'!r}{way}")
     from emulator.recordings.npz import read_npz
 
     return read_npz(

@@ -1,8 +1,6 @@
-"""VAR(p): each spatial score from the last p points of all of them.
+"""The paper's statistical models: MVG, IG and Kernel of one coefficient vector a sequence, VAR of scores over time.
 
-A smoothed bootstrap that keeps mean and covariance: training rows, blurred by a share of their covariance.
-
-Models of one coefficient vector a sequence: MVG, IG and Kernel; the start posture is part of the vector.
+The start posture is part of the vector. Kernel is a smoothed bootstrap that keeps mean and covariance.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""PWI: at each time a Gaussian in the tangent space of that time's mean posture.
+"""The paper's representations: postures (n, T, B, 3) on one clock as flat vectors, and back; and PWI, a law of its own.
 
-Orthonormal frames of tangent planes, and vectors in their coordinates.
+PWI: at each time a Gaussian in the tangent space of that time's mean posture.
 
 SIEM: every posture by one inverse exponential map, to the tangent space of a reference posture.
 
@@ -27,7 +27,8 @@ class Pointwise:
 
     mean : (T, C); rows : (N, T, C) training deviations over sqrt(N - 1), so that rows_t' rows_t is the covariance
     shared : one z for all times, which makes draws as smooth as the training; else one for each, as in the paper
-    Source: Chen, Park & Srivastava sec. 4.3.3, eq. 6 (which divides by N).
+    Source: Chen, Park & Srivastava sec. 4.3.3, eq. 6, its covariance (there over N);
+    its mean posture is that of ``SIEM.fit_moving``.
     """
 
     mean: np.ndarray
@@ -119,7 +120,10 @@ class SIEM:
 
     @classmethod
     def fit_moving(cls, directions: np.ndarray) -> SIEM:
-        """At the mean posture of each time (eq. 6, element by element), the frame carried along in parallel."""
+        """At the mean posture of each time, the frame carried along in parallel.
+
+        Source: Chen, Park & Srivastava eq. 6, its mean: element by element (``sphere.mean``), not by summed arcs.
+        """
         course = sphere.mean(directions)
         return cls(course, along(course[None], sphere.basis(course[0]))[0])
 

@@ -40,8 +40,8 @@ class MPCA:
     def fit(cls, sequences: np.ndarray, d1: int | float = 10, d2: int | float = 30, *, centred: bool = True) -> MPCA:
         """Fit to sequences (N, T, C); d1 and d2 are numbers, or shares of each mode's own variance in (0, 1).
 
-        Starts from each mode's own components. Not ``centred``, the mean course has to be captured too, as [000] sec.
-        4.2 writes it, though not its source: that loses as much of UI-PRMD as SequentialPCA; centred, 3 to 16 % less.
+        Starts from each mode's own components. Not ``centred``, the mean course has to be captured too, as the paper's
+        sec. 4.2 writes it, not its source: that loses as much of UI-PRMD as SequentialPCA; centred, 3 to 16 % less.
         Raises ValueError for a number beyond what a mode spans.
         """
         mean = sequences.mean(axis=0) if centred else np.zeros(sequences.shape[1:])

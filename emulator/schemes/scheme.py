@@ -1,8 +1,6 @@
-"""How many components of space and of time: by reconstruction error and a two-sample test, as in sec. 5.1.
+"""A scheme of the paper by its name, Representation/DimensionReduction/StatisticalModel: fitted, it draws sequences.
 
-Names of schemes: Representation/DimensionReduction/StatisticalModel, as in the paper.
-
-A scheme of the paper by its name: fitted to aligned sequences, it draws new ones.
+How many components of space and of time: by reconstruction error and a two-sample test, as in sec. 5.1.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""Long recordings into units, cycles and repetitions, by spatio-temporal local tangent space alignment (seed 003).
+"""Long recordings into units, cycles and repetitions, by spatio-temporal local tangent space alignment (LTSA).
 
-``segment.segment`` cuts a take, ``pieces`` makes takes of what was cut, ``cut_times`` lets a person correct it;
-``stltsa``, ``dimension``, ``mapping``, ``cycles``, ``units``, ``denoise`` and ``synthesis`` are the seed's parts.
+``segment`` cuts a take and lets a person correct the cuts, ``repetitions`` finds those between rests; ``ltsa``,
+``cycles`` and ``synthesis`` are the parts of the paper on spatio-temporal LTSA that their sources name.
 """

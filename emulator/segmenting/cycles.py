@@ -2,17 +2,17 @@
 
 Cycle boundaries on a curve: between peaks and valleys in turn, where the second difference is nearest 0.
 
-Source: spatio-temporal LTSA (seed 003), sec. 3.1: the first and the third such point bound a cycle.
+Source: spatio-temporal LTSA, sec. 3.1: the first and the third such point bound a cycle.
 
 Denoising: points of a curve further than a threshold from the fitted one are pulled back to it.
 
-Source: spatio-temporal LTSA (seed 003), sec. 3.2 and its equation for the translation.
+Source: spatio-temporal LTSA, sec. 3.2 and its equation for the translation.
 
 How long a cycle takes: the lag after which a movement is most like itself.
 
 Five units of a cyclic movement: preparing, initial, cyclic, final, wind-up.
 
-Source: spatio-temporal LTSA (seed 003), sec. 3.1. Preparing lasts until the first difference of the curve changes
+Source: spatio-temporal LTSA, sec. 3.1. Preparing lasts until the first difference of the curve changes
 sharply; initial ends, and cyclic begins, where the second difference first is 0 (the first boundary of a cycle); cyclic
 lasts until the last such place; final until the coordinates do not change any more; the rest is wind-up.
 """

@@ -1,7 +1,7 @@
 """The alignment matrix of LTSA: how far global coordinates are from an affine map of each neighbourhood's own ones.
 
 It is banded where neighbours are near in time (bandwidth 2k), and sparse where they are not.
-Source: spatio-temporal LTSA (seed 003), table 1, steps 2 to 4. Its naive twin is in tests/naive.
+Source: spatio-temporal LTSA, table 1, steps 2 to 4. Its naive twin is in tests/naive.
 
 The eigenvectors to the smallest eigenvalues of an alignment matrix, the constant one left out.
 
@@ -10,16 +10,16 @@ method on the inverse, (B + shift)^-1, from one banded or sparse factorisation: 
 
 Neighbours of each frame: the nearest in space among those near in time, or the nearest of all.
 
-Source: spatio-temporal LTSA (seed 003), sec. 2.1. Of equal distances the earlier frame is the nearer.
+Source: spatio-temporal LTSA, sec. 2.1. Of equal distances the earlier frame is the nearer.
 
 Spatio-temporal local tangent space alignment (STLTSA): postures on a curve of few coordinates.
 
 Neighbours are sought among the frames near in time, so that the alignment matrix is banded and the whole costs
-O(k^2 n). Source: seed 003, sec. 2; plain LTSA (Zhang & Zha 2004) with ``neighbourhood="space"``.
+O(k^2 n). Source: its sec. 2; plain LTSA (Zhang & Zha 2004) with ``neighbourhood="space"``.
 
 Intrinsic dimension by the eigengap of the alignment matrix.
 
-Source: spatio-temporal LTSA (seed 003), sec. 2.3: the smallest d with |lambda_d - lambda_(d + 1)| > tau, without a word
+Source: spatio-temporal LTSA, sec. 2.3: the smallest d with |lambda_d - lambda_(d + 1)| > tau, without a word
 on the scale. Here the matrix is built anew with d local coordinates for every d; lambda_d is the d-th eigenvalue above
 the constant's zero, the largest of those that d coordinates use, and the gap is taken relative to the one after it:
 (lambda_(d + 1) - lambda_d) / lambda_(d + 1), from 0 to 1 whatever n, k and the units are.

@@ -1,10 +1,10 @@
 """Synthesis: a cycle repeated, units joined at common postures with continuous speed.
 
-Source: spatio-temporal LTSA (seed 003), end of sec. 4. The joining itself is ``emulator.composite.joining``.
+Source: spatio-temporal LTSA, end of sec. 4. The joining itself is ``emulator.composite.joining``.
 
 New frames onto the manifold and back, by the affine map of the neighbourhood they fall into.
 
-Source: spatio-temporal LTSA (seed 003), sec. 2.4: what maps a frame's neighbours maps what lies close to it.
+Source: spatio-temporal LTSA, sec. 2.4: what maps a frame's neighbours maps what lies close to it.
 """
 
 from __future__ import annotations

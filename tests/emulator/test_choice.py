@@ -74,7 +74,7 @@ def fitted():
 def test_auto_gives_one_of_the_schemes_and_says_why():
     report = fitted().report
     assert report.scheme in SCHEMES
-    assert report.methods["scheme"].startswith(report.scheme + " (best of 3, next ")
+    assert report.methods["scheme"].startswith(f"{report.scheme} (best of {len(SCHEMES)}, next ")
     assert "repetitions held out" in report.methods["scheme"] and "people held out" in report.methods["scheme"]
     assert ("scheme, chosen", report.methods["scheme"]) in report.rows()
 

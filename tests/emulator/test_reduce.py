@@ -54,7 +54,7 @@ def courses(n=9, t=14, c=6, rank=4):
 
 
 def test_sequential_components_are_those_of_both_covariances():
-    """[000] sec. 4.2, step by step: covariance of all postures, then of each spatial score over time."""
+    """Chen, Park & Srivastava sec. 4.2 by steps: covariance of all postures, then of each spatial score over time."""
     x = courses()
     pca = SequentialPCA.fit(x, 3, 2)
     postures = x.reshape(-1, 6)

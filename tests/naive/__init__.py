@@ -95,7 +95,7 @@ def naive_hierarchy(parents, offsets, channels, frame):
 
 
 def naive_alignment(points, k, d, in_time=True):
-    """The alignment matrix of LTSA as table 1 of seed 003 writes it, one neighbourhood after the other: (n, n)."""
+    """The alignment matrix of spatio-temporal LTSA by its table 1, one neighbourhood after the other: (n, n)."""
     n = len(points)
     matrix = np.zeros((n, n))
     for i in range(n):

@@ -1,4 +1,4 @@
-"""Figures 1 to 3 of seed 003 on other walks, and what else is to be looked at."""
+"""Figures 1 to 3 of the paper on spatio-temporal LTSA on other walks, and what else is to be looked at."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ def test_two_workers_are_too_few():
 
 @pytest.mark.slow
 def test_bodies_of_the_made_cohort_foretell_better_than_the_mean(capsys):
-    """Three made cohorts of lift as seed 004's (18 bodies, six paces): SEM at most 0.85 of the mean's in each."""
+    """Three made cohorts of lift as the paper's (18 bodies, six paces): SEM at most 0.85 of the mean's in each."""
     for seed in range(3):
         found = validate(make_cohort("lift", seed=seed)[0])
         with capsys.disabled():

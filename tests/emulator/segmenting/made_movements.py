@@ -15,7 +15,7 @@ def helix(n=400, turns=2.0, pitch=0.3):
 
 
 def phases(still_before=24, starting=7, cycles=3, period=19, stopping=10, still_after=10):
-    """Amplitude (T,) and phase (T,) of the walk of seed 003: 24 frames still, 7 starting, three cycles, 10 to stop."""
+    """Amplitude (T,) and phase (T,) of the LTSA paper's walk: 24 frames still, 7 starting, three cycles, 10 to stop."""
     amplitude = np.concatenate(
         [
             np.zeros(still_before),

@@ -87,7 +87,7 @@ def test_the_cyclic_coordinate_is_the_wave_and_not_the_drift():
 
 
 def seeds_walk(period=19):
-    """The coordinate of the walk of seed 003: 24 frames still, 7 to start, three cycles of 19, 10 to stop, 10 still."""
+    """The coordinate of the paper's walk: 24 frames still, 7 to start, three cycles of 19, 10 to stop, 10 still."""
     still = np.zeros(24), np.zeros(10)
     start = np.sin(np.linspace(-0.5, 0, 8)[:-1] * np.pi) * np.linspace(0, 1, 7)
     cyclic = np.sin(2 * np.pi * np.arange(3 * period) / period)
