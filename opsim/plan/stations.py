@@ -1,6 +1,6 @@
-"""Conveyors: how long a job rides, how soon the next one may follow, how many are on it.
+"""Points of the flow: stations with servers and room in front of them; stores and conveyors stand in the same list.
 
-Points of the flow: stations with servers and room in front of them; stores and conveyors stand in the same list.
+Conveyors: how long a job rides, how soon the next one may follow, how many are on it.
 """
 
 from __future__ import annotations

@@ -28,11 +28,11 @@ class Station:
 
     What blocks hang in, each empty or nothing where none does:
     stages  : preparations of a seated job, in their order
-    ready   : asked before each task; False where it waits, and who ends the wait calls ``next_task``, or is left
+    readies : asked before each task; False where it waits, and who ends the wait calls ``next_task``, or is left
     sent    : told of a job with ``with_tools`` that a worker is sent to
     before  : of such a job, the stations whose first call has waited longer for the same tools
-    act, acted : other ways to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
-    after   : asked when an operation is done, in their order
+    acts, acteds : other ways to perform a task: asked when a worker begins, and when his stretch is over; True: seen to
+    afters  : asked when an operation is done, in their order
     order   : key by which the next job of the queue is chosen; None: first come, first served
     serve   : fills free servers from the queue, in place of one job at a time; asked after each arrival too
     receive, vacate : in place of arriving at a server or the queue, and of giving the server back

@@ -27,6 +27,9 @@ _SIGNS = {
 }  # fmt: skip
 
 
+LISTED = "what may stand in one: DESIGN.md, 'The form of a rule of the floor'"
+
+
 class Expressions(Text):
     """Of one function. ``names`` : kinds of its own; ``known`` : what all others stand for when it is compiled
 
@@ -46,7 +49,7 @@ class Expressions(Text):
 
     def unknown(self, node: Any) -> Any:
         """Raises NotSo."""
-        raise self.wrong(node, f"no {type(node).__name__} in a step")
+        raise self.wrong(node, f"no {type(node).__name__} in a step; {LISTED}")
 
     def value(self, node: ast.expr) -> Value:
         """Of an expression."""
