@@ -111,7 +111,7 @@ def test_feet_that_never_turn_do_not_turn_in_draws():
     clock = np.arange(float(emulator.n_times))
     sole = emulator.legs.soles[0, 0]
     swivelling[:, :, sole] = turn(aligned[:, :, sole], 0.2 * np.sin(clock / 9))
-    stance = Stance.on(np.ones_like(stance.stands), np.zeros_like(stance.prints_m), -9.0)
+    stance = Stance.on(np.ones_like(stance.stands), np.zeros_like(stance.prints_m[..., :5]), -9.0)
     _, bends, _ = stood(emulator.skeleton, emulator.legs, swivelling, lengths, path, time_s, stance)
     place = np.tile(clock, (4, 1))
     bend(swivelling, lengths, emulator.legs, place, bends)
