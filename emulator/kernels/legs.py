@@ -73,7 +73,7 @@ def hip_to_ankle(bodies, chain, leg_bones, length_m, leg, follow):
 
 @compiled(error_model="numpy", nogil=True)
 def left_over(moves, leg, follow, leg_bones, length_m, left):
-    """Writes by how much an ankle (3, T) misses its moves (3 or more, T) after its leg is bent: see ``bent_leg``.
+    """Writes by how much an ankle (3, T) misses its moves (3 or more, T) after its leg is bent: see ``ankle_ways``.
 
     leg, follow (3, T) : of ``hip_to_ankle``
     """
@@ -96,39 +96,63 @@ def soft_plus(x):
 
 
 @compiled(error_model="numpy", nogil=True)
-def bent_leg(to, upper, lower, thigh, shank, by):
-    """Directions ``to`` (3B,) with a leg bent, in place, so that its ankle moves ``by`` (3 or more,).
+def bends_at(control, place, by):
+    """Bends by (6, S) at places (S,), in cells, of the spline with control points (T + 2, 6)."""
+    weight = np.empty(4)
+    for s in range(place.size):
+        cell = min(int(place[s]), control.shape[0] - 4)
+        spline_weights(place[s] - cell, weight)
+        w0, w1, w2, w3 = weight[0], weight[1], weight[2], weight[3]
+        for c in range(6):
+            by[c, s] = w0 * control[cell, c] + w1 * control[cell + 1, c]
+            by[c, s] += w2 * control[cell + 2, c] + w3 * control[cell + 3, c]
 
-    upper, lower : its bones' numbers, times 3; thigh, shank : their lengths. A leg that is nearly straight keeps its
-    length, one that is folded up keeps all of it; see ``hip_to_ankle``.
+
+@compiled(error_model="numpy", nogil=True)
+def ankle_ways(to, upper, lower, thigh, shank, by, knee, leg, ahead):
+    """Where ankles are to be whose legs bend ``by`` (6, S), seen from the hip, and how far ahead their knees are.
+
+    to (S, 3B) : directions; upper, lower : bones to knee and ankle, times 3; thigh, shank : their lengths
+    knee (3, S) : where the knee is; leg (4, S) : unit vector to the ankle and how far it is; ahead (S,) : of the knee,
+    in least ways ahead. A leg that is nearly straight keeps its length, one that is folded up keeps all of it.
     """
     full = thigh + shank
-    knee_x, knee_y, knee_z = thigh * to[upper], thigh * to[upper + 1], thigh * to[upper + 2]
-    x, y, z = knee_x + shank * to[lower], knee_y + shank * to[lower + 1], knee_z + shank * to[lower + 2]
-    drawn = np.sqrt(x * x + y * y + z * z)
-    follows, slack = unfolded(drawn / full), max(full - drawn, 0.0) / full
-    x, y, z = x + follows * by[0], y + follows * by[1], z + follows * by[2]
-    length = np.sqrt(x * x + y * y + z * z)
-    less = 1.0 / max(length, 1e-12)
-    x, y, z = x * less, y * less, z * less
-    reach = drawn + (length - drawn) * slack / (slack + STIFF_KNEE)
-    reach = min(max(reach, abs(thigh - shank) + 1e-4), max(drawn, STRAIGHT * full))
-    fore = (thigh**2 - shank**2 + reach**2) / (2.0 * reach)
-    along, level, least = knee_x * x + knee_y * y + knee_z * z, max(1.0 - x * x, 1e-12), AHEAD * full
-    root = np.sqrt(level)
-    ahead = (knee_x - along * x) / root
-    want = least + least * soft_plus(ahead / least - 1.0)
-    more = (want - ahead) * unfolded(reach / full) * root / (level + SIDEWAYS)
-    along += more * x
-    knee_x, knee_y, knee_z = knee_x + more - along * x, knee_y - along * y, knee_z - along * z
-    size = max(np.sqrt(knee_x * knee_x + knee_y * knee_y + knee_z * knee_z), 1e-9)
-    out = np.sqrt(max(thigh**2 - fore**2, 0.0)) / size
-    knee_x, knee_y, knee_z = fore * x + out * knee_x, fore * y + out * knee_y, fore * z + out * knee_z
-    less = 1.0 / thigh
-    to[upper], to[upper + 1], to[upper + 2] = less * knee_x, less * knee_y, less * knee_z
-    less = 1.0 / shank
-    to[lower], to[lower + 1] = less * (reach * x - knee_x), less * (reach * y - knee_y)
-    to[lower + 2] = less * (reach * z - knee_z)
+    share, shortest, longest = 1.0 / full, abs(thigh - shank) + 1e-4, STRAIGHT * full
+    for s in range(ahead.size):
+        a, b, c = thigh * to[s, upper], thigh * to[s, upper + 1], thigh * to[s, upper + 2]
+        x, y, z = a + shank * to[s, lower], b + shank * to[s, lower + 1], c + shank * to[s, lower + 2]
+        drawn = np.sqrt(x * x + y * y + z * z)
+        follows, slack = unfolded(share * drawn), share * max(full - drawn, 0.0)
+        x, y, z = x + follows * by[0, s], y + follows * by[1, s], z + follows * by[2, s]
+        length = np.sqrt(x * x + y * y + z * z)
+        less = 1.0 / max(length, 1e-12)
+        x, y, z = x * less, y * less, z * less
+        reach = drawn + (length - drawn) * slack / (slack + STIFF_KNEE)
+        along = a * x + b * y + c * z
+        knee[0, s], knee[1, s], knee[2, s] = a, b, c
+        leg[0, s], leg[1, s], leg[2, s], leg[3, s] = x, y, z, min(max(reach, shortest), max(drawn, longest))
+        ahead[s] = (a - along * x) / (np.sqrt(max(1.0 - x * x, 1e-12)) * AHEAD * full)
+
+
+@compiled(error_model="numpy", nogil=True)
+def bent_legs(to, upper, lower, thigh, shank, knee, leg, ahead):
+    """Directions ``to`` (S, 3B) with a leg bent, in place, so that its ankle is where ``ankle_ways`` puts it."""
+    full, to_knee, to_ankle = thigh + shank, 1.0 / thigh, 1.0 / shank
+    for s in range(ahead.size):
+        ahead[s] = 1.0 + soft_plus(ahead[s] - 1.0) - ahead[s]
+    for s in range(ahead.size):
+        x, y, z, reach = leg[0, s], leg[1, s], leg[2, s], leg[3, s]
+        a, b, c = knee[0, s], knee[1, s], knee[2, s]
+        level = max(1.0 - x * x, 1e-12)
+        more = AHEAD * full * ahead[s] * unfolded(reach / full) * np.sqrt(level) / (level + SIDEWAYS)
+        along = a * x + b * y + c * z + more * x
+        a, b, c = a + more - along * x, b - along * y, c - along * z
+        fore = (thigh**2 - shank**2 + reach**2) / (2.0 * reach)
+        out = np.sqrt(max(thigh**2 - fore**2, 0.0)) / max(np.sqrt(a * a + b * b + c * c), 1e-9)
+        a, b, c = fore * x + out * a, fore * y + out * b, fore * z + out * c
+        to[s, upper], to[s, upper + 1], to[s, upper + 2] = to_knee * a, to_knee * b, to_knee * c
+        to[s, lower], to[s, lower + 1] = to_ankle * (reach * x - a), to_ankle * (reach * y - b)
+        to[s, lower + 2] = to_ankle * (reach * z - c)
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -144,37 +168,38 @@ def turned_height(joint, ankle, was, foot):
 
 
 @compiled(error_model="numpy", nogil=True)
-def turned_sole(to, length_m, sole, by):
-    """Directions ``to`` (3B,) with the bones of a foot turned, in place, so that its unit vector changes by[3:6].
+def turned_soles(to, length_m, sole, by):
+    """Directions ``to`` (S, 3B) with the bones of a foot turned, in place, so that its unit vector changes by[3:] (S).
 
     The least rotation that takes the one vector into the other.
     """
     if sole.size == 0 or sole[0] < 0:
         return
-    x, y, z = 0.0, 0.0, 0.0
-    for bone in sole:
-        if bone >= 0:
-            x += length_m[bone] * to[3 * bone]
-            y += length_m[bone] * to[3 * bone + 1]
-            z += length_m[bone] * to[3 * bone + 2]
-    less = 1.0 / max(np.sqrt(x * x + y * y + z * z), 1e-12)
-    x, y, z = less * x, less * y, less * z
-    now_x, now_y, now_z = x + by[3], y + by[4], z + by[5]
-    less = 1.0 / max(np.sqrt(now_x * now_x + now_y * now_y + now_z * now_z), 1e-12)
-    now_x, now_y, now_z = less * now_x, less * now_y, less * now_z
-    cosine = 1.0 + x * now_x + y * now_y + z * now_z
-    if cosine < 1e-6:
-        return
-    both_x, both_y, both_z = x + now_x, y + now_y, z + now_z
-    for bone in sole:
-        if bone < 0:
-            break
-        a, b, c = to[3 * bone], to[3 * bone + 1], to[3 * bone + 2]
-        first = 2.0 * (x * a + y * b + z * c)
-        both = (both_x * a + both_y * b + both_z * c) / cosine
-        to[3 * bone] = a + first * now_x - both * both_x
-        to[3 * bone + 1] = b + first * now_y - both * both_y
-        to[3 * bone + 2] = c + first * now_z - both * both_z
+    for s in range(to.shape[0]):
+        x, y, z = 0.0, 0.0, 0.0
+        for bone in sole:
+            if bone >= 0:
+                x += length_m[bone] * to[s, 3 * bone]
+                y += length_m[bone] * to[s, 3 * bone + 1]
+                z += length_m[bone] * to[s, 3 * bone + 2]
+        less = 1.0 / max(np.sqrt(x * x + y * y + z * z), 1e-12)
+        x, y, z = less * x, less * y, less * z
+        now_x, now_y, now_z = x + by[3, s], y + by[4, s], z + by[5, s]
+        less = 1.0 / max(np.sqrt(now_x * now_x + now_y * now_y + now_z * now_z), 1e-12)
+        now_x, now_y, now_z = less * now_x, less * now_y, less * now_z
+        cosine = 1.0 + x * now_x + y * now_y + z * now_z
+        if cosine < 1e-6:
+            continue
+        less, both_x, both_y, both_z = 1.0 / cosine, x + now_x, y + now_y, z + now_z
+        for bone in sole:
+            if bone < 0:
+                break
+            a, b, c = to[s, 3 * bone], to[s, 3 * bone + 1], to[s, 3 * bone + 2]
+            first = 2.0 * (x * a + y * b + z * c)
+            both = (both_x * a + both_y * b + both_z * c) * less
+            to[s, 3 * bone] = a + first * now_x - both * both_x
+            to[s, 3 * bone + 1] = b + first * now_y - both * both_y
+            to[s, 3 * bone + 2] = c + first * now_z - both * both_z
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -184,17 +209,15 @@ def bent(directions, length_m, legs, soles, place, control):
     legs (2, 2) : bones to knee and to ankle of each side; soles (2, K) : bones from ankle to toe, -1 for none more
     control (n, 2, T + 2, 6) : control points of the bends, at places (n, S), in cells
     Two bones: the lengths stay, the knee keeps to its side (the plane of hip, knee, ankle).
+    NOTE: all frames of a leg step by step: frame by frame, each number waits for the one before (twice the time).
     """
-    by, weight = np.empty(6), np.empty(4)
+    n_frames = place.shape[1]
+    by, knee, leg, ahead = np.empty((6, n_frames)), np.empty((3, n_frames)), np.empty((4, n_frames)), np.empty(n_frames)
     for i in range(directions.shape[0]):
         for f in range(2):
             upper, lower = legs[f, 0], legs[f, 1]
-            thigh, shank = length_m[i, upper], length_m[i, lower]
-            for s in range(place.shape[1]):
-                cell = min(int(place[i, s]), control.shape[2] - 4)
-                spline_weights(place[i, s] - cell, weight)
-                for c in range(6):
-                    by[c] = weight[0] * control[i, f, cell, c] + weight[1] * control[i, f, cell + 1, c]
-                    by[c] += weight[2] * control[i, f, cell + 2, c] + weight[3] * control[i, f, cell + 3, c]
-                bent_leg(directions[i, s], 3 * upper, 3 * lower, thigh, shank, by)
-                turned_sole(directions[i, s], length_m[i], soles[f], by)
+            bones = 3 * upper, 3 * lower, length_m[i, upper], length_m[i, lower]
+            bends_at(control[i, f], place[i], by)
+            ankle_ways(directions[i], *bones, by, knee, leg, ahead)
+            bent_legs(directions[i], *bones, knee, leg, ahead)
+            turned_soles(directions[i], length_m[i], soles[f], by)

@@ -131,11 +131,14 @@ class MotionPerformances(Performances):
         model = self.model
         if model.footing is None:
             return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
-        directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
-        for rows, some in self._blocks():
-            directions[rows] = some._decoded(some._ground, place[rows], dtype)
-            if model.legs is not None:
-                bend(directions[rows], some._drawn.length_m, model.legs, place[rows], some._ground.bends)
+        if len(self) > AT_ONCE:
+            directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
+            for rows, some in self._blocks():
+                directions[rows] = some._directions(place[rows], dtype)
+            return directions
+        directions = self._decoded(self._ground, place, dtype)
+        if model.legs is not None:
+            bend(directions, self._drawn.length_m, model.legs, place, self._ground.bends)
         return directions
 
     def _decoded(self, ground: Ground, place: np.ndarray, dtype: Floats) -> np.ndarray:
