@@ -15,6 +15,8 @@ SETTLING = 3
 """So often the root follows what its legs are too straight or too short to do."""
 FRAME_S = (1.0 - 1e-9) / 30.0
 """Speeds are those between frames of a camera; a hair less, so that points which come at that rate are taken."""
+MOST = {"nnan", "nsz", "contract"}
+"""What lets the greatest of many be found in lanes: that none of them is NaN."""
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -144,19 +146,22 @@ def foot_moves(middle, toward, standing, prints, cosine, sine, moves):
     return bridged(standing, moves)
 
 
-@compiled(fastmath={"nnan", "nsz", "contract"}, error_model="numpy", nogil=True)
-def most_apart(one, other):
-    """The greatest square of how far apart joints (J, 3) are of one body and another."""
+@compiled(fastmath=MOST, error_model="numpy", nogil=True)
+def most_apart(one, other, x, y, z):
+    """The greatest square of how far apart joints (J, 3) are of one body and of another that is moved by x, y, z."""
     most = 0.0
     for j in range(one.shape[0]):
-        x, y, z = other[j, 0] - one[j, 0], other[j, 1] - one[j, 1], other[j, 2] - one[j, 2]
-        most = max(most, x * x + y * y + z * z)
+        a, b, c = other[j, 0] - one[j, 0] + x, other[j, 1] - one[j, 1] + y, other[j, 2] - one[j, 2] + z
+        most = max(most, a * a + b * b + c * c)
     return most
 
 
 @compiled(error_model="numpy", nogil=True)
-def fastest_joint(bodies, time_s):
-    """The greatest speed of any joint of bodies (T, J, 3) at times (T,) over ``FRAME_S``, or the next longer time."""
+def fastest_joint(bodies, shift, time_s):
+    """The greatest speed of any joint of bodies (T, J, 3) at times (T,) over ``FRAME_S``, or the next longer time.
+
+    shift (3, T) : by how much all of a body is to be moved
+    """
     most, late = 0.0, 0
     for t in range(time_s.size):
         while late < time_s.size - 1 and time_s[late] - time_s[t] < FRAME_S:
@@ -164,7 +169,8 @@ def fastest_joint(bodies, time_s):
         step_s = time_s[late] - time_s[t]
         if step_s < FRAME_S:
             break
-        most = max(most, most_apart(bodies[t], bodies[late]) / step_s**2)
+        x, y, z = shift[0, late] - shift[0, t], shift[1, late] - shift[1, t], shift[2, late] - shift[2, t]
+        most = max(most, most_apart(bodies[t], bodies[late], x, y, z) / step_s**2)
     return np.sqrt(most)
 
 
@@ -254,6 +260,15 @@ def held_up(bodies, mass, places, weight, stray_m, out):
     return moved
 
 
+@compiled(fastmath=MOST, error_model="numpy", nogil=True)
+def lowest_of(joints):
+    """The height of the lowest of joints (J, 3)."""
+    low = np.inf
+    for j in range(joints.shape[0]):
+        low = min(low, joints[j, 2])
+    return low
+
+
 @compiled(error_model="numpy", nogil=True)
 def hung(directions, length_m, chain, path, cosine, sine, bodies, lowest):
     """Bodies (T, J, 3) hung from their path (T, 4), cosine and sine (T,) of their heading, heights lowest (T,)."""
@@ -263,10 +278,7 @@ def hung(directions, length_m, chain, path, cosine, sine, bodies, lowest):
             joints[chain[0, 1], c] = path[t, c]
         cosine[t], sine[t] = np.cos(path[t, 3]), np.sin(path[t, 3])
         stand(directions[t], length_m, chain, cosine[t], sine[t], joints)
-        low = joints[0, 2]
-        for j in range(1, joints.shape[0]):
-            low = min(low, joints[j, 2])
-        lowest[t] = low
+        lowest[t] = lowest_of(joints)
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -309,24 +321,21 @@ def ankle_moves(bodies, foot, toward, foot_m, foot_floor_m, moves, least_m):
 
 
 @compiled(error_model="numpy", nogil=True)
-def settle(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path, bends):
-    """Bodies, path (T, 4) and bends (2, T, 6) after a shift (3, T) of the root and moves (2, 6, T) of the feet."""
+def put_down(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path, bends):
+    """Moves feet of bodies (T, J, 3) by moves (2, 6, T), a path (T, 4) by a shift (3, T); writes bends (2, T, 6)."""
     last = feet.shape[1] - 1
     for t in range(cosine.size):
-        x, y, z = shift[0, t], shift[1, t], shift[2, t]
-        path[t, 0], path[t, 1], path[t, 2] = path[t, 0] + x, path[t, 1] + y, path[t, 2] + z
-        for j in range(bodies.shape[1]):
-            bodies[t, j, 0] += x
-            bodies[t, j, 1] += y
-            bodies[t, j, 2] += z
+        for c in range(3):
+            path[t, c] += shift[c, t]
         for f in range(2):
             ankle, toe = bodies[t, feet[f, 0]], bodies[t, feet[f, last]]
-            bends[f, t] = 0.0
             if weight[f, t] > 0.0:
                 bend_of(moves[f], t, cosine[t], sine[t], bends[f, t])
                 for c in range(3):
                     ankle[c] += moves[f, c, t]
                     toe[c] += moves[f, c, t] + foot_m[f, t] * moves[f, 3 + c, t]
+            else:
+                bends[f, t] = 0.0
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -422,5 +431,5 @@ def footed(
                 shift[2, t] += lift[t]
                 for f in range(2):
                     moves[f, 2, t] -= lift[t]
-        settle(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path[i], bends[i])
-        fastest[i] = fastest_joint(bodies, time_s[i])
+        put_down(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path[i], bends[i])
+        fastest[i] = fastest_joint(bodies, shift, time_s[i])

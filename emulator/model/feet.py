@@ -171,9 +171,14 @@ def on_its_feet(motion: Motion) -> Motion:
 
 def fastest_m_per_s(motions: Sequence[Motion]) -> np.ndarray:
     """(N,) the greatest speed of any joint in each motion, between frames of 1/30 s."""
+    return np.array([fastest_of(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
+
+
+def fastest_of(positions_m: np.ndarray, time_s: np.ndarray) -> float:
+    """The greatest speed of joints (T, J, 3) that come at times (T,), m/s, between frames of 1/30 s."""
     from emulator.kernels.feet import fastest_joint
 
-    return np.array([fastest_joint(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
+    return float(fastest_joint(positions_m, np.zeros((3, len(time_s))), time_s))
 
 
 def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: float) -> np.ndarray:

@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from emulator.model.arms import Arms
 from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
+from emulator.model.feet import fastest_of
 from emulator.model.gaussian import Law
 from emulator.model.performances import Ground, MotionPerformances, rows_of
 from emulator.model.reach import LocalRegression, ReachedLaw, beside_curves, errors_scale, reached_law, recorded
@@ -166,13 +167,11 @@ class ReachPerformances(MotionPerformances):
 
     def _fastest_m_per_s(self, ground: Ground) -> np.ndarray:
         """(n,) the greatest speed of any joint of bodies that stand like this, between frames of 1/30 s."""
-        from emulator.kernels.feet import fastest_joint
-
         if self.model.footing is None:  # as where nothing stands: no bound
             return np.zeros(len(self))
         time_s = self.model.warps(self.scores) * self.duration_s[:, None]
         bodies = self._standing(ground).positions_m(time_s)
-        return np.array([fastest_joint(body, own) for body, own in zip(bodies, time_s)])
+        return np.array([fastest_of(body, own) for body, own in zip(bodies, time_s)])
 
     def _near(self, kept: np.ndarray) -> Ground:
         """As ``MotionPerformances``, with coefficients of posture and root moved until joints are within ``FAR_M``."""
