@@ -9,47 +9,63 @@ import numpy as np
 
 from emulator.kernels.bodies import stand
 from emulator.kernels.compiled import compiled
-from emulator.kernels.legs import bend_of, left_over, turned_foot
+from emulator.kernels.legs import bend_of, hip_to_ankle, left_over, turned_height
 
 SETTLING = 3
 """So often the root follows what its legs are too straight or too short to do."""
 FRAME_S = (1.0 - 1e-9) / 30.0
 """Speeds are those between frames of a camera; a hair less, so that points which come at that rate are taken."""
+MOST = {"nnan", "nsz", "contract"}
+"""What lets the greatest of many be found in lanes: that none of them is NaN."""
 
 
 @compiled(error_model="numpy", nogil=True)
-def smooth(values, sigma, reach, out):
-    """Gaussian means out (T,) of values (T,) with standard deviation sigma, in points; the ends are held."""
-    n = values.size
+def bell(sigma):
+    """Weights (R + 1,) of a Gaussian of standard deviation sigma, in points, at 0 to R points; both sides add to 1."""
+    weight = np.empty(int(4 * sigma) + 2)
+    total = -1.0
+    for k in range(weight.size):
+        weight[k] = np.exp(-0.5 * (k / sigma) ** 2)
+        total += 2.0 * weight[k]
+    for k in range(weight.size):
+        weight[k] /= total
+    return weight
+
+
+@compiled(error_model="numpy", nogil=True)
+def smooth(values, weight, out):
+    """Means out (T,) of values (T,) by the weights (R + 1,) of 0 to R points; the ends are held."""
+    n, reach = values.size, weight.size - 1
     held = np.empty(n + 2 * reach)
     held[:reach], held[reach : reach + n], held[reach + n :] = values[0], values, values[n - 1]
-    out[:] = values
-    total = 1.0
-    for k in range(1, reach + 1):
-        weight = np.exp(-0.5 * (k / sigma) ** 2)
-        total += 2.0 * weight
-        early, late = held[reach - k : reach - k + n], held[reach + k : reach + k + n]
-        for t in range(n):  # NOTE: points inside: each step is the same for all, and goes four at a time
-            out[t] += weight * (early[t] + late[t])
     for t in range(n):
-        out[t] /= total
+        out[t] = weight[0] * values[t]
+    for k in range(1, reach + 1):
+        by, early, late = weight[k], held[reach - k : reach - k + n], held[reach + k : reach + k + n]
+        for t in range(n):  # NOTE: points inside: each step is the same for all, and goes four at a time
+            out[t] += by * (early[t] + late[t])
 
 
 @compiled(error_model="numpy", nogil=True)
-def raised(lacking, sigma, reach, out):
-    """By how much, out (T,), something is raised that lacks heights (T,): by the most that lacks nearby, smoothly."""
-    n, most = lacking.size, 0.0
+def raised(lacking, weight, out):
+    """By how much, out (T,), something is raised that lacks heights (T,): by the most that lacks nearby, smoothly.
+
+    weight (R + 1,) as for ``smooth``. Returns whether it is raised at all.
+    """
+    n, reach, most = lacking.size, weight.size - 1, 0.0
     for t in range(n):
         most = max(most, lacking[t])
     if most <= 0.0:
         out[:] = 0.0
-        return
-    nearby = np.empty(n)
-    for t in range(n):
-        nearby[t] = 0.0
-        for k in range(max(t - reach, 0), min(t + reach + 1, n)):
-            nearby[t] = max(nearby[t], lacking[k])
-    smooth(nearby, sigma, reach, out)
+        return False
+    held, nearby = np.zeros(n + 2 * reach), np.zeros(n)
+    held[reach : reach + n] = lacking
+    for k in range(2 * reach + 1):
+        late = held[k : k + n]
+        for t in range(n):
+            nearby[t] = max(nearby[t], late[t])
+    smooth(nearby, weight, out)
+    return True
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -63,7 +79,7 @@ def stance_end(standing, start):
 
 @compiled(error_model="numpy", nogil=True)
 def bridged(standing, moves):
-    """What is known in stances, moves (T, C), between them too, in place; returns how many points stand at all.
+    """What is known in stances, moves (C, T), between them too, in place; returns how many points stand at all.
 
     Between two stances the move of the one goes over into that of the other, smoothly to the second derivative; before
     the first and after the last it stays.
@@ -77,33 +93,24 @@ def bridged(standing, moves):
         for s in range(last + 1, t):
             u = (s - last) / (t - last)
             ease = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) if last >= 0 else 1.0
-            for c in range(moves.shape[1]):
-                before = moves[last, c] if last >= 0 else 0.0
-                moves[s, c] = before + ease * (moves[t, c] - before)
+            for c in range(moves.shape[0]):
+                before = moves[c, last] if last >= 0 else 0.0
+                moves[c, s] = before + ease * (moves[c, t] - before)
         stop = stance_end(standing, t)
         n_standing += stop - t
         last, t = stop - 1, stop
-    for s in range(last + 1, n if last >= 0 else 0):
-        for c in range(moves.shape[1]):
-            moves[s, c] = moves[last, c]
+    for c in range(moves.shape[0] if last >= 0 else 0):
+        moves[c, last + 1 :] = moves[c, last]
     return n_standing
 
 
 @compiled(error_model="numpy", nogil=True)
-def point(way_rad, pitch_rad, out):
-    """Writes the unit vector (3,) to a side seen from above, so far up."""
-    level = np.cos(pitch_rad)
-    out[0], out[1], out[2] = level * np.cos(way_rad), level * np.sin(way_rad), np.sin(pitch_rad)
-
-
-@compiled(error_model="numpy", nogil=True)
 def foot_moves(middle, toward, standing, prints, cosine, sine, moves):
-    """What brings a foot to where it belongs, into moves (T, 6): of its middle (T, 3), of where it points (T, 3).
+    """What brings a foot to where it belongs, into moves (6, T): of its middle (3, T), of where it points (3, T).
 
     standing (T,) : whether it stands; cosine, sine (T,) : of the heading
-    prints (T, 3 or 5) : its level way about one place in the frame of the heading and its height, while it stands;
-        and the way in which it points to its toe about one way, and how far up, in radians; without these it points
-        to where it pointed
+    prints (T, 3 or 6) : its level way about one place in the frame of the heading and its height, while it stands;
+        and the unit vector to its toe, turned to one way; without these it points to where it pointed
     The place of a stance is the median of where the foot is there, its direction that which turns least. Returns how
     many points it stands at all.
     """
@@ -116,31 +123,45 @@ def foot_moves(middle, toward, standing, prints, cosine, sine, moves):
         stop = stance_end(standing, t)
         for s in range(t, stop):
             x, y = prints[s, 0], prints[s, 1]
-            moves[s, 0] = cosine[s] * x - sine[s] * y - middle[s, 0]
-            moves[s, 1] = sine[s] * x + cosine[s] * y - middle[s, 1]
-            moves[s, 2] = prints[s, 2] - middle[s, 2]
+            moves[0, s] = cosine[s] * x - sine[s] * y - middle[0, s]
+            moves[1, s] = sine[s] * x + cosine[s] * y - middle[1, s]
+            moves[2, s] = prints[s, 2] - middle[2, s]
         for c in range(2):
-            moves[t:stop, c] -= np.median(moves[t:stop, c])
-        if prints.shape[1] == 5:
+            place = np.median(moves[c, t:stop])
+            for s in range(t, stop):
+                moves[c, s] -= place
+        if prints.shape[1] == 6:
             along, across = 0.0, 0.0
             for s in range(t, stop):
-                point(prints[s, 3], prints[s, 4], moves[s, 3:])
-                along += moves[s, 3] * toward[s, 0] + moves[s, 4] * toward[s, 1]
-                across += moves[s, 3] * toward[s, 1] - moves[s, 4] * toward[s, 0]
+                along += prints[s, 3] * toward[0, s] + prints[s, 4] * toward[1, s]
+                across += prints[s, 3] * toward[1, s] - prints[s, 4] * toward[0, s]
             size = max(np.hypot(along, across), 1e-300)
             along, across = along / size, across / size
             for s in range(t, stop):
-                x, y = moves[s, 3], moves[s, 4]
-                moves[s, 3] = along * x - across * y - toward[s, 0]
-                moves[s, 4] = across * x + along * y - toward[s, 1]
-                moves[s, 5] -= toward[s, 2]
+                x, y = prints[s, 3], prints[s, 4]
+                moves[3, s] = along * x - across * y - toward[0, s]
+                moves[4, s] = across * x + along * y - toward[1, s]
+                moves[5, s] = prints[s, 5] - toward[2, s]
         t = stop
     return bridged(standing, moves)
 
 
+@compiled(fastmath=MOST, error_model="numpy", nogil=True)
+def most_apart(one, other, x, y, z):
+    """The greatest square of how far apart joints (J, 3) are of one body and of another that is moved by x, y, z."""
+    most = 0.0
+    for j in range(one.shape[0]):
+        a, b, c = other[j, 0] - one[j, 0] + x, other[j, 1] - one[j, 1] + y, other[j, 2] - one[j, 2] + z
+        most = max(most, a * a + b * b + c * c)
+    return most
+
+
 @compiled(error_model="numpy", nogil=True)
-def fastest_joint(bodies, time_s):
-    """The greatest speed of any joint of bodies (T, J, 3) at times (T,) over ``FRAME_S``, or the next longer time."""
+def fastest_joint(bodies, shift, time_s):
+    """The greatest speed of any joint of bodies (T, J, 3) at times (T,) over ``FRAME_S``, or the next longer time.
+
+    shift (3, T) : by how much all of a body is to be moved
+    """
     most, late = 0.0, 0
     for t in range(time_s.size):
         while late < time_s.size - 1 and time_s[late] - time_s[t] < FRAME_S:
@@ -148,83 +169,173 @@ def fastest_joint(bodies, time_s):
         step_s = time_s[late] - time_s[t]
         if step_s < FRAME_S:
             break
-        for j in range(bodies.shape[1]):
-            square = 0.0
-            for c in range(3):
-                square += (bodies[late, j, c] - bodies[t, j, c]) ** 2
-            most = max(most, square / step_s**2)
+        x, y, z = shift[0, late] - shift[0, t], shift[1, late] - shift[1, t], shift[2, late] - shift[2, t]
+        most = max(most, most_apart(bodies[t], bodies[late], x, y, z) / step_s**2)
     return np.sqrt(most)
 
 
 @compiled(error_model="numpy", nogil=True)
-def mean_move(moves, weight, sigma, raw, out):
-    """Writes the smooth mean out (T, 3) of the moves (2, T, 3 or more) of two feet by their weights (2, T)."""
-    n = weight.shape[1]
+def mean_move(moves, weight, narrow, raw, out):
+    """Writes the smooth mean out (3, T) of the moves (2, 3 or more, T) of two feet by their weights (2, T)."""
     for c in range(3):
-        for t in range(n):
-            mean = weight[0, t] * moves[0, t, c] + weight[1, t] * moves[1, t, c]
+        for t in range(raw.size):
+            mean = weight[0, t] * moves[0, c, t] + weight[1, t] * moves[1, c, t]
             raw[t] = mean / (weight[0, t] + weight[1, t])
-        smooth(raw, sigma, int(4 * sigma) + 1, out[:, c])
+        smooth(raw, narrow, out[c])
+
+
+@compiled(error_model="numpy", nogil=True)
+def add(out, by, more):
+    """Adds ``by`` times more (C, T) to the first rows of out (C or more, T)."""
+    for c in range(more.shape[0]):
+        for t in range(more.shape[1]):
+            out[c, t] += by * more[c, t]
 
 
 @compiled(error_model="numpy", nogil=True)
 def carrying(standing, point_s, raw, weight):
     """How much each foot carries, weight (2, T), that stands where standing (2, T) says; points point_s apart."""
-    wide = max(0.08 / point_s, 0.3)
+    wide = bell(max(0.08 / point_s, 0.3))
     for f in range(2):
-        ever = False
+        ever, always = False, True
         for t in range(standing.shape[1]):
             raw[t] = (1.0 if standing[f, t] else 0.0) + 1e-3
-            ever = ever or standing[f, t]
-        smooth(raw, wide, int(4 * wide) + 1, weight[f])
-        if not ever:
-            weight[f] = 0.0
+            ever, always = ever or standing[f, t], always and standing[f, t]
+        if ever and not always:
+            smooth(raw, wide, weight[f])
+        else:
+            weight[f] = raw[0] if ever else 0.0
 
 
 @compiled(error_model="numpy", nogil=True)
-def off_feet(centre, place, weight, out):
+def off_feet(centre, places, weight, t, out):
     """The way out (2,) to a centre of mass from the nearest place between two feet, seen from above; returns how far.
 
-    place (2, 2) : the middles of the feet, weight (2,) : how much each carries; one that carries little is drawn in
+    places (2, 2, T) : the middles of the feet, weight (2, T) : how much each carries, here at point t; one that carries
+        little is drawn in
     """
-    total = max(weight[0] + weight[1], 1e-300)
+    total = max(weight[0, t] + weight[1, t], 1e-300)
     along, square = 0.0, 1e-12
     for c in range(2):
-        out[c] = centre[c] - (weight[0] * place[0, c] + weight[1] * place[1, c]) / total
-        way = place[1, c] - place[0, c]
+        out[c] = centre[c] - (weight[0, t] * places[0, c, t] + weight[1, t] * places[1, c, t]) / total
+        way = places[1, c, t] - places[0, c, t]
         along += out[c] * way
         square += way * way
-    less = min(2.0 * weight[0], 2.0 * weight[1], total) / total
-    share = min(max(along / square, -less * weight[1] / total), less * weight[0] / total)
+    less = min(2.0 * weight[0, t], 2.0 * weight[1, t], total) / total
+    share = min(max(along / square, -less * weight[1, t] / total), less * weight[0, t] / total)
     for c in range(2):
-        out[c] -= share * (place[1, c] - place[0, c])
+        out[c] -= share * (places[1, c, t] - places[0, c, t])
     return np.sqrt(out[0] ** 2 + out[1] ** 2)
 
 
 @compiled(error_model="numpy", nogil=True)
 def strayed(centres, places, weight, out):
-    """How far each centre of mass (T, 2) is from between the feet, places (2, T, 2), out (T,); see ``off_feet``."""
+    """How far each centre of mass (T, 2) is from between the feet, places (2, 2, T), out (T,); see ``off_feet``."""
     way = np.empty(2)
     for t in range(out.size):
-        out[t] = off_feet(centres[t], places[:, t], weight[:, t], way)
+        out[t] = off_feet(centres[t], places, weight, t, way)
 
 
 @compiled(error_model="numpy", nogil=True)
 def held_up(bodies, mass, places, weight, stray_m, out):
-    """By how much a body is to move, out (T, 3), level, to be no farther off its feet than stray_m (T,).
+    """By how much a body is to move, out (2, T), level, to be no farther off its feet than stray_m (T,).
 
     bodies (T, J, 3); mass (J,) : shares of the joints in the centre of mass; places, weight : as for ``strayed``
+    Returns whether it is to move at all.
     """
-    centre = np.empty(2)
+    centre, way, moved = np.empty(2), np.empty(2), False
     for t in range(stray_m.size):
+        out[0, t] = out[1, t] = 0.0
+        if not np.isfinite(stray_m[t]):
+            continue
         centre[:] = 0.0
         for j in range(mass.size):
+            centre[0] += mass[j] * bodies[t, j, 0]
+            centre[1] += mass[j] * bodies[t, j, 1]
+        far = off_feet(centre, places, weight, t, way)
+        if far > stray_m[t]:
+            moved = True
             for c in range(2):
-                centre[c] += mass[j] * bodies[t, j, c]
-        far = off_feet(centre, places[:, t], weight[:, t], out[t])
-        for c in range(2):
-            out[t, c] *= -max(far - stray_m[t], 0.0) / max(far, 1e-12)
-        out[t, 2] = 0.0
+                out[c, t] = -way[c] * (far - stray_m[t]) / max(far, 1e-12)
+    return moved
+
+
+@compiled(fastmath=MOST, error_model="numpy", nogil=True)
+def lowest_of(joints):
+    """The height of the lowest of joints (J, 3)."""
+    low = np.inf
+    for j in range(joints.shape[0]):
+        low = min(low, joints[j, 2])
+    return low
+
+
+@compiled(error_model="numpy", nogil=True)
+def hung(directions, length_m, chain, path, cosine, sine, bodies, lowest):
+    """Bodies (T, J, 3) hung from their path (T, 4), cosine and sine (T,) of their heading, heights lowest (T,)."""
+    for t in range(lowest.size):
+        joints = bodies[t]
+        for c in range(3):
+            joints[chain[0, 1], c] = path[t, c]
+        cosine[t], sine[t] = np.cos(path[t, 3]), np.sin(path[t, 3])
+        stand(directions[t], length_m, chain, cosine[t], sine[t], joints)
+        lowest[t] = lowest_of(joints)
+
+
+@compiled(error_model="numpy", nogil=True)
+def foot_of(bodies, foot, middle, toward, foot_m):
+    """Writes middles (3, T), unit vectors to the toe (3, T) and lengths (T,) of a foot: joints from ankle to toe."""
+    first, last = foot[0], foot[foot.size - 1]
+    for t in range(foot_m.size):
+        ankle, toe, square = bodies[t, first], bodies[t, last], 0.0
+        for c in range(3):
+            middle[c, t] = 0.5 * (ankle[c] + toe[c])
+            square += (toe[c] - ankle[c]) ** 2
+        foot_m[t] = max(np.sqrt(square), 1e-12)
+        for c in range(3):
+            toward[c, t] = (toe[c] - ankle[c]) / foot_m[t]
+
+
+@compiled(error_model="numpy", nogil=True)
+def ankle_moves(bodies, foot, toward, foot_m, foot_floor_m, moves, least_m):
+    """Turns moves (6, T) of the middle of a foot into those of its ankle, and what it turns by into unit vectors.
+
+    least_m (T,) : how high its ankle is to be so that none of its joints is below its floor, foot_floor_m (K,)
+    """
+    was, now = np.empty(3), np.empty(3)
+    for t in range(foot_m.size):
+        size = 0.0
+        for c in range(3):
+            was[c] = toward[c, t]
+            now[c] = was[c] + moves[3 + c, t]
+            size += now[c] ** 2
+        size = max(np.sqrt(size), 1e-12)
+        for c in range(3):
+            now[c] /= size
+            moves[3 + c, t] = now[c] - was[c]
+            moves[c, t] -= 0.5 * foot_m[t] * moves[3 + c, t]
+        least_m[t] = max(foot_floor_m[0], foot_floor_m[foot.size - 1] - foot_m[t] * now[2])
+        for k in range(1, foot.size - 1):
+            if foot[k] != foot[k - 1]:
+                height_m = turned_height(bodies[t, foot[k]], bodies[t, foot[0]], was, now)
+                least_m[t] = max(least_m[t], foot_floor_m[k] - height_m)
+
+
+@compiled(error_model="numpy", nogil=True)
+def put_down(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path, bends):
+    """Moves feet of bodies (T, J, 3) by moves (2, 6, T), a path (T, 4) by a shift (3, T); writes bends (2, T, 6)."""
+    last = feet.shape[1] - 1
+    for t in range(cosine.size):
+        for c in range(3):
+            path[t, c] += shift[c, t]
+        for f in range(2):
+            ankle, toe = bodies[t, feet[f, 0]], bodies[t, feet[f, last]]
+            if weight[f, t] > 0.0:
+                bend_of(moves[f], t, cosine[t], sine[t], bends[f, t])
+                for c in range(3):
+                    ankle[c] += moves[f, c, t]
+                    toe[c] += moves[f, c, t] + foot_m[f, t] * moves[f, 3 + c, t]
+            else:
+                bends[f, t] = 0.0
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -247,105 +358,78 @@ def footed(
 ):
     """Moves the root of path (n, T, 4) until feet stand; what legs must bend beyond that into bends (n, 2, T, 6).
 
-    directions (n, T, 3B), length_m (n, B); feet (2, 2) : ankle and toe of each side; legs (2, 2 or 0) : as for ``bent``
-    standing (n, 2, T), prints (n, 2, T, 3 or 5) : as for ``foot_moves``
-    time_s (n, T) : when the points come; no joint below floor_m (n,), none of the feet below foot_floor_m (n, 2, 2)
+    directions (n, T, 3B), length_m (n, B); feet (2, K) : joints from ankle to toe of each side, repeated where one has
+        fewer; legs (2, 2 or 0) : as for ``bent``
+    standing (n, 2, T), prints (n, 2, T, 3 or 6) : as for ``foot_moves``
+    time_s (n, T) : when the points come; no joint below floor_m (n,), none of the feet below foot_floor_m (n, 2, K)
     mass (J,), stray_m (n, T) : as for ``held_up``
     bends : of the ankle and of the unit vector from ankle to toe, without heading, as ``directions``
     fastest (n,) : the greatest speed of a joint over ``FRAME_S`` or the next longer time between points, written here
     """
-    n_times = path.shape[1]
+    n, n_times = path.shape[:2]
     bodies = np.empty((n_times, chain.shape[0] + 1, 3))
-    middle, lowest, sunk = np.empty((n_times, 3)), np.empty(n_times), np.empty(n_times)
-    cosine, sine = np.empty(n_times), np.empty(n_times)
-    toward, foot_m = np.empty((2, n_times, 3)), np.empty((2, n_times))
-    moves, weight = np.empty((2, n_times, 6)), np.empty((2, n_times))
-    left, more, place = np.empty((2, n_times, 3)), np.empty((n_times, 3)), np.empty((2, n_times, 2))
-    raw, shift, lift, foot = np.empty(n_times), np.empty((n_times, 3)), np.empty(n_times), np.empty(3)
-    by, leg = np.empty(6), np.empty(3)
-    for i in range(path.shape[0]):
-        for t in range(n_times):
-            joints = bodies[t]
-            for c in range(3):
-                joints[chain[0, 1], c] = path[i, t, c]
-            cosine[t], sine[t] = np.cos(path[i, t, 3]), np.sin(path[i, t, 3])
-            stand(directions[i, t], length_m[i], chain, cosine[t], sine[t], joints)
-            lowest[t] = np.inf
-            for j in range(joints.shape[0]):
-                lowest[t] = min(lowest[t], joints[j, 2])
+    cosine, sine, raw = np.empty(n_times), np.empty(n_times), np.empty(n_times)
+    lift, lowest = np.empty(n_times), np.empty(n_times)
+    foot_m, weight, least_m = np.empty((2, n_times)), np.empty((2, n_times)), np.empty((2, n_times))
+    toward, left, legs_m = np.empty((2, 3, n_times)), np.empty((2, 3, n_times)), np.empty((2, 3, n_times))
+    moves, follow, places = np.empty((2, 6, n_times)), np.empty((2, 3, n_times)), np.empty((2, 2, n_times))
+    middle, shift, more = np.empty((3, n_times)), np.empty((3, n_times)), np.empty((3, n_times))
+    bend = legs.shape[1] == 2
+    for i in range(n):
+        hung(directions[i], length_m[i], chain, path[i], cosine, sine, bodies, lowest)
         point_s = time_s[i, n_times - 1] / (n_times - 1)
-        narrow = max(0.06 / point_s, 0.3)
-        reach = int(4 * narrow) + 1
-        n_standing = 0
+        narrow = bell(max(0.06 / point_s, 0.3))
         carrying(standing[i], point_s, raw, weight)
+        n_standing = 0
         for f in range(2):
-            for t in range(n_times):
-                ankle, toe, square = bodies[t, feet[f, 0]], bodies[t, feet[f, 1]], 0.0
-                for c in range(3):
-                    middle[t, c] = 0.5 * (ankle[c] + toe[c])
-                    square += (toe[c] - ankle[c]) ** 2
-                foot_m[f, t] = max(np.sqrt(square), 1e-12)
-                for c in range(3):
-                    toward[f, t, c] = (toe[c] - ankle[c]) / foot_m[f, t]
+            foot_of(bodies, feet[f], middle, toward[f], foot_m[f])
             own = foot_moves(middle, toward[f], standing[i, f], prints[i, f], cosine, sine, moves[f])
             n_standing += own
+            ankle_moves(bodies, feet[f], toward[f], foot_m[f], foot_floor_m[i, f], moves[f], least_m[f])
             for t in range(n_times):
-                turned_foot(toward[f, t], moves[f, t, 3:], foot)
-                for c in range(3):
-                    moves[f, t, 3 + c] = foot[c] - toward[f, t, c]
-                    moves[f, t, c] -= 0.5 * foot_m[f, t] * moves[f, t, 3 + c]
-                ankle_m = bodies[t, feet[f, 0], 2] + moves[f, t, 2]
-                sunk[t] = max(foot_floor_m[i, f, 0], foot_floor_m[i, f, 1] - foot_m[f, t] * foot[2]) - ankle_m
-            if own > 0:
-                raised(sunk, narrow, reach, lift)
-                moves[f, :, 2] += lift
+                raw[t] = least_m[f, t] - bodies[t, feet[f, 0], 2] - moves[f, 2, t]
+            if own > 0 and raised(raw, narrow, lift):
+                for t in range(n_times):
+                    moves[f, 2, t] += lift[t]
         shift[:] = 0.0
         if n_standing > 0:
             mean_move(moves, weight, narrow, raw, shift)
             for f in range(2):
-                moves[f, :, :3] -= shift
-        for _ in range(SETTLING if n_standing > 0 and legs.shape[1] == 2 else 0):
+                add(moves[f], -1.0, shift)
+        if n_standing > 0 and bend:
             for f in range(2):
-                for t in range(n_times):
-                    left_over(
-                        directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], by, leg, left[f, t]
-                    )
-            mean_move(left, weight, narrow, raw, more)
-            shift += more
-            for f in range(2):
-                moves[f, :, :3] -= more
-        if n_standing > 0 and legs.shape[1] == 2 and mass.size > 0:
-            for t in range(n_times):
+                hip_to_ankle(bodies, chain, legs[f], length_m[i], legs_m[f], follow[f])
+            for _ in range(SETTLING):
+                for f in range(2):
+                    left_over(moves[f], legs_m[f], follow[f], legs[f], length_m[i], left[f])
+                mean_move(left, weight, narrow, raw, more)
+                add(shift, 1.0, more)
+                for f in range(2):
+                    add(moves[f], -1.0, more)
+            if mass.size > 0:
                 for f in range(2):
                     for c in range(2):
-                        half = 0.5 * foot_m[f, t] * (toward[f, t, c] + moves[f, t, 3 + c])
-                        place[f, t, c] = bodies[t, feet[f, 0], c] + moves[f, t, c] + half
-            held_up(bodies, mass, place, weight, stray_m[i], more)
-            for c in range(2):
-                smooth(more[:, c], narrow, reach, raw)
-                shift[:, c] += raw
-                for f in range(2):
-                    moves[f, :, c] -= raw
-        for t in range(n_times):
-            lowest[t] = floor_m[i] - lowest[t] - shift[t, 2]
-            for f in range(2 if n_standing > 0 and legs.shape[1] == 2 else 0):
-                left_over(directions[i, t], length_m[i], legs[f], moves[f, t], cosine[t], sine[t], by, leg, foot)
-                ankle_m = bodies[t, feet[f, 0], 2] + shift[t, 2] + moves[f, t, 2] - foot[2]
-                toe_m = ankle_m + foot_m[f, t] * (toward[f, t, 2] + moves[f, t, 5])
-                lowest[t] = max(lowest[t], foot_floor_m[i, f, 0] - ankle_m, foot_floor_m[i, f, 1] - toe_m)
-        raised(lowest, narrow, reach, lift)
-        for t in range(n_times):
-            shift[t, 2] += lift[t]
-            for c in range(3):
-                path[i, t, c] += shift[t, c]
-                for j in range(bodies.shape[1]):
-                    bodies[t, j, c] += shift[t, c]
+                        for t in range(n_times):
+                            half = 0.5 * foot_m[f, t] * (toward[f, c, t] + moves[f, 3 + c, t])
+                            places[f, c, t] = bodies[t, feet[f, 0], c] + moves[f, c, t] + half
+                if held_up(bodies, mass, places, weight, stray_m[i], more):
+                    for c in range(2):
+                        smooth(more[c], narrow, raw)
+                        more[c] = raw
+                    add(shift, 1.0, more[:2])
+                    for f in range(2):
+                        add(moves[f], -1.0, more[:2])
             for f in range(2):
-                moves[f, t, 2] -= lift[t]
-                bends[i, f, t] = 0.0
-                if weight[f, t] > 0.0:
-                    bend_of(moves[f, t], cosine[t], sine[t], bends[i, f, t])
-                    for c in range(3):
-                        bodies[t, feet[f, 0], c] += moves[f, t, c]
-                        bodies[t, feet[f, 1], c] += moves[f, t, c] + foot_m[f, t] * moves[f, t, 3 + c]
-        fastest[i] = fastest_joint(bodies, time_s[i])
+                left_over(moves[f], legs_m[f], follow[f], legs[f], length_m[i], left[f])
+        for t in range(n_times):
+            lowest[t] = floor_m[i] - lowest[t] - shift[2, t]
+            for f in range(2 if n_standing > 0 and bend else 0):
+                ankle_m = bodies[t, feet[f, 0], 2] + shift[2, t] + moves[f, 2, t] - left[f, 2, t]
+                lowest[t] = max(lowest[t], least_m[f, t] - ankle_m)
+        if raised(lowest, narrow, lift):
+            for t in range(n_times):
+                shift[2, t] += lift[t]
+                for f in range(2):
+                    moves[f, 2, t] -= lift[t]
+        put_down(bodies, feet, foot_m, moves, weight, shift, cosine, sine, path[i], bends[i])
+        fastest[i] = fastest_joint(bodies, shift, time_s[i])

@@ -52,22 +52,36 @@ class Decoder:
 
         float32 agrees with float64 to about 1e-6.
         """
-        from emulator.kernels.sphere import PITCH
-
-        out = np.empty((len(coefficients), place.shape[1], self.flatten.n_bones, 3), dtype)
-        if isinstance(self.flatten, SIEM) and out.shape[2] > PITCH:
-            out[:] = directions_numpy(self.posture, self.flatten, coefficients, place)
-            return out
-        basis = self._basis[out.dtype]
-        at_once = max(1, BLOCK_BYTES // (basis.shape[1] * out.itemsize))
+        out = np.empty((*place.shape, self.flatten.n_bones, 3), dtype)
+        at_once = max(1, BLOCK_BYTES // ((self.n_times + 2) * self.flatten.n_channels * out.itemsize))
         for start in range(0, len(out), at_once):
             rows = slice(start, start + at_once)
-            some = coefficients[rows]
-            with_mean = np.concatenate([some, np.ones((len(some), 1))], axis=1).astype(out.dtype)
-            control = (with_mean @ basis).reshape(len(some), self.n_times + 2, -1)
-            far = self._decoded(control, place[rows], out[rows].reshape(*place[rows].shape, -1))
-            if np.any(far):
-                out[rows][far] = directions_numpy(self.posture, self.flatten, some[far], place[rows][far])
+            control = self.control(coefficients[rows], out.dtype)
+            out[rows] = self.between(control, coefficients[rows], place[rows], out.dtype)
+        return out
+
+    def control(self, coefficients: np.ndarray, dtype: type[np.floating] | np.dtype = np.float64) -> np.ndarray:
+        """Control points (n, T + 2, C) of the flat coordinates of coefficients (n, K)."""
+        with_mean = np.concatenate([coefficients, np.ones((len(coefficients), 1))], axis=1).astype(dtype)
+        return (with_mean @ self._basis[np.dtype(dtype)]).reshape(len(coefficients), self.n_times + 2, -1)
+
+    def between(
+        self,
+        control: np.ndarray,
+        coefficients: np.ndarray,
+        place: np.ndarray,
+        dtype: type[np.floating] | np.dtype = np.float64,
+    ) -> np.ndarray:
+        """As ``directions``, of control points (n, T + 2, C) that are at hand and the coefficients they are of."""
+        from emulator.kernels.sphere import PITCH
+
+        out = np.empty((*place.shape, self.flatten.n_bones, 3), dtype)
+        if isinstance(self.flatten, SIEM) and self.flatten.n_bones > PITCH:
+            out[:] = directions_numpy(self.posture, self.flatten, coefficients, place)
+            return out
+        far = self._decoded(control.astype(dtype, copy=False), place, out.reshape(*place.shape, -1))
+        if np.any(far):
+            out[far] = directions_numpy(self.posture, self.flatten, coefficients[far], place[far])
         return out
 
     def _decoded(self, control: np.ndarray, place: np.ndarray, to: np.ndarray) -> np.ndarray:
@@ -110,7 +124,9 @@ def directions_numpy(posture: JointPCA, flatten: Flattening, coefficients: np.nd
 
 def control_points(values: np.ndarray) -> np.ndarray:
     """Control points (..., T + 2, C) of the cubic B-spline through values (..., T, C) on the points of the clock."""
-    return np.asarray(_to_control(values.shape[-2]) @ values)
+    columns = np.moveaxis(values, -2, 0)
+    control = _to_control(len(columns)) @ columns.reshape(len(columns), -1)
+    return np.ascontiguousarray(np.moveaxis(control.reshape(-1, *columns.shape[1:]), 0, -2))
 
 
 def along(control: np.ndarray, place: np.ndarray) -> np.ndarray:
@@ -203,6 +219,10 @@ class RootChannel:
         """
         from emulator.kernels.bodies import ride_all
 
+        if not self._feet and lowest_m == -np.inf:  # nothing that a root would ride on or be lifted by
+            root_m = channel[..., :3] * self.leg_m(bone_length_m)[..., None, None]
+            root_m[..., :2] -= root_m[..., :1, :2].copy()
+            return root_m, channel[..., 3]
         n_times, n_bones = directions.shape[-3:-1]
         root_m = np.empty((*channel.shape[:-1], 3))
         ride_all(

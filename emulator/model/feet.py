@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -42,6 +43,7 @@ class Legs:
     """What of a skeleton stands and bends: feet (2, 2) ankle and toe joints, bones (2, 2) to knee and ankle, by side.
 
     bones is None where a knee or a hip lies between that is not theirs: then only the root is moved.
+    joints : (2, K) those of the feet from ankle to toe, the ankle repeated where one side has fewer
     soles : (2, K) bones from ankle to toe, -1 where one side has fewer; none where a toe does not hang from its ankle
     mass : (J,) shares of the joints in the centre of mass; None where the skeleton does not tell it
     """
@@ -49,6 +51,7 @@ class Legs:
     feet: np.ndarray
     bones: np.ndarray | None
     soles: np.ndarray
+    joints: np.ndarray
     mass: np.ndarray | None = None
 
     @classmethod
@@ -69,8 +72,11 @@ class Legs:
         ways = [_bones_between(skeleton, ankle, toe) for ankle, toe in feet]
         longest = max(map(len, ways)) if all(ways) else 0
         soles = np.array([(way + [-1] * longest)[:longest] for way in ways], dtype=np.int64)
+        between = [[names.index(skeleton.bone_names[bone]) for bone in sole[:-1] if bone >= 0] for sole in ways]
+        most = max(map(len, between)) if longest else 0
+        joints = np.array([[a] * (1 + most - len(own[:most])) + own[:most] + [t] for (a, t), own in zip(feet, between)])
         mass = joint_masses(skeleton) if set(NEEDED) <= set(names) else None
-        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64), soles, mass)
+        return cls(feet, None if bones is None else np.array(bones, dtype=np.int64), soles, joints, mass)
 
 
 def _bones_between(skeleton: Skeleton, upper: int, lower: int) -> list[int]:
@@ -129,6 +135,14 @@ def prints(positions_m: np.ndarray, yaw_rad: np.ndarray, stands: np.ndarray, leg
     return out
 
 
+def pointed(prints: np.ndarray) -> np.ndarray:
+    """(..., 3 or 6) prints (..., 3 or 5) with the unit vector to the toe in place of its two angles."""
+    way, pitch = prints[..., 3:4], prints[..., 4:5]
+    return np.concatenate(
+        [prints[..., :3], np.cos(pitch) * np.cos(way), np.cos(pitch) * np.sin(way), np.sin(pitch)], axis=-1
+    )
+
+
 def on_its_feet(motion: Motion) -> Motion:
     """The motion with bones of one length, its feet where they were recorded.
 
@@ -157,9 +171,14 @@ def on_its_feet(motion: Motion) -> Motion:
 
 def fastest_m_per_s(motions: Sequence[Motion]) -> np.ndarray:
     """(N,) the greatest speed of any joint in each motion, between frames of 1/30 s."""
+    return np.array([fastest_of(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
+
+
+def fastest_of(positions_m: np.ndarray, time_s: np.ndarray) -> float:
+    """The greatest speed of joints (T, J, 3) that come at times (T,), m/s, between frames of 1/30 s."""
     from emulator.kernels.feet import fastest_joint
 
-    return np.array([fastest_joint(motion.positions_m(), np.array(motion.time_s, float)) for motion in motions])
+    return float(fastest_joint(positions_m, np.zeros((3, len(time_s))), time_s))
 
 
 def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: float) -> np.ndarray:
@@ -173,7 +192,7 @@ def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: floa
     if legs.mass is not None and stands.any():
         weight = np.empty(stands.shape)
         carrying(stands, step_s, np.empty(len(out)), weight)
-        places = positions_m[:, legs.feet, :2].mean(axis=2).swapaxes(0, 1)
+        places = positions_m[:, legs.feet, :2].mean(axis=2).transpose(1, 2, 0)
         centres = (legs.mass @ positions_m)[:, :2]
         strayed(np.ascontiguousarray(centres), np.ascontiguousarray(places), weight, out)
     return out
@@ -183,8 +202,9 @@ def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: floa
 class Stance:
     """How n bodies stand, on the common clock of T points, in metres.
 
-    stands : (n, 2, T) whether each foot does; prints_m : (n, 2, T, 3 or 5) see ``prints``
-    floor_m : (n,) no joint gets below this height; foot_floor_m : (n, 2, 2) nor ankle and toe below these, by side
+    stands : (n, 2, T) whether each foot does; prints_m : (n, 2, T, 3 or 6) see ``pointed``
+    floor_m : (n,) no joint gets below this height; foot_floor_m : (n, 2, 2 or K) nor ankle, toe and what lies between
+        them below these, by side
     stray_m : (n, T) how far the centre of mass may be off the feet; inf as it is
     """
 
@@ -198,7 +218,9 @@ class Stance:
     def on(cls, stands: np.ndarray, prints_m: np.ndarray, floor_m: float) -> Stance:
         """Of n bodies above one floor that lean as they do and whose feet have no floor of their own."""
         n, n_times = len(stands), stands.shape[-1]
-        return cls(stands, prints_m, np.full(n, floor_m), np.full((n, 2, 2), NO_FLOOR), np.full((n, n_times), np.inf))
+        return cls(
+            stands, pointed(prints_m), np.full(n, floor_m), np.full((n, 2, 2), NO_FLOOR), np.full((n, n_times), np.inf)
+        )
 
 
 def stood(
@@ -220,11 +242,16 @@ def stood(
 
     n, n_times = path.shape[:2]
     out, bends, fastest = np.array(path, dtype=float), np.zeros((n, 2, n_times, 6)), np.zeros(n)
-    feet = np.zeros((2, 2), np.int64) if legs is None else legs.feet
+    feet = np.zeros((2, 2), np.int64) if legs is None else legs.joints
     bones = np.zeros((2, 0), np.int64) if legs is None or legs.bones is None else legs.bones
     mass = np.zeros(0) if legs is None or legs.mass is None else legs.mass
     flat = np.ascontiguousarray(directions, dtype=float).reshape(n, n_times, -1)
-    given = time_s, stance.floor_m, stance.foot_floor_m, mass, stance.stray_m
+    foot_floor_m = np.full((n, *feet.shape), NO_FLOOR)
+    if stance.foot_floor_m.shape == foot_floor_m.shape:
+        foot_floor_m = stance.foot_floor_m
+    else:  # nothing is known of what lies between ankle and toe
+        foot_floor_m[..., [0, -1]] = stance.foot_floor_m[..., [0, -1]]
+    given = time_s, stance.floor_m, foot_floor_m, mass, stance.stray_m
     length_m, *numbers = (np.ascontiguousarray(values, dtype=float) for values in (length_m, *given))
     own = stance.stands, stance.prints_m
     footed(flat, length_m, skeleton.chain, feet, bones, *own, *numbers, out, bends, fastest)
@@ -252,7 +279,8 @@ class Footing:
     stands   : (N, 2, T) whether the left and the right foot stands
     prints   : (N, 2, T, 5) see ``prints``, in leg lengths; in libraries of before (N, 2, T, 3), without directions
     floor    : (N,) the height of the lowest joint in leg lengths, at most 0: how far a recording is below the floor
-    foot_floor : (N, 2, 2) the same of ankle and toe of each side; they may lie above 0
+    foot_floor : (N, 2, K) the same of the joints from ankle to toe of each side, of ankle and toe alone in libraries
+        of before; they may lie above 0
     strays   : (N, T) see ``strays``, in leg lengths; inf in libraries of before
     """
 
@@ -284,10 +312,14 @@ class Footing:
             places.append(prints(there, yaw, stands[-1], legs) / [leg, leg, leg, 1.0, 1.0])
             far.append(strays(there, stands[-1], legs, motion.duration_s / (len(at) - 1)) / leg)
             lowest.append(joints[..., 2].min() / leg)
-            foot_lowest.append(joints[:, legs.feet, 2].min(axis=0) / leg)
+            foot_lowest.append(joints[:, legs.joints, 2].min(axis=0) / leg)
         whole, strayed = np.rint(np.array(places) / PRINTS), np.rint(np.array(far) / STRAY)
         floors = np.minimum(lowest, 0.0), np.array(foot_lowest)
         return cls(postures, np.array(stands), whole * PRINTS, *floors, strayed * STRAY)
+
+    @cached_property
+    def _pointed(self) -> np.ndarray:
+        return pointed(self.prints)
 
     def nearest(self, postures: np.ndarray) -> np.ndarray:
         """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""
@@ -296,7 +328,7 @@ class Footing:
 
     def stance(self, near: np.ndarray, leg_m: np.ndarray) -> Stance:
         """How bodies with legs of these lengths (n,) stand that stand as the recordings ``near`` (n,)."""
-        prints_m, leg_of = self.prints[near], leg_m[:, None, None]
+        prints_m, leg_of = self._pointed[near], leg_m[:, None, None]
         prints_m[..., :3] *= leg_of[..., None]
         floors = self.floor[near] * leg_m, self.foot_floor[near] * leg_of
         stray_m = self.strays[near] * leg_m[:, None]

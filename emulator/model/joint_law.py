@@ -136,6 +136,11 @@ class JointLaw:
         """(K,) z of the mean movement, towards which a draw is drawn in where a joint is too fast."""
         return np.zeros(len(self.scale.centre))
 
+    @cached_property
+    def middle_control(self) -> np.ndarray:
+        """(T + 2, C) control points of the mean movement's flat postures."""
+        return self.decoder.control(self.scale.raw(self.middle, "posture")[None])[0]
+
     @property
     def channel(self) -> RootChannel:
         return RootChannel(self.skeleton, self.rides)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 
@@ -13,9 +14,26 @@ from emulator.model.feet import bend, stood
 from emulator.model.joint_law import JointLaw
 from emulator.performances import Floats, Performances
 
-AT_ONCE = 16
+AT_ONCE = 128
 """Performances whose paths are made at a time."""
-KEPT = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)
+STEPS = 10
+"""Draws are drawn in by whole tenths."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What n draws say of where bodies stand, before they do; never written to.
+
+    posture, root : (n, P), (n, R) coefficients; flat : (n, T + 2, C) control points of the flat postures
+    length_m : (n, B) bones; time_s : (n, T) when the points of the clock come; near : (n,) recordings to stand like
+    """
+
+    posture: np.ndarray
+    root: np.ndarray
+    flat: np.ndarray
+    length_m: np.ndarray
+    time_s: np.ndarray
+    near: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +42,7 @@ class Ground:
 
     control : (n, T + 2, 4) control points of the path of root and heading; bends : (n, 2, T, 6) what the legs bend
     posture : (n, P) posture coefficients; upper : (n, P) those of all bones but the legs'
+    flat : (n, T + 2, C) control points of the flat postures
     kept : (n,) what share of their deviation from the mean movement is kept
     fastest_m_per_s : (n,) the greatest speed of a joint between frames of 1/30 s
     """
@@ -32,6 +51,7 @@ class Ground:
     bends: np.ndarray
     posture: np.ndarray
     upper: np.ndarray
+    flat: np.ndarray
     kept: np.ndarray
     fastest_m_per_s: np.ndarray
 
@@ -93,7 +113,7 @@ class MotionPerformances(Performances):
         place = self._place(times_s, n_times)
         positions = np.empty((*place.shape, self.skeleton.n_joints, 3), dtype)
         for rows, some in self._blocks():
-            lengths = some.bone_length_m
+            lengths = some._drawn.length_m
             flat = some._directions(place[rows]).reshape(*place[rows].shape, -1)
             path = decoding.along(some._ground.control, place[rows])
             stand_all(flat, lengths, self.skeleton.chain, path, positions[rows])
@@ -111,30 +131,55 @@ class MotionPerformances(Performances):
         model = self.model
         if model.footing is None:
             return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
-        directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
-        for rows, some in self._blocks():
-            directions[rows] = some._decoded(some._ground.posture, some._ground.upper, place[rows], dtype)
-            if model.legs is not None:
-                bend(directions[rows], some.bone_length_m, model.legs, place[rows], some._ground.bends)
+        if len(self) > AT_ONCE:
+            directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
+            for rows, some in self._blocks():
+                directions[rows] = some._directions(place[rows], dtype)
+            return directions
+        directions = self._decoded(self._ground, place, dtype)
+        if model.legs is not None:
+            bend(directions, self._drawn.length_m, model.legs, place, self._ground.bends)
         return directions
 
-    def _decoded(self, posture: np.ndarray, upper: np.ndarray, place: np.ndarray, dtype: Floats) -> np.ndarray:
-        """Directions of coefficients (n, P) at places (n, S) before legs bend; here upper bones are as all others."""
-        return self.model.decoder.directions(posture, place, np.dtype(dtype))
+    def _decoded(self, ground: Ground, place: np.ndarray, dtype: Floats) -> np.ndarray:
+        """Directions at places (n, S) of bodies on the ground before legs bend; here upper bones are as all others."""
+        return self.model.decoder.between(ground.flat, ground.posture, place, np.dtype(dtype))
+
+    @cached_property
+    def _drawn(self) -> Drawn:
+        model = self.model
+        posture, root = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
+        near = np.zeros(len(self), int) if model.footing is None else model.footing.nearest(posture)
+        time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
+        return Drawn(posture, root, model.decoder.control(posture), self.bone_length_m, time_s, near)
+
+    def _some(self, rows: np.ndarray) -> Self:
+        """``self[rows]``, for which nothing is made again."""
+        some = self[rows]
+        some.__dict__["_drawn"] = rows_of(self._drawn, rows)
+        return some
 
     @cached_property
     def _ground(self) -> Ground:
-        """Where and how the bodies stand, drawn in where a joint is too fast."""
+        """Where and how the bodies stand, drawn in where a joint is too fast.
+
+        By as many tenths as the last two speeds foretell, until none is; else as where the body was least fast.
+        """
         most_m_per_s = self.model.most_m_per_s * self.body_scale
         ground = self._grounded(np.ones(len(self)))
-        too_fast = np.flatnonzero(ground.fastest_m_per_s > most_m_per_s)
-        for share in KEPT:
-            if too_fast.size == 0:
-                break
-            again = self[too_fast]._grounded(np.full(too_fast.size, share))
+        rows = np.flatnonzero(ground.fastest_m_per_s > most_m_per_s)
+        last, kept = np.ones(rows.size), np.full(rows.size, 1.0 - 1.0 / STEPS)
+        before = ground.fastest_m_per_s[rows]
+        while rows.size:
+            again = self._some(rows)._grounded(kept)
+            now, most = again.fastest_m_per_s, most_m_per_s[rows]
+            better = now < ground.fastest_m_per_s[rows]
             for name, values in vars(again).items():
-                getattr(ground, name)[too_fast] = values
-            too_fast = too_fast[again.fastest_m_per_s > most_m_per_s[too_fast]]
+                getattr(ground, name)[rows[better]] = values[better]
+            steps = np.ceil(STEPS * (now - most) * (last - kept) / np.maximum(before - now, 1e-9) - 1e-6)
+            following = np.where(before > now, kept - np.maximum(steps, 1.0) / STEPS, 0.0)
+            on = (now > most) & (kept > 0.0)
+            rows, last, kept, before = rows[on], kept[on], np.maximum(following, 0.0)[on], now[on]
         return ground
 
     def _grounded(self, kept: np.ndarray) -> Ground:
@@ -143,27 +188,28 @@ class MotionPerformances(Performances):
 
     def _stood(self, kept: np.ndarray, moved: tuple[np.ndarray, ...] | None = None) -> Ground:
         """The same with coefficients of posture (n, P) and root (n, R) ``moved``."""
-        model, n, lengths = self.model, len(self), self.bone_length_m
-        posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
-        near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
-        centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
-        posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
+        model, n, own = self.model, len(self), self._drawn
+        posture, root, flat = own.posture, own.root, own.flat
+        if np.any(kept < 1.0):
+            centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
+            posture, root = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, root)))
+            flat = model.middle_control + kept[:, None, None] * (flat - model.middle_control)
         if moved is not None:
-            posture, channel = posture + moved[0], channel + moved[1]
+            posture, root = posture + moved[0], root + moved[1]
+            flat = model.decoder.control(posture)
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
-        aligned = model.decoder.directions(posture, clock)
-        flat = model.root.inverse(channel).reshape(n, model.n_times, 4)
+        aligned = model.decoder.between(flat, posture, clock)
+        channel = model.root.inverse(root).reshape(n, model.n_times, 4)
         lowest_m = 0.0 if model.footing is None else -np.inf  # feet keep to floors of their own, smoothly
-        root, yaw = model.channel.inverse(flat, aligned, lengths, lowest_m)
-        path, bends = np.concatenate([root, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 6))
+        root_m, yaw = model.channel.inverse(channel, aligned, own.length_m, lowest_m)
+        path, bends = np.concatenate([root_m, yaw[..., None]], axis=-1), np.zeros((n, 2, 0, 6))
         fastest = np.zeros(n)
         if model.footing is not None:
-            leg_m = model.channel.leg_m(lengths)
-            stance = model.footing.stance(near, leg_m)
-            time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
-            path, bends, fastest = stood(self.skeleton, model.legs, aligned, lengths, path, time_s, stance)
+            stance = model.footing.stance(own.near, model.channel.leg_m(own.length_m))
+            path, bends, fastest = stood(self.skeleton, model.legs, aligned, own.length_m, path, own.time_s, stance)
             path[..., :2] -= path[:, :1, :2]
-        return Ground(decoding.control_points(path), bends, posture, posture.copy(), kept.copy(), fastest)
+        made = decoding.control_points(path), bends, posture.copy(), posture.copy(), flat.copy(), kept.copy(), fastest
+        return Ground(*made)
 
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.
@@ -181,3 +227,8 @@ class MotionPerformances(Performances):
         own = np.linspace(0, 1, n_times) if times_s is None else np.asarray(times_s) / self.duration_s[:, None]
         own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
         return decoding.places(self.model.warps(self.scores), self.model.moving_share(self.scores, own))
+
+
+def rows_of(record: Any, rows: np.ndarray) -> Any:
+    """Some rows of a record of arrays."""
+    return type(record)(**{name: values[rows] for name, values in vars(record).items()})

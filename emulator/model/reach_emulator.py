@@ -13,8 +13,9 @@ from threadpoolctl import threadpool_limits
 from emulator.model.arms import Arms
 from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
+from emulator.model.feet import fastest_of
 from emulator.model.gaussian import Law
-from emulator.model.performances import Ground, MotionPerformances
+from emulator.model.performances import Ground, MotionPerformances, rows_of
 from emulator.model.reach import LocalRegression, ReachedLaw, beside_curves, errors_scale, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
@@ -153,7 +154,7 @@ class ReachPerformances(MotionPerformances):
         miss = self.model.target_m - self.places(ground)
         rows = np.flatnonzero(np.abs(miss).max(axis=1, initial=0.0) > HIT_M)
         if rows.size:
-            some = self[rows]
+            some = self._some(rows)
             ground.upper[rows] += some._lifted(ground.control[rows], ground.upper[rows], miss[rows])
             ground.fastest_m_per_s[rows] = some._fastest_m_per_s(rows_of(ground, rows))
         return ground
@@ -166,13 +167,11 @@ class ReachPerformances(MotionPerformances):
 
     def _fastest_m_per_s(self, ground: Ground) -> np.ndarray:
         """(n,) the greatest speed of any joint of bodies that stand like this, between frames of 1/30 s."""
-        from emulator.kernels.feet import fastest_joint
-
         if self.model.footing is None:  # as where nothing stands: no bound
             return np.zeros(len(self))
         time_s = self.model.warps(self.scores) * self.duration_s[:, None]
         bodies = self._standing(ground).positions_m(time_s)
-        return np.array([fastest_joint(body, own) for body, own in zip(bodies, time_s)])
+        return np.array([fastest_of(body, own) for body, own in zip(bodies, time_s)])
 
     def _near(self, kept: np.ndarray) -> Ground:
         """As ``MotionPerformances``, with coefficients of posture and root moved until joints are within ``FAR_M``."""
@@ -187,7 +186,7 @@ class ReachPerformances(MotionPerformances):
                 break
             step = share[rows, None] * _shortened(np.einsum("nij,nj->ni", inverse[rows], miss[rows]), miss[rows])
             tried = at[rows] + step
-            again = self[rows]._stood(kept[rows], (tried @ posture.T, tried @ root.T))
+            again = self._some(rows)._stood(kept[rows], (tried @ posture.T, tried @ root.T))
             missed = self.model.target_m - self[rows].places(again)
             inverse[rows] = _broyden(inverse[rows], step, miss[rows] - missed)
             better = np.linalg.norm(missed, axis=1) < np.linalg.norm(miss[rows], axis=1)
@@ -198,11 +197,11 @@ class ReachPerformances(MotionPerformances):
                 getattr(ground, name)[won] = values[better]
         return ground
 
-    def _decoded(self, posture: np.ndarray, upper: np.ndarray, place: np.ndarray, dtype: Floats) -> np.ndarray:
-        directions = super()._decoded(posture, upper, place, dtype)
-        rows = np.flatnonzero(np.any(posture != upper, axis=1))
+    def _decoded(self, ground: Ground, place: np.ndarray, dtype: Floats) -> np.ndarray:
+        directions = super()._decoded(ground, place, dtype)
+        rows = np.flatnonzero(np.any(ground.posture != ground.upper, axis=1))
         if rows.size:
-            lifted = super()._decoded(upper[rows], upper[rows], place[rows], dtype)
+            lifted = self.model.decoder.directions(ground.upper[rows], place[rows], np.dtype(dtype))
             bones = self.model.arms.bones
             directions[np.ix_(rows, np.arange(place.shape[1]), bones)] = lifted[:, :, bones]
         return directions
@@ -220,11 +219,6 @@ class ReachPerformances(MotionPerformances):
         standing = replace(self)
         standing.__dict__["_ground"] = ground
         return standing
-
-
-def rows_of(ground: Ground, rows: np.ndarray) -> Ground:
-    """Some bodies of them."""
-    return Ground(**{name: values[rows] for name, values in vars(ground).items()})
 
 
 def _bounded_inverse(came: np.ndarray) -> np.ndarray:

@@ -98,7 +98,9 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
     if model.footing is not None:
         prints = model.footing.prints
         plain["prints"] = PRINTS[: prints.shape[-1]].tolist()
-        arrays["footing_lowest"] = np.column_stack([model.footing.floor, model.footing.foot_floor.reshape(-1, 4)])
+        arrays["footing_lowest"] = np.column_stack(
+            [model.footing.floor, model.footing.foot_floor.reshape(len(prints), -1)]
+        )
         if np.isfinite(model.footing.strays).all():
             arrays["footing_strays"] = to_planes(np.rint(model.footing.strays / STRAY).astype(np.int16))
         if not np.array_equal(_recorded_postures(model.scale, model.workforce), model.footing.postures):
@@ -251,14 +253,14 @@ class _Parts:
         postures = self.own.array("footing_postures", -1, self.size["posture"]) if own else recorded
         n, n_times = len(postures), self.own.letters["T"]
         stands = self.own.array("footing_stands", n, 2, -(-n_times // 8))
-        lowest = self.own.array("footing_lowest", n, 5) if known else np.tile(self._one_floor(), (n, 1))
-        if n == 0 or stands.dtype != np.uint8 or np.any(lowest[:, 0] > 0):
+        lowest = self.own.array("footing_lowest", n, -1) if known else np.tile(self._one_floor(), (n, 1))
+        if n == 0 or stands.dtype != np.uint8 or np.any(lowest[:, 0] > 0) or lowest.shape[1] not in range(5, 99, 2):
             raise ValueError(f"{self.task}: its footing makes no sense")
         stands = np.unpackbits(stands, axis=-1, count=n_times).astype(bool)
         strays = np.full((n, n_times), np.inf)
         if "footing_strays" in self.own:
             strays = from_planes(self.own.array("footing_strays", 2, n, "T")) * STRAY
-        return Footing(postures, stands, self._prints(n), lowest[:, 0], lowest[:, 1:].reshape(n, 2, 2), strays)
+        return Footing(postures, stands, self._prints(n), lowest[:, 0], lowest[:, 1:].reshape(n, 2, -1), strays)
 
     def _one_floor(self) -> np.ndarray:
         """(5,) heights of the lowest joint and of the feet in a library of before, which has one floor for all."""

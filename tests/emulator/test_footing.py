@@ -47,6 +47,21 @@ def test_a_skeleton_without_toes_has_no_legs_to_stand_on_and_one_without_knees_o
     assert Legs.of(Skeleton(("pelvis", *feet), (-1, 0, 1, 0, 3))).bones is None
 
 
+def test_joints_between_ankle_and_toe_are_those_of_the_foot():
+    bones = (("pelvis", -1), ("left_ankle", 0), ("left_foot", 1), ("left_toe", 2), ("right_ankle", 0), ("right_toe", 4))
+    assert Legs.of(Skeleton(*zip(*bones))).joints.tolist() == [[1, 2, 3], [4, 4, 5]]
+
+
+def test_a_joint_between_ankle_and_toe_goes_with_its_foot():
+    from emulator.kernels.legs import turned_height
+
+    way, rest, by = np.random.default_rng(0).normal(size=(3, 3))
+    ankle, was = np.array([1.0, 2.0, 0.5]), (way + rest) / np.linalg.norm(way + rest)
+    foot = (was + by) / np.linalg.norm(was + by)
+    want = naive_footing.turned(np.array([way, rest]), by)[0, 2]
+    assert turned_height(ankle + way, ankle, was, foot) == pytest.approx(want, abs=1e-12)
+
+
 def of_lift(worker=0):
     """What ``stood`` takes of drawn lifts, with stances of the nearest recordings."""
     emulator = made("lift")[2]
@@ -111,7 +126,7 @@ def test_feet_that_never_turn_do_not_turn_in_draws():
     clock = np.arange(float(emulator.n_times))
     sole = emulator.legs.soles[0, 0]
     swivelling[:, :, sole] = turn(aligned[:, :, sole], 0.2 * np.sin(clock / 9))
-    stance = Stance.on(np.ones_like(stance.stands), np.zeros_like(stance.prints_m), -9.0)
+    stance = Stance.on(np.ones_like(stance.stands), np.zeros_like(stance.prints_m[..., :5]), -9.0)
     _, bends, _ = stood(emulator.skeleton, emulator.legs, swivelling, lengths, path, time_s, stance)
     place = np.tile(clock, (4, 1))
     bend(swivelling, lengths, emulator.legs, place, bends)
@@ -184,8 +199,11 @@ def test_recorded_feet_are_kept_when_breathing_bones_are_made_rigid():
     assert off[1] < 0.5 * off[0]
 
 
-def test_a_saved_footing_is_the_fitted_one(tmp_path):
+@pytest.mark.parametrize("joints", [[0, 1], [0, 0, 1]])
+def test_a_saved_footing_is_the_fitted_one(tmp_path, joints):
     emulator = made("walk")[2]
+    floors = emulator.footing.foot_floor[:, :, joints]
+    emulator = replace(emulator, footing=replace(emulator.footing, foot_floor=floors))
     emulator.save(tmp_path / "walk.npz")
     again = MotionEmulator.load(tmp_path / "walk.npz")
     for name in ("postures", "stands", "prints", "floor", "foot_floor", "strays"):
@@ -210,3 +228,13 @@ def test_a_draw_faster_than_a_body_is_drawn_in_and_counted_and_its_times_stay():
     assert np.array_equal(np.delete(drawn.damped, 3), np.delete(calm.damped, 3))
     assert np.array_equal(drawn.duration_s, calm.duration_s) and np.array_equal(drawn.mark_s, calm.mark_s)
     assert drawn._ground.fastest_m_per_s[3] <= emulator.most_m_per_s or drawn.damped[3] == 1.0
+
+
+def test_a_draw_that_nothing_slows_down_stays_where_it_was_least_fast():
+    emulator = replace(made("lift")[2])
+    emulator.__dict__["most_m_per_s"] = 0.01
+    drawn = emulator.sample(6, np.random.default_rng(0))
+    ground, free, mean = drawn._ground, drawn._grounded(np.ones(6)), drawn._grounded(np.zeros(6))
+    assert np.all(ground.fastest_m_per_s <= np.minimum(free.fastest_m_per_s, mean.fastest_m_per_s))
+    again = drawn._grounded(ground.kept)
+    assert np.abs(again.flat - ground.flat).max() < 1e-12 and np.abs(again.control - ground.control).max() < 1e-12

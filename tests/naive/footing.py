@@ -17,12 +17,6 @@ def blurred(values, sigma):
     return np.array([weight @ padded[t : t + 2 * reach + 1] for t in range(len(values))]) / weight.sum()
 
 
-def pointing(print_m):
-    """(T, 3) unit vectors of feet from the way they point and how far up, the last two columns of prints (T, 5)."""
-    way, pitch = print_m[:, 3], print_m[:, 4]
-    return np.stack([np.cos(pitch) * np.cos(way), np.cos(pitch) * np.sin(way), np.sin(pitch)], axis=1)
-
-
 def moves_of(middle, toward, stands, print_m, yaw):
     """(T, 6) what brings a foot's middle and direction to where they belong, eased from stance to stance, else zero."""
     moves, last = np.zeros((len(stands), 6)), None
@@ -31,8 +25,8 @@ def moves_of(middle, toward, stands, print_m, yaw):
         rows = slice(start, stop)
         place = np.append(np.median((middle - level)[rows, :2], axis=0), 0.0)
         moves[rows, :3] = place + level[rows] - middle[rows]
-        if print_m.shape[1] == 5:
-            foot, own = pointing(print_m[rows]), toward[rows]
+        if print_m.shape[1] == 6:
+            foot, own = print_m[rows, 3:], toward[rows]
             across = np.sum(foot[:, 0] * own[:, 1] - foot[:, 1] * own[:, 0])
             moves[rows, 3:] = turn(foot, np.arctan2(across, np.sum(foot[:, :2] * own[:, :2]))) - own
         if last is None:
