@@ -145,7 +145,7 @@ class MotionPerformances(Performances):
         """The same with coefficients of posture (n, P) and root (n, R) ``moved``."""
         model, n, lengths = self.model, len(self), self.bone_length_m
         posture, channel = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
-        near = np.zeros(0, int) if model.footing is None else model.footing.nearest(posture)
+        near = self._stands_as(posture, channel)
         centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
         posture, channel = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, channel)))
         if moved is not None:
@@ -165,12 +165,16 @@ class MotionPerformances(Performances):
             path[..., :2] -= path[:, :1, :2]
         return Ground(decoding.control_points(path), bends, posture, posture.copy(), kept.copy(), fastest)
 
+    def _stands_as(self, posture: np.ndarray, channel: np.ndarray) -> np.ndarray:
+        """(n,) the recordings as which bodies stand that have coefficients of posture (n, P) and of root (n, R)."""
+        return np.zeros(0, int) if self.model.footing is None else self.model.footing.nearest(posture)
+
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.
 
         One block is this one itself, so that it stands on its feet once.
         """
-        if len(self) <= AT_ONCE:
+        if len(self) <= AT_ONCE or "_ground" in self.__dict__:
             return iter([(slice(None), self)])
         return (
             (slice(start, start + AT_ONCE), self[start : start + AT_ONCE]) for start in range(0, len(self), AT_ONCE)
