@@ -30,6 +30,8 @@ LOST_M, NEARER = 0.05, (0.7, 0.5, 0.3, 0.1, 0.0)
 SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 """Shares of the recordings that a local regression may look at; infinity: all, alike."""
 AS_GOOD = 1.03
+"""Curves follow as closely as they may at that price: what a narrow window adds to their scatter is not seen, but how a
+wide one cuts corners is. Times scatter more, and there the best window is taken."""
 
 Places = Callable[[np.ndarray], np.ndarray]
 """z (n, K) -> (n, R) what of the places is asked for, in metres."""
@@ -122,16 +124,16 @@ class LocalRegression:
         lever = np.linalg.solve(square, here[..., None])
         return np.asarray(weight * (1.0 + (apart @ lever)[..., 0]))
 
-    def best(self, scale: np.ndarray) -> LocalRegression:
+    def best(self, scale: np.ndarray, as_good: float = 1.0) -> LocalRegression:
         """With the span and degree that follow z most closely and foretell left-out recordings as well as any.
 
-        That is, of those whose error is at most ``AS_GOOD`` times the least, that with the greatest trace of the
-        smoother: scatter of draws hides what a wide window saves, not how it cuts corners. scale (K,) weighs errors.
+        That is, of those whose error is at most ``as_good`` times the least, that with the greatest trace of the
+        smoother. scale (K,) weighs errors.
         """
         tried = [replace(self, span=span, degree=degree) for degree in (1, 2) for span in SPANS]
         tried = [one for one in tried if len(self.z) * min(one.span, 1.0) > one.fewest or one is tried[0]]
         errors = [float(np.mean(((self.z - one._left_out()) * scale) ** 2)) for one in tried]
-        good = [one for one, error in zip(tried, errors) if error <= AS_GOOD * min(errors)]
+        good = [one for one, error in zip(tried, errors) if error <= as_good * min(errors)]
         return max(good, key=lambda one: float(np.trace(one._smoother(one.place))))
 
     def shrunk(self) -> LocalRegression:
@@ -181,7 +183,7 @@ class Trend:
     def fit(cls, model: JointLaw, z: np.ndarray, place: np.ndarray) -> Trend:
         """Windows as left-out recordings ask for them; z (N, K), place (N, R)."""
         timed, scale = beside_curves(model), errors_scale(model)
-        curves = LocalRegression(z[:, ~timed], place).best(scale[~timed])
+        curves = LocalRegression(z[:, ~timed], place).best(scale[~timed], AS_GOOD)
         return cls(timed, curves, LocalRegression(z[:, timed], place).best(scale[timed]).shrunk())
 
     def of(self, z: np.ndarray, place: np.ndarray) -> Trend:
