@@ -131,7 +131,7 @@ class MotionPerformances(Performances):
         model = self.model
         if model.footing is None:
             return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
-        if len(self) > AT_ONCE:
+        if len(self) > AT_ONCE and "_ground" not in self.__dict__:
             directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
             for rows, some in self._blocks():
                 directions[rows] = some._directions(place[rows], dtype)
@@ -149,7 +149,7 @@ class MotionPerformances(Performances):
     def _drawn(self) -> Drawn:
         model = self.model
         posture, root = (model.scale.raw(self.scores, name) for name in ("posture", "root"))
-        near = np.zeros(len(self), int) if model.footing is None else model.footing.nearest(posture)
+        near = self._stands_as(posture, root)
         time_s = model.warps(self.scores) * model.moving_s(self.scores)[:, None]
         return Drawn(posture, root, model.decoder.control(posture), self.bone_length_m, time_s, near)
 
@@ -211,12 +211,16 @@ class MotionPerformances(Performances):
         made = decoding.control_points(path), bends, posture.copy(), posture.copy(), flat.copy(), kept.copy(), fastest
         return Ground(*made)
 
+    def _stands_as(self, posture: np.ndarray, root: np.ndarray) -> np.ndarray:
+        """(n,) the recordings as which bodies stand that have coefficients of posture (n, P) and of root (n, R)."""
+        return np.zeros(len(self), int) if self.model.footing is None else self.model.footing.nearest(posture)
+
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.
 
         One block is this one itself, so that it stands on its feet once.
         """
-        if len(self) <= AT_ONCE:
+        if len(self) <= AT_ONCE or "_ground" in self.__dict__:
             return iter([(slice(None), self)])
         return (
             (slice(start, start + AT_ONCE), self[start : start + AT_ONCE]) for start in range(0, len(self), AT_ONCE)

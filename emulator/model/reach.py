@@ -1,6 +1,6 @@
 """Reach: the law of joint coordinates z of one worker, given where joints are at marks.
 
-h(z) is where they are (``targets.HandPlaces``). What the recordings tell of z by h(z), as a local linear regression
+h(z) is where they are (``targets.HandPlaces``). What the recordings tell of z by h(z), as a local regression
 M (Cleveland 1979), carries each component of the law from its own place to the target, z + M(target) - M(h(z)): it
 keeps what the place does not tell of it. A few Newton steps bring each onto the target itself; the noise about it is
 held there, by Matheron's rule with the derivative of h at the middle of the new law.
@@ -25,8 +25,13 @@ MARK_M = 0.03
 """How well a place tells: three centimetres. It keeps what places that hardly varied tell from growing wild."""
 STEP = 1e-3
 ROUNDS = 8
-SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25)
-"""Shares of the recordings that a local regression looks at; infinity: all, alike."""
+LOST_M, NEARER = 0.05, (0.7, 0.5, 0.3, 0.1, 0.0)
+"""A component that ends farther from its target begins anew with these shares of its way from the most likely z."""
+SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
+"""Shares of the recordings that a local regression may look at; infinity: all, alike."""
+AS_GOOD = 1.03
+"""Curves follow as closely as they may at that price: what a narrow window adds to their scatter is not seen, but how a
+wide one cuts corners is. Times scatter more, and there the best window is taken."""
 
 Places = Callable[[np.ndarray], np.ndarray]
 """z (n, K) -> (n, R) what of the places is asked for, in metres."""
@@ -73,9 +78,9 @@ def gain(covariance: np.ndarray, slope: np.ndarray, spread_m: float) -> np.ndarr
 
 @dataclass(frozen=True, eq=False)
 class LocalRegression:
-    """What recordings tell of z by their places: straight lines through those near a place (loess, degree 1).
+    """What recordings tell of z by their places: lines or parabolas through those near a place (loess).
 
-    z (N, K), place (N, R); span : share of the N that a line looks at
+    z (N, K), place (N, R); span : share of the N that a line looks at; degree : 1 or 2
     trust : (K,) how much of what is foretold beyond the mean is believed, 0 to 1
     Source: Cleveland (1979), tricube weights without robustness; as a ridge of ``MARK_M``.
     """
@@ -83,6 +88,7 @@ class LocalRegression:
     z: np.ndarray
     place: np.ndarray
     span: float = np.inf
+    degree: int = 1
     trust: np.ndarray = field(default_factory=lambda: np.ones(1))
 
     def weights(self, at: np.ndarray) -> np.ndarray:
@@ -97,8 +103,9 @@ class LocalRegression:
 
     @property
     def fewest(self) -> int:
-        """Recordings that a line needs."""
-        return 3 * (self.place.shape[1] + 1)
+        """Recordings that a line or a parabola needs."""
+        n = self.place.shape[1]
+        return 3 * (1 + n + (n * (n + 1) // 2 if self.degree == 2 else 0))
 
     def __call__(self, at: np.ndarray) -> np.ndarray:
         """(n, K) z as foretold at places (n, R)."""
@@ -109,36 +116,108 @@ class LocalRegression:
         """(n, N) what is multiplied by z: linear in it."""
         weight = self.weights(at)
         middle = weight @ self.place
-        apart = self.place - middle[:, None]
-        square = np.einsum("nir,ni,nis->nrs", apart, weight, apart) + MARK_M**2 * np.eye(self.place.shape[1])
-        lever = np.linalg.solve(square, (at - middle)[..., None])[..., 0]
-        return np.asarray(weight * (1.0 + np.einsum("nir,nr->ni", apart, lever)))
+        apart, here = self.place - middle[:, None], at - middle
+        doubt = np.full(here.shape, MARK_M**2)
+        if self.degree == 2:
+            apart, here, doubt = _bent(weight, apart, here, doubt)
+        square = np.swapaxes(apart, 1, 2) @ (weight[..., None] * apart) + doubt[:, None] * np.eye(here.shape[1])
+        lever = np.linalg.solve(square, here[..., None])
+        return np.asarray(weight * (1.0 + (apart @ lever)[..., 0]))
 
-    def covariance(self, at: np.ndarray) -> np.ndarray:
-        """(K, K) of z near one place (R,)."""
-        weight = self.weights(at[None])[0]
-        apart = self.z - weight @ self.z
-        return np.asarray(apart.T @ (weight[:, None] * apart))
+    def best(self, scale: np.ndarray, as_good: float = 1.0) -> LocalRegression:
+        """With the span and degree that follow z most closely and foretell left-out recordings as well as any.
 
-    def best(self, scale: np.ndarray, doubted: np.ndarray) -> LocalRegression:
-        """With the span that foretells left-out recordings best; scale (K,) weighs the errors of z.
-
-        doubted : (K,) coordinates of which no more is believed than left-out recordings bear out: the slope of these on
-        what is foretold of them, 0 to 1. Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
+        That is, of those whose error is at most ``as_good`` times the least, that with the greatest trace of the
+        smoother. scale (K,) weighs errors.
         """
-        spans = [span for span in SPANS if not np.isfinite(span) or span * len(self.z) > self.fewest]
-        tried = [replace(self, span=span) for span in spans]
-        foretold = [one._left_out() for one in tried]
-        best = int(np.argmin([np.mean(((self.z - told) * scale) ** 2) for told in foretold]))
-        told = foretold[best] - self.z.mean(axis=0)
-        slope = np.sum(told * (self.z - self.z.mean(axis=0)), axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
-        return replace(tried[best], trust=np.where(doubted, np.clip(slope, 0.0, 1.0), 1.0))
+        tried = [replace(self, span=span, degree=degree) for degree in (1, 2) for span in SPANS]
+        tried = [one for one in tried if len(self.z) * min(one.span, 1.0) > one.fewest or one is tried[0]]
+        errors = [float(np.mean(((self.z - one._left_out()) * scale) ** 2)) for one in tried]
+        good = [one for one, error in zip(tried, errors) if error <= as_good * min(errors)]
+        return max(good, key=lambda one: float(np.trace(one._smoother(one.place))))
+
+    def shrunk(self) -> LocalRegression:
+        """Of which no more is believed than left-out recordings bear out: the slope of z on what is foretold, 0 to 1.
+
+        Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
+        """
+        middle = self.z.mean(axis=0)
+        told = self._left_out() - middle
+        slope = np.sum(told * (self.z - middle), axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
+        return replace(self, trust=np.clip(slope, 0.0, 1.0))
 
     def _left_out(self) -> np.ndarray:
         """(N, K) each recording as foretold by the others."""
         smoother = self._smoother(self.place)
         own = np.minimum(np.diag(smoother), 0.95)[:, None]
         return np.asarray((smoother @ self.z - own * self.z) / (1.0 - own))
+
+
+def _bent(
+    weight: np.ndarray, apart: np.ndarray, here: np.ndarray, doubt: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places apart (n, N, R), here (n, R) and how far they are doubted (n, R), with their products beside them."""
+    first, second = np.triu_indices(here.shape[1])
+    products = apart[..., first] * apart[..., second]
+    level = np.einsum("ni,nir->nr", weight, products)
+    wide = np.einsum("ni,nir,nir->n", weight, apart, apart)
+    return (
+        np.concatenate([apart, products - level[:, None]], axis=2),
+        np.concatenate([here, here[:, first] * here[:, second] - level], axis=1),
+        np.concatenate([doubt, np.broadcast_to(MARK_M**2 * wide[:, None], level.shape)], axis=1),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Trend:
+    """What recordings tell of z by places: of curves, and of the single numbers beside them, each by its own window.
+
+    timed : (K,) which coordinates of z are durations, marks and pauses, of which places tell much or nothing
+    """
+
+    timed: np.ndarray
+    curves: LocalRegression
+    times: LocalRegression
+
+    @classmethod
+    def fit(cls, model: JointLaw, z: np.ndarray, place: np.ndarray) -> Trend:
+        """Windows as left-out recordings ask for them; z (N, K), place (N, R)."""
+        timed, scale = beside_curves(model), errors_scale(model)
+        curves = LocalRegression(z[:, ~timed], place).best(scale[~timed], AS_GOOD)
+        return cls(timed, curves, LocalRegression(z[:, timed], place).best(scale[timed]).shrunk())
+
+    def of(self, z: np.ndarray, place: np.ndarray) -> Trend:
+        """The same windows and trust over other z (N, K) and places (N, R)."""
+        curves, times = (
+            replace(one, z=z[:, which], place=place)
+            for one, which in ((self.curves, ~self.timed), (self.times, self.timed))
+        )
+        return replace(self, curves=curves, times=times)
+
+    def __call__(self, at: np.ndarray) -> np.ndarray:
+        """(n, K) z as foretold at places (n, R)."""
+        return self._together(self.curves(at), self.times(at))
+
+    def covariance(self, at: np.ndarray) -> np.ndarray:
+        """(K, K) of z near one place (R,)."""
+        weight, z = self.curves.weights(at[None])[0], self._together(self.curves.z, self.times.z)
+        apart = z - weight @ z
+        return np.asarray(apart.T @ (weight[:, None] * apart))
+
+    @property
+    def trust(self) -> np.ndarray:
+        """(K,) see ``LocalRegression``."""
+        return np.asarray(self._together(np.ones((1, self.curves.z.shape[1])), self.times.trust[None])[0])
+
+    @property
+    def place(self) -> np.ndarray:
+        """(N, R) of the recordings."""
+        return self.curves.place
+
+    def _together(self, curves: np.ndarray, times: np.ndarray) -> np.ndarray:
+        both = np.empty((len(curves), len(self.timed)))
+        both[:, ~self.timed], both[:, self.timed] = curves, times
+        return both
 
 
 def recorded(model: JointLaw, mean: np.ndarray | None) -> np.ndarray:
@@ -183,28 +262,33 @@ class ReachedLaw:
 
 
 def reached_law(
-    model: JointLaw, effect: WorkerEffect | None, places: Places, target: np.ndarray, like: LocalRegression
+    model: JointLaw, effect: WorkerEffect | None, places: Places, target: np.ndarray, like: Trend
 ) -> ReachedLaw:
     """The law of the worker with this effect, or (None) of anybody, given that ``places`` are at ``target`` (R,).
 
-    like : a regression whose span and trust are taken
+    like : a trend whose windows and trust are taken
     """
     law = model.workforce.law(effect)
     z = recorded(model, None if effect is None else effect.z)
-    trend = replace(like, z=z, place=places(z))
+    trend = like.of(z, places(z))
     foretold = trend(target[None])[0]
     near = trend.covariance(target) + np.mean(law.reach**2) * law.noise.covariance
     middle, moving = foretold, np.zeros((len(foretold), len(target)))
     slope = np.zeros((len(target), len(foretold)))
-    for _ in range(3):
+    for _ in range(ROUNDS):
         here, slope = derivative(places, middle)
         moving = like.trust[:, None] * gain(near, slope, HIT_M)
-        middle = middle + moving @ (target - here)
         if np.abs(target - here).max() < HIT_M:
             break
-    middle = on_target(places, middle[None], moving, target)[0]
+        middle = on_target(places, middle[None], moving, target)[0]
     centre = law.mean + (law.centre if law.people is None else law.people.mean)
-    moved = on_target(places, centre + foretold - trend(places(centre)), moving, target)
+    start = centre + foretold - trend(places(centre))
+    moved = on_target(places, start, moving, target)
+    for share in NEARER:  # what is too far away for a straight line begins nearer to the most likely one
+        lost = np.flatnonzero(np.linalg.norm(target - places(moved), axis=1) > LOST_M)
+        if lost.size == 0:
+            break
+        moved[lost] = on_target(places, middle + share * (start[lost] - middle), moving, target)
     people = None if law.people is None else held(law.people, slope)
     base = law.centre if law.people is None else law.people.mean
     own = replace(law, mean=moved - base, noise=held(law.noise, slope), people=people)

@@ -16,7 +16,7 @@ from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import fastest_of
 from emulator.model.gaussian import Law
 from emulator.model.performances import Ground, MotionPerformances, rows_of
-from emulator.model.reach import LocalRegression, ReachedLaw, beside_curves, errors_scale, reached_law, recorded
+from emulator.model.reach import ReachedLaw, Trend, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
 from emulator.performances import Floats
@@ -106,18 +106,37 @@ class ReachEmulator(MotionEmulator):
         return (posture, root), (places_m[1:] - places_m[0]).T / STEP_M
 
     @cached_property
+    def ways(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Coefficients (N, P + R0) of each recording's posture and root, and the squares that are least of the nearest.
+
+        None where there are no recordings, or no feet. A metre that the root or a joint is away counts as if all bones
+        were so far away throughout.
+        """
+        footing, known = self.footing, self.workforce.smoothed
+        if footing is None or known is None or len(footing.postures) != len(known.scores):
+            return None
+        ways = np.concatenate([footing.postures, self.root_weight * self.scale.raw(known.scores, "root")], axis=1)
+        away = self.root_weight**2 * self.n_times * np.sum((self._trend.place - self.target_m) ** 2, axis=1)
+        return ways, away + np.sum(ways**2, axis=1)
+
+    @property
+    def root_weight(self) -> float:
+        """What a coefficient of the root counts beside one of posture: it moves all bones."""
+        return float(np.sqrt(self.skeleton.n_bones))
+
+    @cached_property
     def _rows(self) -> list[int]:
         asked = [value for target in self.targets for value in target.place]
         return [i for i, value in enumerate(asked) if value is not None]
 
     @cached_property
-    def _trend(self) -> LocalRegression:
+    def _trend(self) -> Trend:
         """What the recordings tell of z by places: the same for all heights, so the free emulator keeps it."""
-        known: dict[Any, LocalRegression] = self.base.__dict__.setdefault("_trends", {})
+        known: dict[Any, Trend] = self.base.__dict__.setdefault("_trends", {})
         key = self.hands.joints, self.hands.marks, tuple(self._rows)
         if key not in known:
             z = recorded(self, None)
-            known[key] = LocalRegression(z, self.places(z)).best(errors_scale(self), beside_curves(self))
+            known[key] = Trend.fit(self, z, self.places(z))
         return known[key]
 
     @cached_property
@@ -186,8 +205,9 @@ class ReachPerformances(MotionPerformances):
                 break
             step = share[rows, None] * _shortened(np.einsum("nij,nj->ni", inverse[rows], miss[rows]), miss[rows])
             tried = at[rows] + step
-            again = self._some(rows)._stood(kept[rows], (tried @ posture.T, tried @ root.T))
-            missed = self.model.target_m - self[rows].places(again)
+            some = self._some(rows)
+            again = some._stood(kept[rows], (tried @ posture.T, tried @ root.T))
+            missed = self.model.target_m - some.places(again)
             inverse[rows] = _broyden(inverse[rows], step, miss[rows] - missed)
             better = np.linalg.norm(missed, axis=1) < np.linalg.norm(miss[rows], axis=1)
             share[rows] = np.where(better, 1.0, 0.5 * share[rows])
@@ -206,6 +226,17 @@ class ReachPerformances(MotionPerformances):
             directions[np.ix_(rows, np.arange(place.shape[1]), bones)] = lifted[:, :, bones]
         return directions
 
+    def _stands_as(self, posture: np.ndarray, channel: np.ndarray) -> np.ndarray:
+        """As recordings nearest in posture, in the way of the root and in where the joints are asked for.
+
+        Else a body that steps would stand as somebody who did not, and its step would be taken back.
+        """
+        if self.model.ways is None:
+            return super()._stands_as(posture, channel)
+        known, square = self.model.ways
+        own = np.concatenate([posture, self.model.root_weight * channel], axis=1)
+        return np.asarray((square - 2.0 * own @ known.T).argmin(axis=1))
+
     def stood(self, moved: tuple[np.ndarray, ...]) -> Ground:
         """Bodies on the ground with coefficients of posture (n, P) and root (n, R0) moved."""
         return self._stood(np.ones(len(self)), moved)
@@ -217,7 +248,7 @@ class ReachPerformances(MotionPerformances):
     def _standing(self, ground: Ground) -> ReachPerformances:
         """The same performances, standing like this."""
         standing = replace(self)
-        standing.__dict__["_ground"] = ground
+        standing.__dict__.update(_ground=ground, _drawn=self._drawn)
         return standing
 
 

@@ -1,6 +1,7 @@
 """``MotionEmulator.given`` and ``reach``: made people at shelves, where truth is known."""
 
 import pickle
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -16,7 +17,7 @@ from emulator.model.targets import HandPlaces
 from emulator.synthetic.shelf import MARK, crew, make_shelf, median_duration_s
 from tests.emulator.fitted import made
 
-SHELF_M = 1.2
+SHELF_M, STEP_AHEAD_M = 1.2, 0.6
 
 
 @cache
@@ -239,21 +240,59 @@ def test_a_local_line_foretells_a_line_and_bends_with_a_bend():
     line = LocalRegression(np.hstack([3.0 * place, -place]), place, 0.5)
     assert np.allclose(line(at_places), np.hstack([3.0 * at_places, -at_places]), atol=0.05)
     bend = LocalRegression(np.sin(2.0 * place), place)
-    best = bend.best(np.ones(1), np.zeros(1, bool))
+    best = bend.best(np.ones(1))
     assert np.isfinite(best.span)
-    assert (
-        np.abs(best(at_places) - np.sin(2.0 * at_places)).max()
-        < 0.1
-        < np.abs(bend(at_places) - np.sin(2.0 * at_places)).max()
-    )
+    off = [np.abs(one(at_places) - np.sin(2.0 * at_places)).max() for one in (best, bend)]
+    assert off[0] < 0.05 < off[1]
+
+
+def test_a_parabola_foretells_a_parabola_of_two_axes_to_its_edge():
+    rng = np.random.default_rng(2)
+    place = rng.uniform(-1.0, 1.0, size=(60, 2))
+
+    def z(at):
+        return (at[:, :1] ** 2 - 3.0 * at[:, :1] * at[:, 1:] + at[:, 1:]) * [1.0, -2.0]
+
+    edge = np.array([[0.95, 0.9], [-0.9, 0.9]])
+    off = [np.abs(LocalRegression(z(place), place, 0.9, degree)(edge) - z(edge)).max() for degree in (1, 2)]
+    assert off[1] < 0.1 < 0.5 < off[0]
+
+
+def test_of_windows_that_foretell_alike_the_narrower_one_is_taken():
+    """A line under noise: all windows are as good, so that what bends is never smoothed over for nothing."""
+    rng = np.random.default_rng(7)
+    place = np.linspace(0.0, 2.0, 200)[:, None]
+    one = LocalRegression(place + rng.normal(size=place.shape), place)
+    best, close = one.best(np.ones(1)), one.best(np.ones(1), 1.03)
+    error, more = (np.mean((each.z - each._left_out()) ** 2) for each in (best, close))
+    assert error <= more <= 1.03 * error
+    assert np.trace(close._smoother(place)) > np.trace(best._smoother(place))
 
 
 def test_what_places_do_not_tell_is_not_believed():
     rng = np.random.default_rng(5)
     place = rng.normal(size=(30, 3))
     z = np.column_stack([place[:, 0] + 0.1 * rng.normal(size=30), rng.normal(size=30)])
-    trust = LocalRegression(z, place).best(np.ones(2), np.ones(2, bool)).trust
+    trust = LocalRegression(z, place).shrunk().trust
     assert trust[0] > 0.9 and trust[1] < 0.4
+
+
+def with_step(motion):
+    """The same movement by somebody who glides ahead early on and stays there."""
+    share = np.clip((motion.time_s / motion.duration_s - 0.1) / 0.25, 0.0, 1.0)
+    root_m = motion.root_m.copy()
+    root_m[:, 0] += STEP_AHEAD_M * share**2 * (3.0 - 2.0 * share)
+    return replace(motion, root_m=root_m, trial=motion.trial + "_step")
+
+
+def test_a_body_that_steps_to_its_place_is_not_stood_back_where_it_was():
+    """Recordings in which people step, and others in which they do not: all three axes are met by each draw."""
+    stood = make_shelf(crew(3, np.random.default_rng(6)), 8, rng=np.random.default_rng(7), heights_m=[1.0, 1.2])
+    stepping = [with_step(one) for one in stood.motions]
+    emulator = MotionEmulator.fit(replace(stood, motions=(*stood.motions, *stepping)))
+    place = np.array([0.36 + STEP_AHEAD_M, 0.0, 1.1])
+    drawn = draws(emulator.given(Target("hands", MARK, ahead_m=place[0], aside_m=place[1], height_m=place[2])), 32)
+    assert np.linalg.norm(wrists_m(drawn) - place, axis=1).max() < 0.005
 
 
 def test_the_derivative_is_that_of_a_line():
