@@ -186,7 +186,8 @@ def strays(positions_m: np.ndarray, stands: np.ndarray, legs: Legs, step_s: floa
 
     positions_m (T, J, 3) every ``step_s`` seconds, stands (2, T). inf where nothing tells the centre of mass.
     """
-    from emulator.kernels.feet import carrying, strayed
+    from emulator.kernels.balance import strayed
+    from emulator.kernels.feet import carrying
 
     out = np.full(len(positions_m), np.inf)
     if legs.mass is not None and stands.any():
