@@ -16,13 +16,12 @@ from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.joint_speeds import peak_ratio, share_too_fast
 from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
-from emulator.model.smoothed import Curves, stiff
+from emulator.model.smoothed import Bands, Curves
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
-NOISES = (*((False, s) for s in (4.0, 16.0, 64.0)), *((True, s) for s in (4.0, 8.0, 16.0, 32.0, 64.0)))
-"""How much smoother than the recordings the noise about them may be, to choose from: at first beside the whole of their
-fine detail, and where that moves roughly, with the detail drawn in as far as all else."""
+STIFFNESSES = (4.0, 16.0, 64.0, 256.0)
+"""How much smoother than the recordings the noise about them may be, to choose from."""
 PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
@@ -66,10 +65,8 @@ def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: flo
     """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
     crew, scale = model.workforce, model.scale
     between = crew.apart() / np.sqrt(len(crew.names))
-    smooth = between.copy()
-    for curve in curves:
-        smooth[:, curve.at] = stiff(between[:, curve.at], curve, stiffness)
-    return Population.fit(between, smooth, scale.spread, tuple(curve.at for curve in curves), scale.block("bones"))
+    bands = [(curve.at, Bands.of(between[:, curve.at], curve, stiffness)) for curve in curves]
+    return Population.fit(between, bands, scale.block("bones"))
 
 
 def _first(
