@@ -1,8 +1,8 @@
 """How far draws go from what was recorded: as far as their movements stay ones that a body makes.
 
-The less stiff the noise, the farther a draw lies from every recording, and the rougher it moves; where the two meet
-differs from task to task. So both laws, of a worker's repetitions and of new people, are tried from the least stiff on,
-and the first is taken whose draws are about as smooth as the recordings.
+The less stiff the noise, the farther a draw lies from every recording, and the rougher and slower it moves; where
+these meet differs from task to task. So both laws, of a worker's repetitions and of new people, are tried from the
+least stiff on, and the first is taken whose draws are about as smooth and as quick as the recordings.
 """
 
 from __future__ import annotations
@@ -13,22 +13,23 @@ from dataclasses import replace
 import numpy as np
 
 from emulator.judge.clips import Clips, frame_rate_hz
-from emulator.judge.joint_speeds import peak_ratio, share_too_fast
+from emulator.judge.joint_speeds import median_speed_ratio, peak_ratio, share_too_fast
 from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
-from emulator.model.smoothed import Curves, stiff
+from emulator.model.smoothed import Bands, Curves
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
-NOISES = (*((False, s) for s in (4.0, 16.0, 64.0)), *((True, s) for s in (4.0, 8.0, 16.0, 32.0, 64.0)))
-"""How much smoother than the recordings the noise about them may be, to choose from: at first beside the whole of their
-fine detail, and where that moves roughly, with the detail drawn in as far as all else."""
+STIFFNESSES = (4.0, 16.0, 64.0, 256.0)
+"""How much smoother than the recordings the noise about them may be, to choose from."""
 PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
 """Draws of known and of new people may have so many times the recorded peak jerk."""
 MOST_FAST, MOST_FAST_NEW = 0.01, 0.05
 """And this share of them a joint that is too fast."""
+LEAST_SPEED = 0.93
+"""And the median of their peak speed is at least so much of the recorded: peaks blurred together are slow."""
 N_DRAWN = 200
 
 
@@ -49,7 +50,7 @@ def naturally(models: Iterable[Stiff], motions: MotionSet) -> Stiff:
 
 
 def with_population(model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet) -> Stiff:
-    """The model with the least stiff law of new people whose draws are smooth and slow enough; else the stiffest.
+    """The model with the least stiff law of new people whose draws are as smooth and quick as asked; else the stiffest.
 
     Unstiff, all of a person's deviation takes the size that the t gives it, fine detail and all: the law is widest, and
     roughest. The same model, and 0, where there is one person, or plain Gaussians.
@@ -66,10 +67,8 @@ def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: flo
     """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
     crew, scale = model.workforce, model.scale
     between = crew.apart() / np.sqrt(len(crew.names))
-    smooth = between.copy()
-    for curve in curves:
-        smooth[:, curve.at] = stiff(between[:, curve.at], curve, stiffness)
-    return Population.fit(between, smooth, scale.spread, tuple(curve.at for curve in curves), scale.block("bones"))
+    bands = [(curve.at, Bands.of(between[:, curve.at], curve, stiffness)) for curve in curves]
+    return Population.fit(between, bands, scale.block("bones"))
 
 
 def _first(
@@ -84,8 +83,8 @@ def _first(
         model = last[1]
         recorded = recorded or Clips.recorded(motions, model.skeleton)
         drawn = Clips.drawn(draw(model), rate_hz)
-        rough = peak_ratio(drawn, recorded, 3)
-        if (np.isnan(rough) or rough <= most_jerk) and share_too_fast(drawn, recorded) <= most_fast:
+        rough, slow = peak_ratio(drawn, recorded, 3) > most_jerk, median_speed_ratio(drawn, recorded) < LEAST_SPEED
+        if not rough and not slow and share_too_fast(drawn, recorded) <= most_fast:  # NaN: nothing moves
             break
     assert last is not None
     return last

@@ -87,7 +87,7 @@ SMOOTHED = (
 )
 STIFFNESS = (
     "noise {:g} times as smooth as what recordings of one worker differ by{}: the least smooth tried at which draws "
-    "jerk no more than {:g} times as hard as the recordings, or the smoothest"
+    "jerk no more than {:g} times as hard as the recordings and are as quick, or the smoothest"
 )
 STIFFNESS_PEOPLE = ", that between people {:g} times as smooth as what they differ by"
 POSTURE_SIZE = "all that say more than 0.1 degrees a bone"

@@ -22,7 +22,7 @@ from emulator.model.feet import FIRST_PRINT, NO_FLOOR, PRINTS, STRAY, Footing
 from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_coordinates import BLOCKS, CURVES, JointScale, Margin, bits, decode, encode, within_worker
 from emulator.model.reduction import JointPCA
-from emulator.model.smoothed import SmoothedScores, room
+from emulator.model.smoothed import SmoothedScores, less_told, room
 from emulator.people.population import Population
 from emulator.people.workers import Told, Workforce
 from emulator.skeleton import Skeleton
@@ -32,10 +32,10 @@ PCA = ("posture", "root", "pace", "bones")
 CURVE = {"mean": ("C",), "basis": ("R", "C")}
 DWELLS = {"clock": ("S",), "zero_share": ("S",), "mark_share": ("E", "S")}
 NORMAL = {"mean": ("K",), "factor": ("R", "K"), "spread": ("K",)}
-POPULATION = {"rows": ("W", "K"), "drawn_in": ("K",)}
+POPULATION = {"rows": ("W", "K"), "drawn_in": ("K",), "fine": ("W", "K")}
 SMOOTHED = {
     "scores": ("N", "K"), "owner": ("N",), "reach": ("N",), "factor": ("R", "K"), "spread": ("K",),
-    "drawn_in": ("K",), "tells": ("curves", "others"),
+    "left": ("N", "K"), "tells": ("curves", "others"),
 }  # fmt: skip
 """Arrays of each record: K coordinates, W workers, N recordings, S sites of pauses, E marks."""
 
@@ -119,7 +119,7 @@ def _recorded_postures(scale: JointScale, workforce: Workforce) -> np.ndarray:
     return scale.raw(np.zeros((0, sum(scale.sizes))) if known is None else known.scores, "posture")
 
 
-NEW = ("drawn_in", "tells")
+NEW = ("left", "tells")
 """Of smoothed scores, what libraries of before do not have."""
 
 
@@ -311,8 +311,10 @@ class _Parts:
             np.concatenate([np.full(n, block in names) for block, n in self.size.items()])
             for names in (CURVES, ("bones",))
         )
-        found = self.own.record(POPULATION, "population_")
-        return Population(found["rows"], self.own.shares("population_drawn_in", "K"), curves, bones)
+        table = {name: shape for name, shape in POPULATION.items() if name != "fine" or "population_fine" in self.own}
+        found = self.own.record(table, "population_")
+        fine = found.get("fine", np.zeros_like(found["rows"]))  # libraries of before have none
+        return Population(found["rows"], self.own.shares("population_drawn_in", "K"), fine, curves, bones)
 
     def _normal(self, name: str) -> LowRankNormal:
         found, rho = self.own.record(NORMAL, f"{name}_"), self.own.number("rho", self.plain["rho"][name])
@@ -324,21 +326,26 @@ class _Parts:
         return LowRankNormal(**found, rho=rho)
 
     def _smoothed(self) -> SmoothedScores:
-        known = "smoothed_drawn_in" in self.own
-        table = {name: shape for name, shape in SMOOTHED.items() if known or name not in NEW}
+        table = {name: shape for name, shape in SMOOTHED.items() if f"smoothed_{name}" in self.own or name not in NEW}
         parts = self.own.record(table, "smoothed_")
         n_workers = self.own.letters["W"]
-        if not known:  # a library of before: coordinate by coordinate
-            noise, reach = np.sum(parts["factor"] ** 2, axis=0), np.mean(parts["reach"] ** 2)
-            variance = np.mean(within_worker(parts["scores"], parts["owner"]) ** 2, axis=0)
-            parts["tells"] = np.zeros((self.own.letters["curves"], self.own.letters["others"]))
-            parts["drawn_in"] = room(parts["spread"] ** 2 - reach * noise, variance)
+        parts.setdefault("tells", np.zeros((self.own.letters["curves"], self.own.letters["others"])))
+        if "left" not in parts:
+            own = within_worker(parts["scores"], parts["owner"])
+            parts["left"] = less_told(own, parts["tells"]) * self._drawn_in(parts, np.mean(own**2, axis=0))
         found = SmoothedScores(**parts)
         if found.owner.dtype.kind != "i" or set(found.owner.tolist()) != set(range(n_workers)):
             raise ValueError(f"{self.task}/smoothed_owner: expected numbers of all {n_workers} workers")
-        if any(np.any(part < 0) for part in (found.reach, found.spread, found.drawn_in)):
-            raise ValueError(f"{self.task}: a reach, a spread or a share of the smoothed scores makes no sense")
+        if any(np.any(part < 0) for part in (found.reach, found.spread)):
+            raise ValueError(f"{self.task}: a reach or a spread of the smoothed scores makes no sense")
         return found
+
+    def _drawn_in(self, parts: Mapping[str, np.ndarray], variance: np.ndarray) -> np.ndarray:
+        """(K,) what deviations of this variance (K,) are drawn in by in libraries of before, one by one."""
+        if "smoothed_drawn_in" in self.own:
+            return self.own.array("smoothed_drawn_in", "K", low=0.0)
+        noise, reach = np.sum(parts["factor"] ** 2, axis=0), np.mean(parts["reach"] ** 2)
+        return room(parts["spread"] ** 2 - reach * noise, variance)
 
     def _explained(self, name: str) -> float:
         return self.own.number("explained_variance", self.plain["explained_variance"][name])

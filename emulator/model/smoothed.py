@@ -34,9 +34,9 @@ class SmoothedScores:
     reach  : (N,) factor on the noise about each; smaller where repetitions lie close together
     factor : (R, K) noise is reach * xi @ factor, xi (R,) standard normal
     spread : (K,) within-worker standard deviations that draws are to have
-    drawn_in : (K,) what deviations from a worker's mean are multiplied by, to leave room for the noise; of coordinates
-               that curves tell of, what is left of them
-    tells    : (C, K - C) what the first C coordinates, curves, tell of all others: their regression within workers
+    left   : (N, K) what is left of each one's deviation from its worker's mean beside the noise; of all but curves, of
+             what curves do not tell
+    tells  : (C, K - C) what the first C coordinates, curves, tell of all others: their regression within workers
     """
 
     scores: np.ndarray
@@ -44,7 +44,7 @@ class SmoothedScores:
     reach: np.ndarray
     factor: np.ndarray
     spread: np.ndarray
-    drawn_in: np.ndarray
+    left: np.ndarray
     tells: np.ndarray
 
     @cached_property
@@ -60,7 +60,7 @@ class SmoothedScores:
     @cached_property
     def deviations(self) -> np.ndarray:
         """(N, K) deviation of each recording from its worker's mean, drawn in; what its curves tell goes with them."""
-        return with_told(less_told(within_worker(self.scores, self.owner), self.tells) * self.drawn_in, self.tells)
+        return with_told(self.left, self.tells)
 
     def anyone(self, mean: np.ndarray, like: int | None = None) -> Law:
         """The law of somebody never seen with this mean (K,): deviations like those of one worker, or of all."""
@@ -121,17 +121,15 @@ def with_told(rows: np.ndarray, tells: np.ndarray) -> np.ndarray:
     return np.concatenate([rows[:, :n], rows[:, n:] + rows[:, :n] @ tells], axis=1)
 
 
-def room(left: np.ndarray, variance: np.ndarray, at_most: float = 1.0) -> np.ndarray:
-    """The factor by which deviations of this variance leave no more than ``left`` of it; its square ``at_most``."""
-    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), at_most))
+def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
+    """The factor, at most 1, by which deviations of this variance leave no more than ``left`` of it."""
+    return np.sqrt(np.minimum(np.maximum(left, 0.0) / np.maximum(variance, 1e-18), 1.0))
 
 
 QUARTILES = (0.25, 0.5, 0.75)
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
 MOST_NOISE = 0.5
 """Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
-MOST_DRAWN_OUT = 1.0
-"""Of the variance of deviations from a mean of few: beyond it the fine detail of curves gets rough."""
 PENALTIES = np.geomspace(1e-4, 1e4, 33)
 """Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
 
@@ -149,6 +147,46 @@ class Curves:
     bend: np.ndarray
 
 
+@dataclass(frozen=True, eq=False)
+class Bands:
+    """Deviations along one kind of curve, parted by how much they bend: what is slow in time, and fine detail.
+
+    axes : (P, P) columns orthonormal in raw coordinates, from those that bend least; size : (P,) raw spreads
+    passes : (P,) what a smoothing lets through of each, 1 of what hardly bends; share : (P,) of the variance in each
+    """
+
+    axes: np.ndarray
+    size: np.ndarray
+    passes: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def of(cls, rows: np.ndarray, curve: Curves, stiffness: float) -> Bands:
+        """For rows (R, P), smoothed by (I + (lambda bend)^2)^-1 (after Silverman 1996, smoothed principal components).
+
+        lambda is ``stiffness`` times the rows' median variance over their bending.
+        """
+        raw = rows * curve.size
+        bending = np.sum((raw @ curve.bend) * raw, axis=1)
+        weight = stiffness * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
+        bends, axes = np.linalg.eigh(curve.bend)
+        square = np.sum((raw @ axes) ** 2, axis=0)
+        return cls(axes, curve.size, 1.0 / (1.0 + (weight * bends) ** 2), square / max(square.sum(), 1e-300))
+
+    def noise(self, h: float) -> np.ndarray:
+        """(P,) share of the variance in each band that is noise with bandwidth h, of all at most ``MOST_NOISE``."""
+
+        def square(by: float) -> np.ndarray:
+            return np.minimum((by * self.passes) ** 2, 1.0)
+
+        most = _largest_not(lambda by: bool(self.share @ square(by) > MOST_NOISE))
+        return square(min(h, most))
+
+    def times(self, rows: np.ndarray, factor: np.ndarray) -> np.ndarray:
+        """Rows (R, P) with each band times its factor (P,)."""
+        return np.asarray(((rows * self.size) @ self.axes * factor) @ self.axes.T / self.size)
+
+
 def smoothed(
     z: np.ndarray,
     owner: np.ndarray,
@@ -157,7 +195,6 @@ def smoothed(
     others: tuple[Curves, ...],
     gram: np.ndarray,
     stiffness: float,
-    whole: bool = True,
 ) -> SmoothedScores:
     """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
 
@@ -165,64 +202,48 @@ def smoothed(
     posture : decides the bandwidth; others : are blurred like it, as stiffly
     gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
     stiffness : how much smoother than the recordings the noise is
-    whole   : deviations of a curve are drawn in by one factor, else coordinate by coordinate: fine detail stays whole
     """
     square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
     nearest = np.sort(other, axis=1)[:, : min(N_NEAREST, len(z) - 1)]
     curves, at, size = (posture, *others), posture.at, posture.size
-    tells = told_by_curves(within_worker(z, owner), curves, _n_free(owner))
-    noise = _noise(z, owner, curves, tells, stiffness)
-    sharp = SmoothedScores(z, owner, _reach(nearest), noise, spread, np.ones(z.shape[1]), tells)
+    own = within_worker(z, owner)
+    tells = told_by_curves(own, curves, _n_free(owner))
+    bands = [Bands.of(own[:, curve.at], curve, stiffness) for curve in curves]
+    noise = _noise(own, owner, curves, tells)
+    sharp = SmoothedScores(z, owner, _reach(nearest), noise, spread, less_told(own, tells), tells)
     recorded = z[:, at] * size
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
 
     def too_far(h: float) -> bool:
-        draws = _drawn(_blurred(sharp, h, curves, whole))[:, at] * size
+        draws = _drawn(_blurred(sharp, h, curves, bands))[:, at] * size
         reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
         return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
 
     asked = np.quantile(nearest[:, 0], QUARTILES)
     h = _largest_not(too_far)
-    blurred = _blurred(sharp, h, curves, whole)
+    blurred = _blurred(sharp, h, curves, bands)
     return replace(blurred, factor=compressed(blurred.factor))
 
 
-def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], whole: bool) -> SmoothedScores:
-    """With bandwidth h along curves, though no coordinate varies more than it is to vary; beside them by the rule.
+def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], bands: list[Bands]) -> SmoothedScores:
+    """With bandwidth h along curves: noise in place of what is slow in time of deviations; beside them by the rule.
 
-    What deviations are drawn in by, to leave room for the noise, is a factor for each coordinate, or one for each curve
-    where fine detail parted from the large coordinates that it belongs to would be rough. They are drawn out
-    by no more than deviations from a mean of few lack of the variance (Davison & Hinkley 1997, eq. 6.9), and no more
-    than ``MOST_DRAWN_OUT``: of few repetitions a drawn body would be wilder in its fine detail than any. All other
-    coordinates go with the curves, as drawn, as far as these tell of them, and what is left takes noise by the rule:
-    with noise of their own for all of them a duration kept 0.48 of its correlation with made postures, where 0.60
-    was recorded.
+    In each band the shares of noise and of deviations add up to the variance, so fine detail, which takes no noise,
+    stays whole. Drawn in as a whole towards their mean, movements whose peaks come at different times lost a fifth of
+    their speed. Deviations from a mean of few lack a share of the variance (Davison & Hinkley 1997, eq. 6.9): that
+    much more is left of them, but no more than they are, else of few repetitions a drawn body would be wilder in its
+    fine detail than any. All other coordinates go with the curves, as drawn, as far as these tell of them, and what is
+    left takes noise by the rule: with noise of their own for all of them a duration kept 0.48 of its correlation with
+    made postures, where 0.60 was recorded.
     """
-    noise = sharp.noise.spread * np.sqrt(np.mean(sharp.reach**2))
-    variance = np.mean(within_worker(sharp.scores, sharp.owner) ** 2, axis=0)
     lacking = len(sharp.owner) / _n_free(sharp.owner)
-    wanted, drawn_in, most = noise.copy(), np.ones(len(noise)), min(lacking, MOST_DRAWN_OUT)
-    for curve in curves:
-        here, weight = curve.at, curve.size**2
-        wanted[here] = np.minimum(_at_most(h * noise[here], sharp.spread[here], weight), sharp.spread[here])
-        left = np.maximum(sharp.spread[here] ** 2 - wanted[here] ** 2, 0.0)
-        if whole:
-            left, there = np.sum(left * weight), np.sum(variance[here] * weight)
-        else:
-            there = variance[here]
-        drawn_in[here] = room(left, there, most)
-    factor = sharp.factor * wanted / np.maximum(noise, 1e-12)
-    return _beside_curves(replace(sharp, factor=factor, drawn_in=drawn_in), curves)
-
-
-def _at_most(noise: np.ndarray, spread: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Standard deviations (P,) of noise, all by one factor, so that it is at most ``MOST_NOISE`` of a curve's variance.
-
-    A bound on each coordinate would make all of them alike, and stiff noise as rough as the recordings.
-    """
-    total, most = np.sum(noise**2 * weight), MOST_NOISE * np.sum(spread**2 * weight)
-    return noise * np.sqrt(min(1.0, most / max(total, 1e-300)))
+    factor, left = sharp.factor.copy(), sharp.left.copy()
+    for curve, band in zip(curves, bands):
+        noise = band.noise(h)
+        factor[:, curve.at] = band.times(factor[:, curve.at], np.sqrt(noise))
+        left[:, curve.at] = band.times(left[:, curve.at], np.sqrt(np.minimum(lacking * (1.0 - noise), 1.0)))
+    return _beside_curves(replace(sharp, factor=factor, left=left), curves)
 
 
 def _beside_curves(blurred: SmoothedScores, curves: tuple[Curves, ...]) -> SmoothedScores:
@@ -245,10 +266,10 @@ def _beside_curves(blurred: SmoothedScores, curves: tuple[Curves, ...]) -> Smoot
     rest, wild = less_told(own, blurred.tells)[:, n:], np.linalg.norm(blurred.factor[:, n:], axis=0)
     wanted = np.sqrt(_noise_share(blurred.owner) * np.sum(rest**2, axis=0) / n_free / square)
     blurred.factor[:, n:] = blurred.factor[:, n:] * wanted / np.maximum(wild, 1e-12) + noise * less
-    told, rest = told * less, blurred.deviations[:, n:] - told * less
+    told = told * less
     left = blurred.spread[n:] ** 2 - square * np.sum(blurred.factor[:, n:] ** 2, axis=0) - np.mean(told**2, axis=0)
-    factor = _root(np.mean(rest**2, axis=0), np.mean(rest * told, axis=0), left)
-    return replace(blurred, drawn_in=np.append(blurred.drawn_in[:n], factor))
+    rest = rest * _root(np.mean(rest**2, axis=0), np.mean(rest * told, axis=0), left)
+    return replace(blurred, left=np.concatenate([blurred.left[:, :n], rest], axis=1))
 
 
 def _n_free(owner: np.ndarray) -> int:
@@ -322,28 +343,16 @@ def _reach(nearest: np.ndarray) -> np.ndarray:
     return reach / np.sqrt(np.mean(reach**2))
 
 
-def _noise(
-    z: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray, stiffness: float
-) -> np.ndarray:
+def _noise(own: np.ndarray, owner: np.ndarray, curves: tuple[Curves, ...], tells: np.ndarray) -> np.ndarray:
     """(N, K) rows of the within-worker covariance, strange repetitions drawn in to the median size (Huber 1964).
 
-    Curves are smoothed by (I + (lambda bend)^2)^-1, so that noise moves a recording without making it rough (after
-    Silverman 1996, smoothed principal components), see ``stiff``. Of all else the rows are what curves do not tell.
+    Of curves, which the first of them tells, all then are as much larger as leaves the variance what it was; of all
+    else the rows are what curves do not tell.
     """
-    rows = less_told(within_worker(z, owner), tells)
+    rows = less_told(own, tells)
     length = np.linalg.norm(rows[:, curves[0].at] * curves[0].size, axis=1)
     rows = rows * np.minimum(1.0, np.median(length) / np.maximum(length, 1e-12))[:, None]
     for curve in curves:
-        rows[:, curve.at] = stiff(rows[:, curve.at], curve, stiffness)
+        before, after = (float(np.sum((some[:, curve.at] * curve.size) ** 2)) for some in (own, rows))
+        rows[:, curve.at] *= np.sqrt(before / max(after, 1e-300))
     return rows / np.sqrt(_n_free(owner))
-
-
-def stiff(rows: np.ndarray, curve: Curves, stiffness: float) -> np.ndarray:
-    """Rows (R, P) of a block of curves, smoothed by (I + (lambda bend)^2)^-1.
-
-    lambda is ``stiffness`` times the rows' median variance over their bending.
-    """
-    raw = rows * curve.size
-    bending = np.sum((raw @ curve.bend) * raw, axis=1)
-    weight = stiffness * np.median(np.sum(raw**2, axis=1) / np.where(bending > 0, bending, np.inf))
-    return np.linalg.solve(np.eye(len(curve.size)) + weight**2 * curve.bend @ curve.bend, raw.T).T / curve.size

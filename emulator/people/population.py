@@ -10,12 +10,13 @@ of a chi-square, in equal steps.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from emulator.model.smoothed import room
+from emulator.model.smoothed import Bands
 
 N_SIZES, LARGEST_SIZE = 8, 3.0
 BODY_SHARE = 0.1
@@ -28,6 +29,7 @@ class Population:
 
     rows     : (W, K) noise between people, xi (W,) standard normal
     drawn_in : (K,) at most 1, what leaves room for the noise
+    fine     : (W, K) what is added of each person: fine detail takes no noise, and is not drawn in
     curves   : (K,) coordinates that say curves over time: only the smooth part of a deviation is of the size, since
                nobody's fine detail is to be made larger
     bones    : (K,) coordinates whose deviations are of size 1
@@ -35,30 +37,28 @@ class Population:
 
     rows: np.ndarray
     drawn_in: np.ndarray
+    fine: np.ndarray
     curves: np.ndarray
     bones: np.ndarray
 
     @classmethod
-    def fit(
-        cls, between: np.ndarray, smooth: np.ndarray, size: np.ndarray, curves: tuple[slice, ...], bones: slice
-    ) -> Population:
-        """From rows (W, K) whose product is the covariance between people, and the same rows made smooth.
+    def fit(cls, between: np.ndarray, curves: Sequence[tuple[slice, Bands]], bones: slice) -> Population:
+        """From rows (W, K) whose product is the covariance between people.
 
-        size : (K,) raw standard deviations; curves, bones : where these blocks lie
+        curves : where these blocks lie, and how they are smoothed; bones : where this block lies
         """
         share = noise_share(len(between))
+        rows, fine = np.sqrt(share) * between, np.zeros_like(between)
         at_curves, at_bones = np.zeros((2, between.shape[1]), bool)
-        rows = np.sqrt(share) * smooth
-        variance = np.sum(between**2, axis=0)
         drawn_in = np.full(between.shape[1], np.sqrt(1.0 - share))
-        for at in curves:
+        for at, bands in curves:
             at_curves[at] = True
-            weight = size[at] ** 2
-            left = np.sum((variance[at] - np.sum(rows[:, at] ** 2, axis=0)) * weight)
-            drawn_in[at] = room(left, np.sum(variance[at] * weight))
+            rows[:, at] = bands.times(rows[:, at], bands.passes)
+            whole = np.sqrt(1.0 - share * bands.passes**2)
+            fine[:, at] = bands.times(between[:, at], whole - np.sqrt(1.0 - share))
         at_bones[bones], drawn_in[bones] = True, np.sqrt(1.0 - BODY_SHARE)
         rows[:, bones] = np.sqrt(BODY_SHARE) * between[:, bones]
-        return cls(rows, drawn_in, at_curves, at_bones)
+        return cls(rows, drawn_in, fine, at_curves, at_bones)
 
     @property
     def sizes(self) -> np.ndarray:
@@ -72,7 +72,8 @@ class Population:
         """
         smooth = self.rows * left * np.sqrt(len(own) / noise_share(len(own)))
         sized = np.where(self.curves, smooth, np.where(self.bones, 0.0, own))
-        return np.asarray((own + (self.sizes[:, None, None] - 1.0) * sized) * self.drawn_in)
+        fine = self.fine * left * np.sqrt(len(own))
+        return np.asarray((own + (self.sizes[:, None, None] - 1.0) * sized) * self.drawn_in + fine)
 
 
 def noise_share(n_people: int) -> float:

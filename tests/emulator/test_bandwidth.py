@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from emulator.model.joint_coordinates import within_worker
-from emulator.model.smoothed import Curves, less_told, smoothed, told_by_curves
+from emulator.model.smoothed import Bands, Curves, less_told, smoothed, told_by_curves
+from emulator.people.population import Population
 
 OWNERS = 5
 
@@ -25,7 +26,7 @@ def made(n_each=8, kinds=0.0, k=6, seed=0, bend=None):
 
 def alone(blurred):
     """(N, C) deviations of the recordings' curves themselves, drawn in, before any two are mixed."""
-    return ((blurred.scores - blurred.means[blurred.owner]) * blurred.drawn_in)[:, : len(blurred.tells)]
+    return blurred.left[:, : len(blurred.tells)]
 
 
 def covariance(blurred):
@@ -72,6 +73,27 @@ def test_noise_bends_less_than_the_recordings():
     free, _, _ = made()
     share = [np.linalg.norm(b.factor[:, 4:6]) / np.linalg.norm(b.factor[:, :3]) for b in (stiff, free)]
     assert share[0] < 0.2 * share[1]
+
+
+def test_noise_and_what_is_left_of_recordings_add_up_in_each_band_and_fine_detail_stays_whole():
+    rng = np.random.default_rng(1)
+    bend, size, z = np.diag([0.01, 0.1, 1.0, 1e6]), np.array([2.0, 1.0, 1.0, 0.5]), rng.normal(size=(30, 4))
+    bands = Bands.of(z, Curves(slice(0, 4), size, bend), 4.0)
+    noise = bands.noise(40.0)
+    assert bands.share @ noise == pytest.approx(0.5, abs=1e-3) and noise[0] >= noise[1] > noise[2] and noise[3] < 1e-6
+    left, blur = (bands.times(z, np.sqrt(share)) for share in (1.0 - noise, noise))
+    assert np.allclose(np.sum(left**2 + blur**2, axis=0), np.sum(z**2, axis=0))
+    assert np.allclose(left[:, 3], z[:, 3]) and np.allclose(blur[:, 3], 0.0, atol=1e-3)
+    assert bands.noise(1e-3).max() < 1e-5
+
+
+def test_people_keep_their_fine_detail_and_all_their_variance():
+    rng = np.random.default_rng(2)
+    curve, between = Curves(slice(0, 3), np.ones(3), np.diag([0.01, 1.0, 1e6])), rng.normal(size=(4, 5))
+    law = Population.fit(between, [(curve.at, Bands.of(between[:, :3], curve, 4.0))], slice(4, 5))
+    alike = law.drawn_in * between + law.fine
+    assert np.allclose(np.sum(alike**2 + law.rows**2, axis=0), np.sum(between**2, axis=0))
+    assert np.allclose(alike[:, 2], between[:, 2]) and np.abs(alike[:, 0]).max() < 0.9 * np.abs(between[:, 0]).max()
 
 
 def test_a_strange_repetition_does_not_set_the_noise():

@@ -19,10 +19,10 @@ def smoothed(n_workers=5, n_each=8, h=0.4, seed=0):
 
 
 def rest(scores, owner, factor, spread):
-    """What deviations are drawn in by, and nothing that curves tell."""
-    variance = np.mean((scores - np.stack([scores[owner == w].mean(0) for w in owner])) ** 2, axis=0)
-    drawn_in = room(spread**2 - np.sum(factor**2, axis=0), variance)
-    return drawn_in, np.zeros((K - 1, 1))
+    """What is left of deviations, and nothing that curves tell."""
+    within = scores - np.stack([scores[owner == w].mean(0) for w in owner])
+    drawn_in = room(spread**2 - np.sum(factor**2, axis=0), np.mean(within**2, axis=0))
+    return within * drawn_in, np.zeros((K - 1, 1))
 
 
 def variance(law):
@@ -41,8 +41,8 @@ def test_what_curves_tell_of_the_rest_goes_with_them():
     tells = np.array([[0.5], [0.0], [-1.0]])
     plain, told = blurred.deviations, replace(blurred, tells=tells).deviations
     assert np.allclose(told[:, :3], plain[:, :3])
-    rest = replace(blurred, scores=less_told(blurred.scores, tells)).deviations[:, 3:]
-    assert np.allclose(told[:, 3:], rest + plain[:, :3] @ tells)
+    assert np.allclose(told[:, 3:], plain[:, 3:] + plain[:, :3] @ tells)
+    assert np.allclose(less_told(told, tells), plain)
 
 
 def test_a_known_worker_is_mostly_drawn_about_his_own_repetitions():
