@@ -22,7 +22,7 @@ from emulator.motion import Motion, MotionSet, turn
 PENALTIES = (1.0, 3.0, 10.0, 30.0, 100.0)
 """Weights to choose from, in order: a tenth does nothing, at a hundred hardly anything is aligned."""
 HARDLY_MORE, N_PARTNERS, STILL_M_PER_S2 = 1.1, 5, 0.01
-N_ALIGNED, MOST_RATE_HZ = 101, 60.0
+N_ALIGNED, MOST_RATE_HZ, LEAST_RATE_HZ = 101, 60.0, 30.0
 PACE_SHARE, LARGEST_PACE = 0.98, 10
 
 
@@ -93,14 +93,15 @@ def moving_of(whole: MotionSet) -> tuple[MotionSet, tuple[tuple[Hold, ...], ...]
 
 
 def clock_size(motions: MotionSet) -> int:
-    """Points of the common clock: as many as a long recording has frames at up to ``MOST_RATE_HZ``.
+    """Points of the common clock: as many as a recording of the mean duration has frames at up to ``MOST_RATE_HZ``.
 
-    Long is the third quartile of durations: with as many as the mean asks for, what trembles between the points was
-    read as slow in the longer half, and a walk of 4 to 7 s kept .90 of its jerk.
+    And a long one, the third quartile, at up to ``LEAST_RATE_HZ``. With fewer, what trembles between them would be read
+    as slow: a walk of 4 to 7 s at 30 frames a second kept .90 of its jerk by the mean alone.
     """
     rates_hz = [(len(m.time_s) - 1) / m.duration_s for m in motions.motions]
-    long_s = float(np.quantile(motions.duration_s, 0.75))
-    return int(np.clip(np.ceil(long_s * min(np.median(rates_hz), MOST_RATE_HZ)) + 1, *CLOCK))
+    rate_hz, long_s = float(np.median(rates_hz)), float(np.quantile(motions.duration_s, 0.75))
+    n_frames = max(motions.duration_s.mean() * min(rate_hz, MOST_RATE_HZ), long_s * min(rate_hz, LEAST_RATE_HZ))
+    return int(np.clip(np.ceil(n_frames) + 1, *CLOCK))
 
 
 def penalised(motions: MotionSet, settings: FitSettings, progress: Progress = None) -> tuple[float, np.ndarray]:
