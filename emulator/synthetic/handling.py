@@ -5,15 +5,13 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from emulator.synthetic.shelf import crew, make_shelf
-from emulator.synthetic.tasks import SOURCE
+from emulator.synthetic.tasks import SOURCE, write_library
 
 if TYPE_CHECKING:
     from emulator.model.library import MotionLibrary
@@ -34,15 +32,7 @@ def handling_library(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the library of handling and say what was fitted."""
-    parser = argparse.ArgumentParser(prog="python -m emulator.synthetic.handling", description=main.__doc__)
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the library to write (.npz)")
-    parser.add_argument("--seed", type=int, default=0)
-    options = parser.parse_args(arguments)
-    command = f"python -m emulator.synthetic.handling -o {options.output.name} --seed {options.seed}"
-    library = handling_library(options.seed, command=command)
-    library.save(options.output)
-    print("; ".join(f"{label}: {text}" for label, text in library.only().report.rows()))
-    print(f"{options.output}: {options.output.stat().st_size / 1000:.0f} kB")
+    write_library("python -m emulator.synthetic.handling", main.__doc__, handling_library, arguments)
 
 
 if __name__ == "__main__":

@@ -138,12 +138,19 @@ def bench_work_library(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the library of bench work and say what was fitted."""
-    parser = argparse.ArgumentParser(prog="python -m emulator.synthetic", description=main.__doc__)
+    write_library("python -m emulator.synthetic", main.__doc__, bench_work_library, arguments)
+
+
+def write_library(
+    program: str, purpose: str | None, made: Callable[..., MotionLibrary], arguments: Sequence[str] | None
+) -> None:
+    """Write the library that ``made(seed, command=...)`` makes to ``-o``, and say what was fitted."""
+    parser = argparse.ArgumentParser(prog=program, description=purpose)
     parser.add_argument("-o", "--output", type=Path, required=True, help="the library to write (.npz)")
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args(arguments)
-    command = f"python -m emulator.synthetic -o {options.output.name} --seed {options.seed}"
-    library = bench_work_library(options.seed, command=command)
+    command = f"{program} -o {options.output.name} --seed {options.seed}"
+    library = made(options.seed, command=command)
     library.save(options.output)
     for task, emulator in library.items():
         print(task, "; ".join(f"{label}: {text}" for label, text in emulator.report.rows()), sep=": ")

@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +15,7 @@ from emulator.recordings.take import Recording, Take
 from emulator.skeleton import standard_skeleton
 from emulator.synthetic.choreography import Body, joints_m
 from emulator.synthetic.gait import Style, WalkPlan, draw_plan, draw_style, walk_pose
-from emulator.synthetic.tasks import LICENCE, SOURCE, draw_bodies
+from emulator.synthetic.tasks import LICENCE, SOURCE, draw_bodies, write_library
 
 if TYPE_CHECKING:
     from emulator.model.library import MotionLibrary
@@ -90,15 +88,7 @@ def walking_library(seed: int = 0, n_workers: int = 12, n_takes: int = 5, comman
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Write the library of walking and say what was fitted."""
-    parser = argparse.ArgumentParser(prog=COMMAND, description=main.__doc__)
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the library to write (.npz)")
-    parser.add_argument("--seed", type=int, default=0)
-    options = parser.parse_args(arguments)
-    library = walking_library(options.seed, command=f"{COMMAND} -o {options.output.name} --seed {options.seed}")
-    library.save(options.output)
-    for task, emulator in library.items():
-        print(task, "; ".join(f"{label}: {text}" for label, text in emulator.report.rows()), sep=": ")
-    print(f"{options.output}: {options.output.stat().st_size / 1000:.0f} kB")
+    write_library(COMMAND, main.__doc__, walking_library, arguments)
 
 
 def _take(plan: WalkPlan, style: Style, rng: np.random.Generator, worker: str, trial: str) -> Take:

@@ -69,6 +69,7 @@ PARTS: dict[Part, tuple[str, ...]] = {
         "worker_timeline.worker_timeline_section",
         "exposure.exposure_section",
         "postures.posture_section",
+        "reach.reach_section",
         "learning_fatigue.learning_and_fatigue_section",
         "variability.time_spread_section",
     ),

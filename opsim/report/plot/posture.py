@@ -39,14 +39,38 @@ def load_box(
     if load_kg <= 0 or hands is None:
         return []
     half, middle = _held(hands, float(np.clip(np.cbrt(load_kg / KG_PER_M3), SMALLEST_M, LARGEST_M)) / 2)
-    faces = [(_corners(axis, side) * half + middle, colour) for (axis, side), colour in FACES]
+    return [(float(seen(middle)[2]), _box(half, middle, seen, FACES, "#8a6b3d"))]
+
+
+def _box(
+    half: np.ndarray,
+    middle: np.ndarray,
+    seen: Callable[[np.ndarray], np.ndarray],
+    faces: Sequence[tuple[tuple[int, int], str]],
+    edge: str,
+) -> str:
+    """A box about its middle (3,), half as long along each axis as ``half`` (3,), the farthest of its faces first."""
     ordered = sorted(
-        ((seen(corners), colour) for corners, colour in faces), key=lambda face: float(face[0][:, 2].mean())
+        ((seen(_corners(axis, side) * half + middle), colour) for (axis, side), colour in faces),
+        key=lambda face: float(face[0][:, 2].mean()),
     )
-    near = float(seen(middle)[2])
-    edge = 'stroke="#8a6b3d" stroke-width="1" stroke-linejoin="round"'
-    shown = [f'<path d="{polygon(corners[:, :2])}" fill="{colour}" {edge}/>' for corners, colour in ordered]
-    return [(near, "".join(shown))]
+    look = f'stroke="{edge}" stroke-width="1" stroke-linejoin="round"'
+    return "".join(f'<path d="{polygon(corners[:, :2])}" fill="{colour}" {look}/>' for corners, colour in ordered)
+
+
+BOARD = (((0, 1), "#8fa3b8"), ((0, -1), "#8fa3b8"), ((1, 1), "#8fa3b8"), ((1, -1), "#8fa3b8"), ((2, 1), "#c3cfdb"))
+BOARD_HALF_M, BEFORE_M = np.array([0.20, 0.30, 0.012]), 0.14
+"""A board of a shelf, from its middle to its sides; its middle is so far ahead of the hands' middle."""
+
+
+def _board(joints_m: np.ndarray, skeleton: Any, height_m: float, seen: Callable[[np.ndarray], np.ndarray]) -> str:
+    """A board whose top is at this height, under the hands of a body that faces along x; nothing without hands."""
+    hands = _hands_m(joints_m, list(skeleton.names))
+    if hands is None:
+        return ""
+    ahead_m, aside_m = hands[:, :2].mean(axis=0)
+    middle = np.array([ahead_m + BEFORE_M, aside_m, height_m - BOARD_HALF_M[2]])
+    return _box(BOARD_HALF_M, middle, seen, BOARD, "#5d7186")
 
 
 def _held(hands: np.ndarray, half_m: float) -> tuple[np.ndarray, np.ndarray]:
@@ -102,6 +126,7 @@ def posture_svg(
     drives: Mapping[str, float] | None = None,
     side: str | None = None,
     load_kg: float | None = None,
+    board_m: float | None = None,
     view: str = "three_quarter",
     room: Camera | None = None,
     width_px: int = 220,
@@ -112,6 +137,7 @@ def posture_svg(
     drives  : points of a score by part of the body (``explained.explain``), which colour it; None: left and right
     side    : the arm that is nearer to the viewer and takes the arms' colour; None: the right one, and both
     load_kg : a box in the hands, by this mass; 0 or None: none
+    board_m : height above the floor of a board under the hands; None: none
     view    : one of VIEWS;  room : of ``room_of``, where several pictures are to have one scale
     label   : what a screen reader says
     A joint that is nan is left out with the bones that end in it.
@@ -126,7 +152,11 @@ def posture_svg(
         (part.near, _part_svg(part, _colour(part, table, skeleton, drives, side), rim))
         for part in _there(table, seen, scale)
     ]
-    box = load_box(standing, skeleton, load_kg or 0.0, lambda points: _seen(points, camera, width_px, height_px))
+
+    def to_picture(points_m: np.ndarray) -> np.ndarray:
+        return _seen(points_m, camera, width_px, height_px)
+
+    box = load_box(standing, skeleton, load_kg or 0.0, to_picture)
     here = np.nanmean(seen[table["torso"] or [table["root"]], 2])
     drawn += [(near - here, svg) for near, svg in box]
     return "".join(
@@ -135,6 +165,7 @@ def posture_svg(
             f'aria-label="{escape(label or "a posture")}">',
             *_ground(camera, width_px, height_px),
             *_shadows(standing, table, camera, width_px, height_px, scale),
+            "" if board_m is None else _board(standing, skeleton, board_m - _lowest_m(joints_m), to_picture),
             *(svg for _, svg in sorted(drawn, key=lambda each: each[0])),
             "</svg>",
         ]
@@ -150,6 +181,11 @@ def room_of(
     tall_m = max(float(np.nanmax(joints[:, 2])) for joints in ahead)
     turn = VIEWS[view] * (1.0 if side == "left" else -1.0)
     return Camera(round(turn), False, (0.0, 0.0), max(wide_m, 0.6) + EDGE_M, tall_m + HEAD_ROOM_M)
+
+
+def _lowest_m(joints_m: np.ndarray) -> float:
+    """The height of the lowest joint, which stands on the floor of the picture."""
+    return float(np.nanmin(np.asarray(joints_m, float)[:, 2]))
 
 
 def _turned_ahead(joints_m: np.ndarray, skeleton: Any) -> np.ndarray:
