@@ -8,12 +8,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
+from opsim.kpi.catalogue import MORE
 from opsim.report.numbers import half_digits, interval_cells, is_number, largest_of, listing, scale_of
 from opsim.report.page import StudyPage, StudySection, Table
-from opsim.report.sections.pareto import axis_name
+from opsim.report.sections.pareto import axis_name, frontier_section
 from opsim.report.studies.response_surface import is_grid, map_svg, sensitivity_section, terms_table
 from opsim.report.studies.sweep_charts import FIT, LEGEND, POINT, curves_html, tornado_svg
 from opsim.report.studies.sweep_sentences import changed, fit_sentences, sentences_of
+from opsim.study.pareto import Frontier, placed
 
 DESIGNS = {
     "grid": "every combination",
@@ -112,9 +116,28 @@ def sweep_page(name: str, points: Any, found: Sequence[Any], replications: int, 
         title=name,
         kind="sweep",
         answer=answer,
-        sections=[*sections, points_section(points, found)],
+        sections=[*_against_each_other(points, found), *sections, points_section(points, found)],
         words=how_to_read(points, found, replications, seed),
     )
+
+
+def _against_each_other(points: Any, found: Sequence[Any]) -> Iterator[StudySection]:
+    """The first two figures of which one way is better, against each other."""
+    frontier = frontier_of_points(points, found)
+    if frontier is not None:
+        yield StudySection(**frontier_section(frontier))
+
+
+def frontier_of_points(points: Any, found: Sequence[Any]) -> Frontier | None:
+    """A point each, by its values in words; None without two such figures, and of one point or very many."""
+    asked = [one for one in found if one.better][:2]
+    names = [", ".join(factor.words(v) for factor, v in zip(points.factors, row)) for row in points.values]
+    if len(asked) < 2 or not 1 < len(names) <= MOST_ROWS:
+        return None
+    values = {name: np.stack([one.values[row] for one in asked]) for row, name in enumerate(names)}
+    x, y = asked
+    signs = np.array([1.0 if one.better == MORE else -1.0 for one in asked])
+    return Frontier(x.key, y.key, x.better, y.better, placed(values, signs), x.replications)
 
 
 def _sections(found: Any, points: Any, place: int) -> Iterator[StudySection]:

@@ -38,6 +38,8 @@ AGAINST_BASE, OVER_OTHERS, BY_FIT = "base", "mean", "fit"
 class Found:
     """One figure. means : a point each; how : what the changes of ``swings`` are against; noise_share : of the variance
     of the points' means, how much is luck (nan where it is not known)
+
+    better : MORE or LESS, or "" where nobody said and nobody agrees; values : (P, n) of the replications
     """
 
     key: Key
@@ -51,6 +53,8 @@ class Found:
     noise_share: float = float("nan")
     replications: int = 1
     factors: tuple[Factor, ...] = field(default=(), repr=False)
+    better: str = ""
+    values: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)), repr=False, compare=False)
 
 
 def found_of(key: Key, better: str, points: Points, values: np.ndarray, seed: int) -> Found:
@@ -58,7 +62,9 @@ def found_of(key: Key, better: str, points: Points, values: np.ndarray, seed: in
     means = tuple(t_interval(row) for row in values)
     known = [one for one in means if one.n]
     best = best_of(values, means, better) if better and len(known) > 1 else None
-    found = Found(key, means, best=best, replications=values.shape[1], factors=points.factors)
+    found = Found(
+        key, means, best=best, replications=values.shape[1], factors=points.factors, better=better, values=values
+    )
     if points.design in SENSITIVITY:
         return replace(found, sensitivity=_sensitivity(points, means, seed), noise_share=_noise_share(values))
     if points.design == "one_at_a_time":

@@ -53,6 +53,23 @@ def test_a_fit_says_whether_it_is_to_be_trusted(figure, noise, said):
     assert said in fit_sentences(made(figure, noise, vary=vary)[1])[1]
 
 
+def test_two_figures_stand_against_each_other_where_it_is_known_which_way_is_better():
+    points = points_of(Sweep.model_validate({"vary": {"places.bench.surface": ["0.9 m", "1.1 m", "1.3 m"]}}), 3)
+    luck = np.random.default_rng(4).normal(0, 0.01, (3, 4))
+    more = found_of(KEY, "more", points, np.array([[60.0], [64.0], [62.0]]) + luck, 3)
+    less = found_of(
+        ("rula_from_5_min_per_h", "", "", "min/h"), "less", points, np.array([[9.0], [5.0], [4.0]]) + luck, 3
+    )
+    section = sweep_page("bench", points, [more, less], 4, 3).sections[0]
+    assert section.title.endswith("against Throughput (good units)")
+    assert "no variant beats 1.1 m and 1.3 m" in section.sentences[0]
+    assert section.sentences[1].startswith("Clearly beaten: 0.9 m by 1.1 m and 1.3 m")
+    assert "0.9 m: clearly beaten" in section.picture
+    no_way = found_of(KEY, "", points, np.ones((3, 4)), 3)
+    for alone in ([more], [more, no_way]):
+        assert not any("against" in one.title for one in sweep_page("bench", points, alone, 4, 3).sections)
+
+
 @pytest.mark.parametrize("design", ["grid", "latin_hypercube", "one_at_a_time"])
 def test_names_are_escaped_and_pictures_are_sound(design):
     points, found = made(lambda every, buffer: 0 if np.isnan(every + buffer) else every - buffer, design=design)
