@@ -1,9 +1,11 @@
 import re
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from emulator.fitting.registration import clock_size
 from emulator.geometry import base_points as alignable
 from emulator.geometry import sphere
 from emulator.geometry import warps as warp
@@ -301,3 +303,19 @@ def alignable_without_room(uniform):
         with pytest.raises(ValueError) as error:
             mean_posture(spoiled, NAMED)
     return str(error.value)
+
+
+@pytest.mark.parametrize(
+    "durations_s, rate_hz, points",
+    [
+        ([2.0, 2.0, 2.0, 2.0], 60.0, 121),  # a point for each frame
+        ([2.0, 2.0, 2.0, 2.0], 240.0, 121),  # of a fast camera no more than 60 a second
+        ([2.0, 4.0, 6.0, 8.0], 30.0, 196),  # the third quartile, 6.5 s, at 30 a second; the mean asks for 151
+        ([2.0, 4.0, 6.0, 8.0], 60.0, 301),  # the mean at 60 a second asks for more
+        ([0.5, 0.5, 0.5, 0.5], 30.0, 101),  # never fewer
+        ([60.0, 60.0, 60.0, 60.0], 30.0, 301),  # never more
+    ],
+)
+def test_the_clock_has_a_point_for_each_frame_of_the_mean_and_of_a_long_recording(durations_s, rate_hz, points):
+    motions = [SimpleNamespace(duration_s=s, time_s=np.linspace(0, s, round(s * rate_hz) + 1)) for s in durations_s]
+    assert clock_size(SimpleNamespace(motions=motions, duration_s=np.array(durations_s))) == points

@@ -37,9 +37,8 @@ class Posture:
     """One worker at one height.
 
     level : as the scenario names it; seconds : mean time of the task
-    trunk_deg, arm_deg : mean flexion of the trunk and
-        mean elevation of the higher upper arm at the mark
-    joints_m (J, 3), and the skeleton they are of
+    trunk_deg, arm_deg : mean flexion of the trunk, and mean elevation of the higher upper arm, at the mark
+    joints_m : (J, 3) of a typical performance at the mark, of ``skeleton``
     """
 
     task: str
