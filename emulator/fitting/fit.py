@@ -8,7 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from emulator.covariates.table import table_of
-from emulator.fitting.noise import STIFFNESSES, naturally, with_population
+from emulator.fitting.noise import NOISES, naturally, with_population
 from emulator.fitting.preprocessing import refuse_unsound
 from emulator.fitting.registration import Registered, registered
 from emulator.fitting.scheme_choice import choose
@@ -77,7 +77,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     )
     if _is_gaussian(parts, crew, settings):
         return model
-    crews = ((s, _blurred(crew, parts, made.moving, covariates, curves, s)) for s in STIFFNESSES)
+    crews = ((s, _blurred(crew, parts, made.moving, covariates, curves, s, most)) for s, most in NOISES)
     own, model = naturally(((s, replace(model, workforce=blurred)) for s, blurred in crews), motions)
     between, model = with_population(model, curves, motions)
     report = summary(made, parts, model.workforce, settings, covariates.lines)
@@ -103,11 +103,12 @@ def _blurred(
     covariates: Covariates,
     curves: tuple[Curves, ...],
     stiffness: float,
+    most_noise: float,
 ) -> Workforce:
     """Who performs, by recorded repetitions with noise about them."""
     centred, z = parts.flat - parts.posture.mean, parts.z - covariates.within
     gram, spread = centred @ centred.T, crew.within.spread
-    scores = smoothed(z, motions.worker_index, spread, curves[0], curves[1:], gram, stiffness)
+    scores = smoothed(z, motions.worker_index, spread, curves[0], curves[1:], gram, stiffness, most_noise)
     return replace(crew, smoothed=scores)
 
 

@@ -16,12 +16,14 @@ from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.joint_speeds import median_speed_ratio, peak_ratio, share_too_fast
 from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
-from emulator.model.smoothed import Bands, Curves
+from emulator.model.smoothed import MOST_NOISE, Bands, Curves
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
 STIFFNESSES = (4.0, 16.0, 64.0, 256.0)
 """How much smoother than the recordings the noise about them may be, to choose from."""
+NOISES = tuple((stiffness, most) for stiffness in STIFFNESSES for most in MOST_NOISE)
+"""With how much of a curve's variance it may be: much of stiff noise is farther from recordings than little is."""
 PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3

@@ -128,8 +128,8 @@ def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
 
 QUARTILES = (0.25, 0.5, 0.75)
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
-MOST_NOISE = 0.5
-"""Share of a curve's variance that noise may be: beyond it hardly anything of the recordings themselves is left."""
+MOST_NOISE = (0.7, 0.5)
+"""Shares of a curve's variance that noise may be, to choose from: beyond hardly anything of the recordings is left."""
 PENALTIES = np.geomspace(1e-4, 1e4, 33)
 """Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
 
@@ -173,13 +173,13 @@ class Bands:
         square = np.sum((raw @ axes) ** 2, axis=0)
         return cls(axes, curve.size, 1.0 / (1.0 + (weight * bends) ** 2), square / max(square.sum(), 1e-300))
 
-    def noise(self, h: float) -> np.ndarray:
-        """(P,) share of the variance in each band that is noise with bandwidth h, of all at most ``MOST_NOISE``."""
+    def noise(self, h: float, most_noise: float) -> np.ndarray:
+        """(P,) share of the variance in each band that is noise with bandwidth h, of all at most ``most_noise``."""
 
         def square(by: float) -> np.ndarray:
             return np.minimum((by * self.passes) ** 2, 1.0)
 
-        most = _largest_not(lambda by: bool(self.share @ square(by) > MOST_NOISE))
+        most = _largest_not(lambda by: bool(self.share @ square(by) > most_noise))
         return square(min(h, most))
 
     def times(self, rows: np.ndarray, factor: np.ndarray) -> np.ndarray:
@@ -195,6 +195,7 @@ def smoothed(
     others: tuple[Curves, ...],
     gram: np.ndarray,
     stiffness: float,
+    most_noise: float = MOST_NOISE[0],
 ) -> SmoothedScores:
     """The smoothed scores of z (N, K) with the bandwidth that distances to left-out repetitions ask for.
 
@@ -202,6 +203,7 @@ def smoothed(
     posture : decides the bandwidth; others : are blurred like it, as stiffly
     gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
     stiffness : how much smoother than the recordings the noise is
+    most_noise : share of a curve's variance that noise may be
     """
     square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
@@ -216,17 +218,19 @@ def smoothed(
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
 
     def too_far(h: float) -> bool:
-        draws = _drawn(_blurred(sharp, h, curves, bands))[:, at] * size
+        draws = _drawn(_blurred(sharp, h, curves, bands, most_noise))[:, at] * size
         reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
         return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
 
     asked = np.quantile(nearest[:, 0], QUARTILES)
     h = _largest_not(too_far)
-    blurred = _blurred(sharp, h, curves, bands)
+    blurred = _blurred(sharp, h, curves, bands, most_noise)
     return replace(blurred, factor=compressed(blurred.factor))
 
 
-def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], bands: list[Bands]) -> SmoothedScores:
+def _blurred(
+    sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], bands: list[Bands], most_noise: float
+) -> SmoothedScores:
     """With bandwidth h along curves: noise in place of what is slow in time of deviations; beside them by the rule.
 
     In each band the shares of noise and of deviations add up to the variance, so fine detail, which takes no noise,
@@ -240,7 +244,7 @@ def _blurred(sharp: SmoothedScores, h: float, curves: tuple[Curves, ...], bands:
     lacking = len(sharp.owner) / _n_free(sharp.owner)
     factor, left = sharp.factor.copy(), sharp.left.copy()
     for curve, band in zip(curves, bands):
-        noise = band.noise(h)
+        noise = band.noise(h, most_noise)
         factor[:, curve.at] = band.times(factor[:, curve.at], np.sqrt(noise))
         left[:, curve.at] = band.times(left[:, curve.at], np.sqrt(np.minimum(lacking * (1.0 - noise), 1.0)))
     return _beside_curves(replace(sharp, factor=factor, left=left), curves)

@@ -79,12 +79,12 @@ def test_noise_and_what_is_left_of_recordings_add_up_in_each_band_and_fine_detai
     rng = np.random.default_rng(1)
     bend, size, z = np.diag([0.01, 0.1, 1.0, 1e6]), np.array([2.0, 1.0, 1.0, 0.5]), rng.normal(size=(30, 4))
     bands = Bands.of(z, Curves(slice(0, 4), size, bend), 4.0)
-    noise = bands.noise(40.0)
+    noise = bands.noise(40.0, 0.5)
     assert bands.share @ noise == pytest.approx(0.5, abs=1e-3) and noise[0] >= noise[1] > noise[2] and noise[3] < 1e-6
     left, blur = (bands.times(z, np.sqrt(share)) for share in (1.0 - noise, noise))
     assert np.allclose(np.sum(left**2 + blur**2, axis=0), np.sum(z**2, axis=0))
     assert np.allclose(left[:, 3], z[:, 3]) and np.allclose(blur[:, 3], 0.0, atol=1e-3)
-    assert bands.noise(1e-3).max() < 1e-5
+    assert bands.noise(1e-3, 0.5).max() < 1e-5
 
 
 def test_people_keep_their_fine_detail_and_all_their_variance():
