@@ -34,9 +34,10 @@ lint: $(READY)
 	$(RUN) -m mypy
 
 # File by file, the longest first (tests/conftest.py), so that both processes end together.
-# The floor is compiled before: else each process would compile it.
+# The floor and the loops of movements are compiled before: else each process would compile them.
 tests: $(READY)
 	$(RUN) -m opsim.engine.fast_engine
+	PYTHONPATH=tests $(RUN) tests/compile_kernels.py
 	$(RUN) -m pytest $(BY_FILE) -m "not slow and not browser"
 
 # What takes long: statistics of many draws, pages in a browser, properties at all their examples, known answers at full length.
