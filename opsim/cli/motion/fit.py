@@ -73,6 +73,7 @@ def command(
 ) -> None:
     """Train an emulator on each recording FILE, a task each (or all one --family), and write them into one library."""
     from opsim.cli.app import held
+    from opsim.cli.motion.family import wrong_family
     from opsim.cli.motion.files import no_empty_folders, ready
 
     with mistakes():
@@ -80,7 +81,7 @@ def command(
         asked |= {"covariates": covariates} if covariates else {}
         wrong += wrong_mapping(mapping_file)
         names = None if mapping_file is None or wrong else Path(mapping_file)
-        wrong += _wrong_family(family, files, task, cyclic)
+        wrong += wrong_family(family, files, task, cyclic)
         if cyclic:
             sets: list[Any] = list(_cyclic(files, task, where, out, asked, wrong, names))
         else:
@@ -182,7 +183,7 @@ def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, 
 
 def _print_json(out: Path, library: Any, family: str | None) -> None:
     from opsim.cli.app import print_json
-    from opsim.cli.motion.heights import heights_plain
+    from opsim.cli.motion.family import heights_plain
 
     tasks = {name: model.report.as_dict() for name, model in library.items()}
     if family is not None:
@@ -191,7 +192,7 @@ def _print_json(out: Path, library: Any, family: str | None) -> None:
 
 
 def _print(out: Path, library: Any, family: str | None) -> None:
-    from opsim.cli.motion.heights import print_heights
+    from opsim.cli.motion.family import print_heights
 
     for model in library.values():
         _print_report(model.report)
@@ -237,6 +238,7 @@ def read(
 ) -> list[Any]:
     """The repetitions of each file, or of all as a family. Raises ValueError with ``wrong`` and all else amiss."""
     from emulator import read_motions
+    from opsim.cli.motion.family import pooled, wrong_covariates
 
     wrong = [*_wrong_out(out, files), *wrong, *_named_wrongly(files, task)]
     chosen: dict[str, Any] = {} if where is None else {"where": None if where == "all" else where}
@@ -255,50 +257,14 @@ def read(
         names[motions.task] = file
         sets.append(motions)
     if family is not None and len(sets) == len(files) > 1:
-        wrong, sets = _pooled(family, files, sets, wrong)
+        wrong, sets = pooled(family, files, sets, wrong)
     for motions in sets:
         where_from = names.get(motions.task, f"--family {family}")
         wrong += _too_few(where_from, len(motions), asked.get("n_components"))
-        wrong += _wrong_covariates(where_from, motions, asked.get("covariates", ()))
+        wrong += wrong_covariates(where_from, motions, asked.get("covariates", ()))
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
     return sets
-
-
-def _wrong_family(family: str | None, files: Sequence[str], task: str | None, cyclic: bool) -> list[str]:
-    """What speaks against fitting all files as one task of this name."""
-    if family is None:
-        return []
-    wrong = [] if len(files) > 1 else ["--family: found one file, expected two or more"]
-    wrong += [] if task is None else ["--task: found together with --family, expected one of them: both name the task"]
-    wrong += ["--cyclic: found together with --family, expected one of them: cycles have no marks"] if cyclic else []
-    if _no_name(family):
-        wrong.append(f"--family: found {family!r}, expected a name without '/'")
-    return wrong
-
-
-def _pooled(name: str, files: Sequence[str], sets: Sequence[Any], wrong: Sequence[str]) -> tuple[list[str], list[Any]]:
-    """What is wrong, in the files' names, and all sets as one."""
-    from emulator.recordings.family import family
-
-    try:
-        return [*wrong], [family(name, sets)]
-    except ValueError as error:
-        file_of = {f"{motions.task}": file for motions, file in zip(sets, files)}
-        lines = [line.partition(": ") for line in str(error).splitlines()]
-        return [*wrong, *(f"{file_of.get(place, place)}: {said}" for place, _, said in lines)], []
-
-
-def _wrong_covariates(file: str, motions: Any, asked: Sequence[str]) -> list[str]:
-    """Columns asked for that are not there or can tell nothing."""
-    from emulator.covariates.table import asked_table
-
-    if asked:
-        try:
-            asked_table(motions, asked)
-        except ValueError as error:
-            return [f"{file}: {line.removeprefix(f'{motions.task}: ')}" for line in str(error).splitlines()]
-    return []
 
 
 def wrong_mapping(mapping_file: str | None) -> list[str]:
@@ -350,13 +316,11 @@ def _named_wrongly(files: Sequence[str], task: str | None) -> list[str]:
     if task is None:
         return []
     wrong = [] if len(files) == 1 else [f"--task {task}: found {len(files)} files, expected one"]
-    if _no_name(task):
+    from opsim.cli.motion.family import no_name
+
+    if no_name(task):
         wrong.append(f"--task: found {task!r}, expected a name without '/'")
     return wrong
-
-
-def _no_name(word: str) -> bool:
-    return not word.strip() or not word.isprintable() or "/" in word
 
 
 def _wrong_scheme(scheme: str | None) -> list[str]:

@@ -16,7 +16,7 @@ from emulator.model.emulator import MotionEmulator as MotionEmulator_of_motion_b
 from emulator.model.library import MotionLibrary as MotionLibrary_of_motion_fit_cyclic
 from emulator.recordings.npz import write_recording
 from emulator.synthetic.walking import make_walks
-from opsim.cli.motion.heights import _rows
+from opsim.cli.motion.family import _rows
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 

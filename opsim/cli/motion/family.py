@@ -1,14 +1,58 @@
-"""What ``opsim motion fit --family`` shows: how many recordings had a hand at each height, at each mark."""
+"""``opsim motion fit --family``: what speaks against it, and what it shows: recordings by height of the hands at marks.
+
+Columns of recordings that are asked for by name.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 BAND_M, WIDEST = 0.1, 30
 """A line for each 10 cm; the longest bar has so many signs."""
+
+
+def no_name(word: str) -> bool:
+    """Whether a word cannot be the name of a task."""
+    return not word.strip() or not word.isprintable() or "/" in word
+
+
+def wrong_family(family: str | None, files: Sequence[str], task: str | None, cyclic: bool) -> list[str]:
+    """What speaks against fitting all files as one task of this name."""
+    if family is None:
+        return []
+    wrong = [] if len(files) > 1 else ["--family: found one file, expected two or more"]
+    wrong += [] if task is None else ["--task: found together with --family, expected one of them: both name the task"]
+    wrong += ["--cyclic: found together with --family, expected one of them: cycles have no marks"] if cyclic else []
+    if no_name(family):
+        wrong.append(f"--family: found {family!r}, expected a name without '/'")
+    return wrong
+
+
+def pooled(name: str, files: Sequence[str], sets: Sequence[Any], wrong: Sequence[str]) -> tuple[list[str], list[Any]]:
+    """What is wrong, in the files' names, and all sets as one."""
+    from emulator.recordings.family import family
+
+    try:
+        return [*wrong], [family(name, sets)]
+    except ValueError as error:
+        file_of = {f"{motions.task}": file for motions, file in zip(sets, files)}
+        lines = [line.partition(": ") for line in str(error).splitlines()]
+        return [*wrong, *(f"{file_of.get(place, place)}: {said}" for place, _, said in lines)], []
+
+
+def wrong_covariates(file: str, motions: Any, asked: Sequence[str]) -> list[str]:
+    """Columns asked for that are not there or can tell nothing."""
+    from emulator.covariates.table import asked_table
+
+    if asked:
+        try:
+            asked_table(motions, asked)
+        except ValueError as error:
+            return [f"{file}: {line.removeprefix(f'{motions.task}: ')}" for line in str(error).splitlines()]
+    return []
 
 
 def reaches(model: Any) -> Iterator[tuple[str, list[Any]]]:
