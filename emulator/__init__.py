@@ -17,6 +17,7 @@ _HOME = {
     "motion_from_positions": "motion",
     "RecordingError": "recordings",
     "read_motions": "recordings",
+    "family": "recordings.family",
     "Alignment": "geometry.alignment",
     "align_to": "geometry.alignment",
     "resample": "geometry.alignment",

@@ -110,8 +110,9 @@ class PartSequence:
 
     @cached_property
     def body_part(self) -> int:
-        """The part whose bones all have: the first that goes a way, so that its length holds; else the first."""
-        return next((k for k, part in enumerate(self.parts) if part.condition), 0)
+        """The part whose bones all have: the first that goes a way, so that its length holds; else one with targets."""
+        led = [k for k, part in enumerate(self.parts) if getattr(part.model, "targets", ())]
+        return next((k for k, part in enumerate(self.parts) if part.condition), led[0] if led else 0)
 
     @cached_property
     def n_frames(self) -> tuple[int, ...]:

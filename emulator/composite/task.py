@@ -9,8 +9,9 @@ Times add up, marks follow one another, and the bodies are joined where one moti
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import Any
 
@@ -19,6 +20,7 @@ import numpy as np
 from emulator.composite.parts import Part, PartSequence
 from emulator.composite.performances import CompositePerformances
 from emulator.composite.transitions import widest_gap_rad
+from emulator.model.targets import Target, mark_number
 from emulator.skeleton import Skeleton
 
 __all__ = ["CompositeEffect", "CompositeEmulator", "CompositeReport", "Join", "Part"]
@@ -166,6 +168,39 @@ class CompositeEmulator(PartSequence):
         """
         return drawn_worker(self.parts, rng, body, people, slowness, own)
 
+    def given(self, targets: Target | Sequence[Target]) -> CompositeEmulator:
+        """The same task whose parts are given the targets at their marks, named as in ``mark_names``.
+
+        Places are in the person's own frame at the beginning of the part. A joint is there within 5 mm in the part
+        whose bones all have (``body_part``); with other bones it is some centimetres beside.
+        Raises ValueError, with all mistakes, for a mark that no part has, a part that cannot be given a place, and what
+        ``MotionEmulator.given`` refuses.
+        """
+        asked = (targets,) if isinstance(targets, Target) else tuple(targets)
+        wrong, of_part = [], defaultdict[int, list[Target]](list)
+        places = [(part, mark) for part in range(len(self.parts)) for mark in range(len(self.parts[part].marks))]
+        for target in asked:
+            if not isinstance(target, Target):
+                wrong.append(f"{self.task}: found {target!r}, expected a Target")
+                continue
+            try:
+                part, mark = places[mark_number(self.task, self.mark_names, target.mark)]
+            except ValueError as why:
+                wrong.append(str(why))
+                continue
+            of_part[part].append(replace(target, mark=mark))
+        if not asked:
+            wrong.append(f"{self.task}: found no target, expected one or more")
+        parts = list(self.parts)
+        for number, own in of_part.items():
+            try:
+                parts[number] = _given(self.task, self.parts[number], own)
+            except ValueError as why:
+                wrong.append(str(why))
+        if wrong:
+            raise ValueError("\n".join(wrong))
+        return replace(self, parts=tuple(parts))
+
     @property
     def conditions(self) -> tuple[str, ...]:
         """What ``sample`` may be asked for: what all parts may."""
@@ -216,6 +251,13 @@ class CompositeEmulator(PartSequence):
         if not isinstance(worker, CompositeEffect) or part.task not in worker.effects:
             raise ValueError(f"{self.task}: this worker's effect was not drawn from this emulator")
         return worker.effects[part.task]
+
+
+def _given(task: str, part: Part, targets: Sequence[Target]) -> Part:
+    """The part with a model that is given the targets, in its own marks. Raises ValueError for one that takes none."""
+    if not hasattr(part.model, "given"):
+        raise ValueError(f"{task}: {part.name} cannot be given a place; take a MotionEmulator for it")
+    return replace(part, model=part.model.given(targets))
 
 
 def _speed(worker: Any) -> float | None:

@@ -7,6 +7,7 @@ Covariates made ready for a fit: which can say something, their gaps filled, peo
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -94,6 +95,44 @@ def table_of(motions: MotionSet, names: Sequence[str] | None = None, category: s
         raise ValueError("\n".join(wrong))
     numeric = [[np.nan if row.get(name) is None else float(row[name]) for name in wanted] for row in rows]
     return CovariateTable(motions.workers, tuple(wanted), np.array(numeric).reshape(len(rows), -1), words, groups)
+
+
+def asked_table(motions: MotionSet, asked: Sequence[str] = ()) -> CovariateTable:
+    """``table_of`` with the numbers of a body that the recordings have, and the columns that were asked for by name.
+
+    Raises ValueError as ``table_of``, and for a column asked for that can tell nothing, by name and all at once.
+    """
+    there = _columns(motions)
+    names = [_plain(name) for name in asked]
+    wrong = [_unknown(motions.task, name, there) for name in dict.fromkeys(names) if name not in there]
+    wrong += [w for name in dict.fromkeys(names) if name in there for w in _useless(motions, name)]
+    if wrong:
+        raise ValueError("\n".join(wrong))
+    return table_of(motions, list(dict.fromkeys([*(name for name in RANGES if name in there), *names])))
+
+
+def unused_columns(motions: MotionSet, asked: Sequence[str] = ()) -> list[str]:
+    """Names of columns that no fit reads: neither of a body, nor asked for, nor what repetitions were chosen by."""
+    read = {*RANGES, "sex", *(_plain(name) for name in asked), *map(_plain, re.findall(r"\w+", motions.selection))}
+    return sorted(_columns(motions) - read)
+
+
+def _columns(motions: MotionSet) -> set[str]:
+    return set().union(*(_named(motion) for motion in motions.motions))
+
+
+def _useless(motions: MotionSet, name: str) -> list[str]:
+    """Why a column cannot explain how people differ; nothing where it can."""
+    place, values = f"{motions.task}: covariate {name!r}", [_named(motion).get(name) for motion in motions.motions]
+    words = [value for value in values if value is not None and not isinstance(value, (int, float, np.number))]
+    if words:
+        return [f"{place}: found {words[0]!r}, expected numbers"]
+    column = np.array([np.nan if value is None else float(value) for value in values])[:, None]
+    n_people = len(motions.workers)
+    if n_people < FEWEST_PEOPLE:
+        return [f"{place}: found recordings of {n_people} people, expected {FEWEST_PEOPLE} or more"]
+    left_out = _usable(column, [name], motions.worker_index)[1]
+    return [f"{place}: found it {why}, expected a number that tells people apart" for _, why in left_out]
 
 
 def _named(motion: Motion) -> dict[str, Any]:
@@ -196,6 +235,8 @@ def _of_people(n_rows: int, category: Sequence[str | None] | None, groups: np.nd
     return wrong
 
 
+FEWEST_PEOPLE = 4
+"""With fewer, one left out leaves two: any line goes through them."""
 FEWEST_KNOWN = 3
 """People of whom a covariate must be known."""
 

@@ -107,6 +107,13 @@ class CyclicEmulator(CyclicLaw):
         """The effect of a recorded worker. Raises ValueError for an unknown name."""
         return self.crew.known(self.task, name)
 
+    def given(self, _targets: Any) -> CyclicEmulator:
+        """Raises ValueError: cycles have no marks, so there is no moment at which a joint could be somewhere."""
+        raise ValueError(
+            f"{self.task}: motion of cycles has no marks at which a joint could be at a target; ask it for distance_m, "
+            "cycles or length_s, or fit repetitions with a mark without --cyclic and ask that emulator"
+        )
+
     @property
     def workers(self) -> tuple[str, ...]:
         return self.crew.names

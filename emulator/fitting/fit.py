@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.covariates.table import table_of
+from emulator.covariates.table import asked_table
 from emulator.fitting.noise import NOISES, naturally, with_population
 from emulator.fitting.preprocessing import refuse_unsound
 from emulator.fitting.registration import Registered, registered
@@ -30,7 +30,7 @@ def fit(motions: MotionSet, settings: FitSettings, progress: Progress = None) ->
     if len(motions) < FEWEST:
         raise ValueError(f"{motions.task}: a model needs at least {FEWEST} repetitions, found {len(motions)}")
     refuse_unsound(motions)
-    table_of(motions)  # its mistakes name the task and the repetition themselves
+    asked_table(motions, settings.covariates)  # its mistakes name the task and the repetition themselves
     with threadpool_limits(1, user_api="blas"):  # one thread: the same recordings give the same bytes everywhere
         try:
             return _fit(motions.in_order(), settings, progress)
@@ -54,7 +54,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     """The emulator of registered recordings, its report without a judgement of draws."""
     motions = made.whole
     parts = parts_of(made, settings)
-    covariates = covariates_of(parts, made.moving)
+    covariates = covariates_of(parts, made.moving, settings.covariates)
     curves = _curves(parts)
     crew = _crew(parts, made.moving, settings, covariates)
     model = MotionEmulator(

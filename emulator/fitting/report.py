@@ -96,6 +96,7 @@ class FitReport:
             ("reconstruction, held out", _figure(self.reconstruction_deg, " deg a bone")),
             ("duration", f"{self.duration_mean_s:.3f} s, CV {self.duration_cv:.3f}, {self.duration_margin}"),
             ("ICC of log duration", icc),
+            *([("covariates", self.methods["covariates"])] if "covariates" in self.methods else []),
             ("roughness, emulated / recorded", f"{_figure(self.roughness_ratio)} {_new(self.roughness_new_ratio)}"),
             ("fastest joint, recorded", _figure(self.fastest_m_per_s, " m/s")),
             *self._in_real_time(),

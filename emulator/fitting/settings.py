@@ -29,6 +29,7 @@ class FitSettings:
     seed: int
     command: str
     penalty: float | None = None
+    covariates: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for wrong in unknown_scheme(self.scheme):

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from emulator.covariates.model import CovariateModel
-from emulator.covariates.table import CovariateTable, table_of
+from emulator.covariates.table import FEWEST_PEOPLE, CovariateTable, asked_table
 from emulator.fitting.registration import LARGEST_PACE, Registered
 from emulator.fitting.settings import FitSettings
 from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
@@ -174,8 +174,6 @@ def _dwells(made: Registered, log_duration: np.ndarray) -> tuple[Dwells, dict[st
 
 LEVEL = 0.99
 """Stricter than the paper's 95 %: a library holds many tasks, and one false bond of height and time misleads."""
-FEWEST_PEOPLE = 4
-"""With fewer, one left out leaves two: any line goes through them."""
 MOST_NESTED = 40
 """From so many people on, choosing scores by their own R^2 flatters it by less than 3 %."""
 CHANGES = 1e-6
@@ -197,9 +195,9 @@ class Covariates:
     within: np.ndarray
 
 
-def covariates_of(parts: Parts, motions: MotionSet) -> Covariates:
-    """The covariates' model of the joint coordinates."""
-    table, index = table_of(motions), motions.worker_index
+def covariates_of(parts: Parts, motions: MotionSet, asked: tuple[str, ...]) -> Covariates:
+    """The covariates' model of the joint coordinates, by the body and the columns that were asked for."""
+    table, index = asked_table(motions, asked), motions.worker_index
     nothing = np.zeros_like(parts.z)
     if len(motions.workers) < FEWEST_PEOPLE or not (table.names or any(table.category)):
         return Covariates(None, (), nothing)

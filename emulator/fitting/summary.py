@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from emulator.covariates.table import unused_columns
 from emulator.fitting.noise import MOST_JERK
 from emulator.fitting.registration import Registered
 from emulator.fitting.report import FitReport, TimeFit
@@ -107,6 +108,7 @@ ALONE_NOTE = (
     "one person: how people differ is not known, so there is no law between people, and every worker drawn moves as "
     "this one does"
 )
+UNUSED_NOTE = "columns that nothing here uses: {}; --covariate NAME explains by one how people differ"
 ALIKE_NOTE = (
     "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
     "is one recording in the file several times?"
@@ -143,7 +145,7 @@ def summary(
         where=whole.selection,
         command=settings.command,
         methods=_methods(made, parts, workforce, settings) | _told(covariates),
-        notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole)),
+        notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole), *_unused(whole, settings)),
         fastest_m_per_s=float(fastest_m_per_s(made.moving.motions).max()),
     )
 
@@ -163,6 +165,11 @@ def _once(whole: MotionSet) -> tuple[str, ...]:
     if len(whole.workers) == 1:
         return (ALONE_NOTE,)
     return (ONCE_NOTE,) if len(whole) == len(whole.workers) else ()
+
+
+def _unused(whole: MotionSet, settings: FitSettings) -> tuple[str, ...]:
+    names = unused_columns(whole, settings.covariates)
+    return (UNUSED_NOTE.format(", ".join(names)),) if names else ()
 
 
 def judged(model: MotionEmulator, made: Registered, settings: FitSettings) -> FitReport:

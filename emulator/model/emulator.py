@@ -37,6 +37,7 @@ class MotionEmulator(JointLaw):
         n_knots: int = 20,
         landmarks: float = 0.0,
         penalty: float | None = None,
+        covariates: Sequence[str] = (),
         progress: Callable[[int, int, str], None] | None = None,
         seed: int = 0,
         command: str = "",
@@ -50,15 +51,17 @@ class MotionEmulator(JointLaw):
                        101 to 301; n_knots : cells of the pace, 2 to n_times - 1
         penalty      : weight that holds warps near the identity (see ``geometry``); None: as recordings that are given
                        each other's pace ask for, 0: free, as in the paper
+        covariates   : recorded columns (``cov_NAME``) that explain how people differ beside height, mass, age, sex and
+                       pace, which always do where the recordings have them; ``new_worker`` then takes them by name
         progress     : called with (done, total, label); seed decides nothing but the figures of the report
-        Raises ValueError for an unknown scheme, fewer than three repetitions, or settings out of range.
+        Raises ValueError for an unknown scheme, fewer than three repetitions, settings out of range, or a covariate
+        that is not there or can tell nothing.
         """
         from emulator.fitting.fit import fit
         from emulator.fitting.settings import FitSettings
 
-        return fit(
-            motions, FitSettings(scheme, n_components, n_times, n_knots, landmarks, seed, command, penalty), progress
-        )
+        settings = (scheme, n_components, n_times, n_knots, landmarks, seed, command, penalty, tuple(covariates))
+        return fit(motions, FitSettings(*settings), progress)
 
     def sample(
         self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None

@@ -2,8 +2,9 @@
 
 h(z) is where they are (``targets.HandPlaces``). What the recordings tell of z by h(z), as a local regression
 M (Cleveland 1979), carries each component of the law from its own place to the target, z + M(target) - M(h(z)): it
-keeps what the place does not tell of it. A few Newton steps bring each onto the target itself; the noise about it is
-held there, by Matheron's rule with the derivative of h at the middle of the new law.
+keeps what the place does not tell of it. In a gap between recorded places M is a straight line from one side to the
+other, since a line through one side alone leads astray. A few Newton steps bring each onto the target itself; the noise
+about it is held there, by Matheron's rule with the derivative of h at the middle of the new law.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -32,6 +34,9 @@ SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 AS_GOOD = 1.03
 """Curves follow as closely as they may at that price: what a narrow window adds to their scatter is not seen, but how a
 wide one cuts corners is. Times scatter more, and there the best window is taken."""
+
+WIDE_M, FEW = 0.20, 3
+"""Recordings farther apart than 0.20 m have a gap between them; fewer than 3 together within one do not end it."""
 
 Places = Callable[[np.ndarray], np.ndarray]
 """z (n, K) -> (n, R) what of the places is asked for, in metres."""
@@ -76,6 +81,13 @@ def gain(covariance: np.ndarray, slope: np.ndarray, spread_m: float) -> np.ndarr
     return np.asarray(np.linalg.solve(slope @ across + spread_m**2 * np.eye(len(slope)), across.T).T)
 
 
+def gaps_m(along_m: np.ndarray) -> list[tuple[float, float]]:
+    """(low, high) of each stretch between recorded places (N,) along an axis in which hardly any lie."""
+    groups = np.split(np.sort(along_m), np.flatnonzero(np.diff(np.sort(along_m)) > WIDE_M) + 1)
+    ends = [group for group in groups if len(group) >= FEW]
+    return [(float(low[-1]), float(high[0])) for low, high in pairwise(ends)]
+
+
 @dataclass(frozen=True, eq=False)
 class LocalRegression:
     """What recordings tell of z by their places: lines or parabolas through those near a place (loess).
@@ -93,6 +105,9 @@ class LocalRegression:
 
     def weights(self, at: np.ndarray) -> np.ndarray:
         """(n, N) that add to 1: how much each recording tells at places (n, R)."""
+        return self._bridged(self._weights, at)
+
+    def _weights(self, at: np.ndarray) -> np.ndarray:
         n = len(self.z)
         if not np.isfinite(self.span):
             return np.full((len(at), n), 1.0 / n)
@@ -110,11 +125,32 @@ class LocalRegression:
     def __call__(self, at: np.ndarray) -> np.ndarray:
         """(n, K) z as foretold at places (n, R)."""
         middle = self.z.mean(axis=0)
-        return np.asarray(middle + self.trust * (self._smoother(at) @ self.z - middle))
+        return np.asarray(middle + self.trust * (self._bridged(self._smoother, at) @ self.z - middle))
+
+    @cached_property
+    def gaps_m(self) -> list[list[tuple[float, float]]]:
+        """By axis, see ``gaps_m``; none where one straight line is drawn through all recordings anyway."""
+        straight = self.degree == 1 and not np.isfinite(self.span)
+        return [[] if straight else gaps_m(along) for along in self.place.T]
+
+    def _bridged(self, rows_of: Callable[[np.ndarray], np.ndarray], at: np.ndarray, axis: int = 0) -> np.ndarray:
+        """(n, N) of ``rows_of`` at places (n, R); in a gap along an axis, a straight line between its two ends."""
+        if axis == len(self.gaps_m):
+            return rows_of(at)
+        out = self._bridged(rows_of, at, axis + 1)
+        for low, high in self.gaps_m[axis]:
+            inside = np.flatnonzero((low < at[:, axis]) & (at[:, axis] < high))
+            if inside.size:
+                share = ((at[inside, axis] - low) / (high - low))[:, None]
+                ends = [np.array(at[inside]) for _ in range(2)]
+                ends[0][:, axis], ends[1][:, axis] = low, high
+                one, other = (self._bridged(rows_of, end, axis + 1) for end in ends)
+                out[inside] = (1.0 - share) * one + share * other
+        return out
 
     def _smoother(self, at: np.ndarray) -> np.ndarray:
         """(n, N) what is multiplied by z: linear in it."""
-        weight = self.weights(at)
+        weight = self._weights(at)
         middle = weight @ self.place
         apart, here = self.place - middle[:, None], at - middle
         doubt = np.full(here.shape, MARK_M**2)

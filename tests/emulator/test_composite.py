@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from emulator import Target
 from emulator.composite import transitions as seams
 from emulator.composite.joining import JoinError, joined, most_gap_rad, posture_gap_rad
 from emulator.composite.task import CompositeEmulator, Part
@@ -22,6 +23,7 @@ from emulator.motion import motion_from_positions, turn
 from emulator.skeleton import Skeleton
 from emulator.synthetic.tasks import make
 from tests.emulator.fitted import made
+from tests.emulator.test_reach import shelf
 
 NAMES = ("reach", "place", "fasten", "fasten")
 
@@ -432,3 +434,38 @@ def test_motions_shorter_than_a_blend_can_be_joined(moves):
     pieces = cut(moves["reach"], 6)
     whole = joined([pieces[0], pieces[0], pieces[1]])
     assert np.isfinite(whole.positions_m()).all() and len(whole.time_s) == 12 + len(pieces[1].time_s)
+
+
+# hands at a place in one of the motions
+
+
+def rack():
+    return CompositeEmulator("rack", (Part("place", made("place")[2]), Part("shelf", shelf())))
+
+
+@pytest.mark.parametrize("body", [None, {"height_m": 1.9}])
+def test_a_target_is_passed_on_to_the_part_that_has_the_mark(body):
+    given = rack().given(Target("hands", "shelf.grasp", height_m=0.5))
+    effect = None if body is None else given.draw_worker(np.random.default_rng(2), body)
+    some = given.sample(12, np.random.default_rng(1), worker=effect)
+    wrists = [some.skeleton.names.index(f"{side}_wrist") for side in ("left", "right")]
+    hands = some.positions_m(some.mark_s[:, [given.mark_names.index("shelf.grasp")]])[:, 0, wrists, 2].mean(axis=1)
+    assert np.abs(hands - 0.5).max() < 0.005
+    assert np.array_equal(
+        some.parts[0].duration_s, rack().sample(12, np.random.default_rng(1), worker=effect).part_s[:, 0]
+    )
+
+
+@pytest.mark.parametrize(
+    ("targets", "said"),
+    [
+        ([], "rack: found no target"),
+        ("hands", "rack: found 'h', expected a Target"),
+        (Target("hands", "shelf.gras", height_m=1.0), "no mark 'shelf.gras'; did you mean 'shelf.grasp'?"),
+        (Target("nose", "shelf.grasp", height_m=1.0), "shelf: no joint 'nose'"),
+    ],
+)
+def test_a_target_that_no_part_can_meet_is_told(targets, said):
+    with pytest.raises(ValueError) as caught:
+        rack().given(targets)
+    assert said in str(caught.value)

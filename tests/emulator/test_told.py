@@ -10,6 +10,7 @@ from emulator.model.emulator import MotionEmulator
 from emulator.people.workers import Told, Workforce, shrinkages
 from emulator.synthetic.choreography import TASKS
 from emulator.synthetic.cohort import COVARIATES, WITHIN, draw_cohort, make_cohort, units
+from emulator.synthetic.shelf import crew, make_shelf
 
 N_PEOPLE = 18
 
@@ -167,3 +168,17 @@ def test_new_workers_of_given_bodies_last_as_long_as_the_truths_own():
         true += fresh.log_duration.tolist()
     assert ks_2samp(drawn, true).statistic < 1.63 * np.sqrt(1 / len(drawn) + 1 / 180)
     assert np.corrcoef(drawn, true)[0, 1] > 0.7
+
+
+def test_a_column_asked_for_conditions_and_is_told_of_where_it_is_not():
+    rng = np.random.default_rng(0)
+    motions = make_shelf(crew(6, rng), 8, rng=rng)
+    free, asked = MotionEmulator.fit(motions), MotionEmulator.fit(motions, covariates=["shelf_m"])
+    assert any("nothing here uses: shelf_m" in note for note in free.report.notes)
+    assert not any("nothing here uses" in note for note in asked.report.notes)
+    hands = []
+    for shelf_m in (0.4, 1.6):
+        drawn = asked.sample(24, np.random.default_rng(1), worker=asked.new_worker(shelf_m=shelf_m))
+        wrist = drawn.skeleton.names.index("right_wrist")
+        hands.append(drawn.positions_m(drawn.mark_s)[:, 0, wrist, 2].mean())
+    assert hands[1] - hands[0] > 0.8

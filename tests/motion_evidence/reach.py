@@ -2,7 +2,7 @@
 
 Each class with a mark and at least ``FEWEST`` recordings is fitted without one of them. What is foretold of it is the
 mean of ``N_DRAWS`` draws (of times: of ``N_TIMED``), once with nothing known of it, once given where its joint was at
-the mark.
+the mark. ``--family CLASS CLASS`` fits the classes together instead and asks for heights that none of them has.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
+from motion_evidence.family import show
 from recordings import data_folder
 
 from emulator import Motion, MotionEmulator, MotionSet, Target, read_motions
@@ -113,11 +114,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--joint", default="right_wrist")
     parser.add_argument("--most", type=int, default=12, help="recordings of a class that are left out")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("--family", action="store_true", help="the classes as one family, at heights from 0.3 to 1.7 m")
     options = parser.parse_args(arguments)
     known = classes()
     unknown = [name for name in options.classes if name not in known]
     if unknown or not known:
         parser.error(f"no class {unknown[0]!r}; known: {', '.join(known)}" if known else "needs ../shared/data")
+    if options.family:
+        if len(options.classes) < 2:
+            parser.error(f"--family: found {len(options.classes)} classes, expected two or more")
+        return show([known[name] for name in options.classes], options.joint)
     medians, start_s = [], time.monotonic()
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
         jobs = [pool.submit(_judged, options.joint, options.most, name) for name in options.classes or known]

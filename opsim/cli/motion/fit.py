@@ -22,6 +22,7 @@ from opsim.cli.app import Mistake, mistakes
 @click.argument("files", nargs=-1, required=True, metavar="FILE.npz...")
 @click.option("-o", "--out", type=click.Path(path_type=Path), required=True, help="The library to write, a .npz file.")
 @click.option("--task", help="The name of the task, for one FILE.  [default: the file's name]")
+@click.option("--family", metavar="NAME", help="One task NAME from all FILEs: one movement at different places.")
 @click.option(
     "--where", help="Which repetitions, such as 'cov_correct==1'; 'all' takes all.  [default: the correct ones]"
 )
@@ -43,6 +44,13 @@ from opsim.cli.app import Mistake, mistakes
     metavar="NUMBER",
     help="How strongly marks are drawn together, 0 to 1; 0.01 is strong.  [default: 0]",
 )
+@click.option(
+    "--covariate",
+    "covariates",
+    multiple=True,
+    metavar="NAME",
+    help="A column of the recordings that explains how people differ, beside height, mass, age, sex, pace; repeatable.",
+)
 @click.option("--map", "mapping_file", metavar="FILE", help="Lines 'name in the file: joint' for names not known here.")
 @click.option("--cyclic", is_flag=True, help="Takes of several cycles (walking, cranking): emulators of any length.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, help="For the figures of the report only.")
@@ -51,35 +59,44 @@ def command(
     files: tuple[str, ...],
     out: Path,
     task: str | None,
+    family: str | None,
     where: str | None,
     n_components: str | None,
     scheme: str | None,
     n_times: int,
     landmarks: str | None,
+    covariates: tuple[str, ...],
     mapping_file: str | None,
     cyclic: bool,
     seed: int,
     as_json: bool,
 ) -> None:
-    """Train an emulator on each recording FILE, a task each, and write them into one library."""
+    """Train an emulator on each recording FILE, a task each (or all one --family), and write them into one library."""
     from opsim.cli.app import held
+    from opsim.cli.motion.family import wrong_family
     from opsim.cli.motion.files import no_empty_folders, ready
 
     with mistakes():
         asked, wrong = asked_of(n_components=n_components, scheme=scheme, n_times=n_times, landmarks=landmarks)
+        asked |= {"covariates": covariates} if covariates else {}
         wrong += wrong_mapping(mapping_file)
         names = None if mapping_file is None or wrong else Path(mapping_file)
-        sets = (_cyclic if cyclic else read)(files, task, where, out, asked, wrong, names)
+        wrong += wrong_family(family, files, task, cyclic)
+        if cyclic:
+            sets: list[Any] = list(_cyclic(files, task, where, out, asked, wrong, names))
+        else:
+            sets = read(files, task, where, out, asked, wrong, names, family)
     said = _said(files, out, task, where, asked) + " --cyclic" * cyclic
+    said += "" if family is None else f" --family '{family}'"
     said += "" if mapping_file is None else f" --map {Path(mapping_file).name}"
     with no_empty_folders(out.parent):
         with mistakes():
             ready(out, ".npz")
         library, failed = _fitted(sets, asked, seed, said, out)
     if as_json and library:
-        _print_json(out, library)
+        _print_json(out, library, family)
     elif library:
-        _print(out, library)
+        _print(out, library, family)
     if failed:
         raise Mistake("\n".join([*failed, *([held(out, library, [m.task for m in sets])] if library else [])]))
 
@@ -126,7 +143,9 @@ def _cyclic(
     mapping_file: Path | None,
 ) -> list[CyclicTakes]:
 
-    other = wrong_with_cyclic(**{name: name in asked for name in ("scheme", "n_times", "landmarks")})
+    other = wrong_with_cyclic(
+        **{name: name in asked for name in ("scheme", "n_times", "landmarks")}, covariate="covariates" in asked
+    )
     found = read_cyclic(files, task, where, [*wrong_names(files, task, out), *wrong, *other], mapping_file)
     return [CyclicTakes(name, recording, where or "all") for name, recording in found]
 
@@ -154,20 +173,31 @@ def _said(files: Sequence[str], out: Path, task: str | None, where: str | None, 
     words = ["opsim motion fit", *(Path(file).name for file in files), "-o", out.name]
     words += [] if task is None else ["--task", f"'{task}'"]
     words += [] if where is None else ["--where", f"'{where}'"]
+    words += [word for name in asked.get("covariates", ()) for word in ("--covariate", name)]
     for name, value in asked.items():
+        if name == "covariates":
+            continue
         words += [f"--{name.replace('_', '-')}", value if isinstance(value, str) else f"{value:g}"]
     return " ".join(words)
 
 
-def _print_json(out: Path, library: Any) -> None:
+def _print_json(out: Path, library: Any, family: str | None) -> None:
     from opsim.cli.app import print_json
+    from opsim.cli.motion.family import heights_plain
 
-    print_json({"library": str(out), "tasks": {name: model.report.as_dict() for name, model in library.items()}})
+    tasks = {name: model.report.as_dict() for name, model in library.items()}
+    if family is not None:
+        tasks[family]["heights"] = heights_plain(library[family])
+    print_json({"library": str(out), "tasks": tasks})
 
 
-def _print(out: Path, library: Any) -> None:
+def _print(out: Path, library: Any, family: str | None) -> None:
+    from opsim.cli.motion.family import print_heights
+
     for model in library.values():
         _print_report(model.report)
+        if family is not None:
+            print_heights(model)
     tasks = f"{len(library)} task{'s' if len(library) > 1 else ''}"
     click.echo(f"library: {out} ({out.stat().st_size / 1e6:.2f} MB, {tasks})")
 
@@ -204,9 +234,11 @@ def read(
     asked: dict[str, Any],
     wrong: Sequence[str],
     mapping_file: Path | None = None,
+    family: str | None = None,
 ) -> list[Any]:
-    """The repetitions of each file. Raises ValueError with ``wrong`` and all else that speaks against a fit."""
+    """The repetitions of each file, or of all as a family. Raises ValueError with ``wrong`` and all else amiss."""
     from emulator import read_motions
+    from opsim.cli.motion.family import pooled, wrong_covariates
 
     wrong = [*_wrong_out(out, files), *wrong, *_named_wrongly(files, task)]
     chosen: dict[str, Any] = {} if where is None else {"where": None if where == "all" else where}
@@ -223,8 +255,13 @@ def read(
             both = f"both {names[motions.task]} and {file} give the task {motions.task!r}"
             wrong.append(f"{both}; rename one file, or fit it apart with --task")
         names[motions.task] = file
-        wrong += _too_few(file, len(motions), asked.get("n_components"))
         sets.append(motions)
+    if family is not None and len(sets) == len(files) > 1:
+        wrong, sets = pooled(family, files, sets, wrong)
+    for motions in sets:
+        where_from = names.get(motions.task, f"--family {family}")
+        wrong += _too_few(where_from, len(motions), asked.get("n_components"))
+        wrong += wrong_covariates(where_from, motions, asked.get("covariates", ()))
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
     return sets
@@ -279,7 +316,9 @@ def _named_wrongly(files: Sequence[str], task: str | None) -> list[str]:
     if task is None:
         return []
     wrong = [] if len(files) == 1 else [f"--task {task}: found {len(files)} files, expected one"]
-    if not task.strip() or not task.isprintable() or "/" in task:
+    from opsim.cli.motion.family import no_name
+
+    if no_name(task):
         wrong.append(f"--task: found {task!r}, expected a name without '/'")
     return wrong
 

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from emulator.covariates.table import table_of
+from emulator.covariates.table import asked_table, table_of, unused_columns
 from emulator.synthetic.tasks import make
 
 
@@ -69,3 +69,39 @@ def test_all_mistakes_are_said_with_repetition_and_covariate():
         "reach: w2/r2: cov_pace: found 'quick', expected a number",
         "reach: worker 'w1': sex: found f and m, expected one",
     ]
+
+
+def four_people(**columns):
+    """Four workers, a repetition each; a column of four values by name."""
+    motions = make("reach", 4, 1)[0]
+    rows = [{f"cov_{name}": values[i] for name, values in columns.items()} for i in range(4)]
+    return replace(motions, motions=tuple(replace(m, covariates=row) for m, row in zip(motions.motions, rows)))
+
+
+REACHES = four_people(
+    height=(1.6, 1.7, 1.8, 1.9), arm=(0.5, 0.6, 0.6, 0.7), correct=(1, 1, 1, 1), style=("a", "b", "a", "b")
+)
+
+
+def test_a_column_asked_for_stands_beside_the_body():
+    assert asked_table(REACHES, ["arm"]).names == ("height_m", "arm")
+
+
+@pytest.mark.parametrize(
+    ("motions", "name", "said"),
+    [
+        (REACHES, "amr", "no covariate 'amr'; did you mean 'arm'?"),
+        (REACHES, "correct", "'correct': found it the same for everybody"),
+        (REACHES, "style", "'style': found 'a', expected numbers"),
+        (with_covariates(ANNA, ANNA, BEN, BEN), "vmax", "'vmax': found recordings of 2 people, expected 4 or more"),
+    ],
+)
+def test_a_column_that_can_tell_nothing_is_refused_by_name(motions, name, said):
+    with pytest.raises(ValueError) as caught:
+        asked_table(motions, [name])
+    assert said in str(caught.value)
+
+
+def test_columns_that_nothing_uses_are_named():
+    assert unused_columns(REACHES) == ["arm", "correct", "style"]
+    assert unused_columns(replace(REACHES, selection="cov_correct==1 and style in (a, b)"), ["arm"]) == []

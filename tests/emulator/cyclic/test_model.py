@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from emulator import Target
 from emulator.cyclic.contacts import foot_skate_m
 from emulator.cyclic.model import CyclicEmulator
 from emulator.model.library import LibraryError, MotionLibrary
@@ -312,3 +313,8 @@ def test_an_old_library_still_loads():
     assert len(MotionLibrary.load(SHIPPED.with_name("bench_work.npz"))) == 9
     with pytest.raises(LibraryError, match="did you mean 'walk'"):
         MotionLibrary.load(SHIPPED)["wak"]
+
+
+def test_a_place_cannot_be_asked_of_cycles():
+    with pytest.raises(ValueError, match=r"walk: motion of cycles has no marks .* ask it for distance_m"):
+        walk().given(Target("hands", 0, height_m=1.0))

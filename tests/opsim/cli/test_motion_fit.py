@@ -6,6 +6,7 @@
 """
 
 import shutil
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from emulator.model.emulator import MotionEmulator as MotionEmulator_of_motion_b
 from emulator.model.library import MotionLibrary as MotionLibrary_of_motion_fit_cyclic
 from emulator.recordings.npz import write_recording
 from emulator.synthetic.walking import make_walks
+from opsim.cli.motion.family import _rows
 from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 
@@ -389,3 +391,35 @@ def test_a_joint_named_twice_is_told_with_both_places(lifts, tmp_path):
     code, _, complaint = fit(tmp_path, renamed(lifts, {"right_knee": "left_knee"}))
     assert code == 2
     assert "names: found 'left_knee' 2 times, as joint 14 and 18; give each" in " ".join(complaint.split())
+
+
+def test_a_family_is_one_task_and_its_heights_are_shown(recorded, tmp_path):
+    out = tmp_path / "lib.npz"
+    code, shown, _ = opsim("motion", "fit", recorded / "a.npz", recorded / "b.npz", "--family", "ab", "-o", out, *QUICK)
+    assert code == 0 and "ab: recordings by height at touch" in shown
+    model = MotionLibrary.load(out)["ab"]
+    assert model.report.n_sequences == 12 and model.report.command.endswith("--family 'ab'")
+
+
+def test_each_band_of_heights_has_a_bar_and_the_number_of_recordings():
+    low, high = (
+        SimpleNamespace(places_m=np.array([[0.0, 0.0, h] for h in heights])) for heights in ([0.5, 0.55], [0.7])
+    )
+    rows = _rows([low, high])
+    assert rows == [("0.7 to 0.8", "", "# 1"), ("0.6 to 0.7", "", ""), ("0.5 to 0.6", "## 2", "")]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--family", "ab"), "--family: found one file, expected two or more"),
+        (("--family", "a/b"), "--family: found 'a/b', expected a name without '/'"),
+        (("--family", "ab", "--task", "a"), "--task: found together with --family"),
+        (("--family", "ab", "--cyclic"), "--cyclic: found together with --family"),
+        (("--covariate", "amr"), "a.npz: no covariate 'amr'"),
+        (("--cyclic", "--covariate", "arm"), "--covariate: found together with --cyclic"),
+    ],
+)
+def test_what_cannot_be_a_family_or_explain_people_is_refused(recorded, tmp_path, words, said):
+    code, _, complaint = opsim("motion", "fit", recorded / "a.npz", "-o", tmp_path / "l.npz", *words)
+    assert code == 2 and said in complaint
