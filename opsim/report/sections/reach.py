@@ -12,6 +12,7 @@ from opsim.ergonomics.angles import trunk_flexion_rad, upper_arm_angles
 from opsim.ergonomics.measures import has_body
 from opsim.ergonomics.redraw import luck_of
 from opsim.libraries import HandTarget
+from opsim.plan.levels import performed_tasks
 from opsim.problems import natural_key
 from opsim.report.material import Material
 from opsim.report.numbers import digits
@@ -67,9 +68,9 @@ def reach_section(material: Material) -> Section | None:
 def postures_of(material: Material) -> list[Posture]:
     """Of each task with targets, mark and worker, the lowest height first."""
     scenario, plan = material.loaded.scenario, material.plan
-    found = []
+    found, performed = [], performed_tasks(scenario)
     for number, task in enumerate(plan.tasks):
-        said = scenario.tasks.get(task.name)
+        said: Any = performed.get(task.name)
         hands = getattr(said, "hands", {})
         for target in hand_targets(said, scenario.layout) if hands else ():
             level = hands[target.mark]
