@@ -176,7 +176,7 @@ WRONG = [
     ("far", [("middle: 0.75 m", "middle: 2.9 m")], ["layout.places.pallet.levels.middle: tasks.pick: ", "far outside"]),
     ("team", [("pick: {", "pick: {team: 2, ")], ["tasks.pick.hands: heights that change go with one worker", "'team'"]),
     ("forgets", [("allocation:", FORGETS)], ["human.forgetting: the hands of 'pick'", "the hands of 'put'"]),
-    ("set-up", [("b: {at", "b: {setup: {times: {carton: {case: put}}}, at")], ["stations.b.setup", "'put'", "one height"]),
+    ("set-up", [("b: {at", "b: {setup: {times: {carton: {case: put}}}, at")], ["b.setup: the hands of 'put'"]),
     ("at once", [(HANDS, "grasp: {cartn: rack.lwo}"), ("4}", "0}")], ["'cartn'", "'lwo'", "at least 1", "for 'case'"]),
 ]  # fmt: skip
 
