@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from opsim.scenario.schema.hands import Layers
 from opsim.tasks.levels import LevelsMean
 
 if TYPE_CHECKING:
-    from opsim.plan.tasks import TaskPlan
     from opsim.scenario.schema import Scenario
+
+T = TypeVar("T", bound=Any)
+"""A ``TaskPlan``, which imports this page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +60,7 @@ def performed_tasks(scenario: Scenario) -> dict[str, Any]:
     return found
 
 
-def with_levels(name: str, task: Any, make: Callable[[str, Any], TaskPlan]) -> list[TaskPlan]:
+def with_levels(name: str, task: Any, make: Callable[[str, Any], T]) -> list[T]:
     """A task; where its height changes, those that stand for it too, and it has their mean time."""
     own = [replace(make(key, one), of=name) for key, one in at_levels(name, task).items()]
     if not own:
@@ -66,7 +68,7 @@ def with_levels(name: str, task: Any, make: Callable[[str, Any], TaskPlan]) -> l
     return [*own, replace(own[0], name=name, of=None, model=LevelsMean([one.model for one in own]))]
 
 
-def found_levels(tasks: Sequence[TaskPlan], said: Mapping[str, Any], products: Sequence[str]) -> tuple[TaskPlan, ...]:
+def found_levels(tasks: Sequence[T], said: Mapping[str, Any], products: Sequence[str]) -> tuple[T, ...]:
     """The tasks of a Plan, in their order, each with its ``levels`` where it has some."""
     ranks = {task.name: rank for rank, task in enumerate(tasks)}
     found = [_levels(task.name, said.get(task.name), products, ranks) for task in tasks]
@@ -85,13 +87,13 @@ def _levels(name: str, task: Any, products: Sequence[str], ranks: Mapping[str, i
     return Levels(tuple(ranks[level_name(name, said.get(product, first))] for product in products))
 
 
-def for_product(tasks: Sequence[TaskPlan], task: int, product: int) -> TaskPlan:
+def for_product(tasks: Sequence[T], task: int, product: int) -> T:
     """The task as it is done for a product: at its level, where products decide."""
     levels = tasks[task].levels
     return tasks[task if levels is None or levels.pieces_each else levels.tasks[product]]
 
 
-def performed_ranks(tasks: Sequence[TaskPlan], task: int) -> tuple[int, ...]:
+def performed_ranks(tasks: Sequence[Any], task: int) -> tuple[int, ...]:
     """The ranks of the tasks that are performed where a station names one: itself, or those at its levels."""
     levels = tasks[task].levels
     return (task,) if levels is None else tuple(sorted(set(levels.tasks)))
