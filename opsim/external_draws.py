@@ -25,6 +25,7 @@ class OwnLuck:
 
     workforce : the number his own effects are keyed by: who he is, whatever the replication
     handling  : by task, what his hands hold, for who looks at his postures
+    named     : by task, the name in which it is drawn, where that is another one
     """
 
     def __init__(
@@ -36,6 +37,7 @@ class OwnLuck:
         workforce: int = 0,
         body: Any = None,
         across_tasks: str = "as_recorded",
+        named: Mapping[str, str] | None = None,
     ):
         self.models = dict(models)
         self.worker, self.seed, self.replication, self.body = worker, seed, replication, body
@@ -43,6 +45,7 @@ class OwnLuck:
         self._items: dict[str, Items] = {}
         self._effects: dict[str, Any] = {}
         self.handling: dict[str, Any] = {}
+        self._named = {} if named is None else dict(named)
         self._last: tuple[tuple[str, int, float], Any] | None = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -52,7 +55,7 @@ class OwnLuck:
     def performance(self, task: str, k: int) -> Drawn:
         """The k-th performance of a task, at rating 1. Raises ValueError where the model draws what is no time."""
         if task not in self._items:
-            name = ("duration", task, self.worker)
+            name = ("duration", self._named.get(task, task), self.worker)
             self._items[task] = Items(self.seed, self.replication, name, self._draw(task))
         return self._items[task][k]
 
@@ -63,7 +66,7 @@ class OwnLuck:
         model = self.models[task]
         if not np.any(shift) or not takes_shift(model):
             return self.performance(task, number * BLOCK).block
-        rng = stream(self.seed, self.replication, "duration", task, self.worker, number)
+        rng = stream(self.seed, self.replication, "duration", self._named.get(task, task), self.worker, number)
         with one_blas_thread():
             condition = {"log_duration_shift": np.asarray(shift, dtype=float)}
             return model.sample(BLOCK, rng, worker=self._effect(task), condition=condition)
@@ -85,7 +88,7 @@ class OwnLuck:
         if task not in self._effects:
             who = (self.worker, self.seed, self.workforce, self.body, self.across_tasks)
             with one_blas_thread():
-                self._effects[task] = worker_effect(self.models[task], task, *who)
+                self._effects[task] = worker_effect(self.models[task], self._named.get(task, task), *who)
         return self._effects[task]
 
     def _draw(self, task: str) -> Callable[[np.random.Generator, int], list[Drawn]]:

@@ -364,11 +364,11 @@ def drawn_s(plan: Plan, replication: int, worker: int, task: int, k: np.ndarray)
     who = (person.name, plan.seed, plan.workforce_of(replication), person.body, plan.across_tasks)
     numbers, which = np.unique(k // BLOCK, return_inverse=True)
     with one_blas_thread():
-        effect = worker_effect(named.model, named.name, *who)
+        effect = worker_effect(named.model, named.stream_name, *who)
         blocks = [_block(plan, replication, person.name, named, effect, number) for number in numbers.tolist()]
     return np.array(blocks).reshape(-1, BLOCK)[which, k % BLOCK]
 
 
 def _block(plan: Plan, replication: int, worker: str, task: Any, effect: Any, number: int) -> np.ndarray:
-    rng = stream(plan.seed, replication, "duration", task.name, worker, number)
+    rng = stream(plan.seed, replication, "duration", task.stream_name, worker, number)
     return np.asarray(task.model.sample(BLOCK, rng, worker=effect).duration_s)

@@ -121,8 +121,8 @@ class Draws:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
         body, across = self._plan.workers[worker].body, self._plan.across_tasks
         with one_blas_thread():
-            effect = worker_effect(plan.model, plan.name, name, self._plan.seed, self._workforce, body, across)
-        return self._items(("duration", plan.name, name), drawn(plan.model, effect))
+            effect = worker_effect(plan.model, plan.stream_name, name, self._plan.seed, self._workforce, body, across)
+        return self._items(("duration", plan.stream_name, name), drawn(plan.model, effect))
 
     def _items(self, name, draw) -> Items:
         return Items(self._plan.seed, self._replication, name, _on_one_thread(draw))

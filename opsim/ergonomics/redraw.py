@@ -116,7 +116,8 @@ def luck_of(plan: Plan, rank: int, replication: int) -> OwnLuck:
         return plan.lucks[rank]
     person, models = plan.workers[rank], {task.name: task.model for task in plan.tasks}
     workforce = plan.workforce_of(replication)
-    return OwnLuck(person.name, models, plan.seed, replication, workforce, person.body, plan.across_tasks)
+    named = {task.name: task.stream_name for task in plan.tasks}
+    return OwnLuck(person.name, models, plan.seed, replication, workforce, person.body, plan.across_tasks, named)
 
 
 def alike(*columns: np.ndarray) -> list[slice]:

@@ -262,10 +262,10 @@ def _drawn(plan: Plan, workforce: int, worker: int, task: int) -> np.ndarray | N
         return None
     with one_blas_thread():
         effect = worker_effect(
-            work.model, work.name, person.name, plan.seed, workforce, person.body, plan.across_tasks
+            work.model, work.stream_name, person.name, plan.seed, workforce, person.body, plan.across_tasks
         )  # fmt: skip
         drawn: Any = work.model.sample(
-            DRAWS, stream(plan.seed, workforce, "burden", person.name, work.name, 0), worker=effect
+            DRAWS, stream(plan.seed, workforce, "burden", person.name, work.stream_name, 0), worker=effect
         )
         if getattr(drawn, "skeleton", None) is None:
             return None

@@ -128,7 +128,7 @@ def _figures(kpi: str, cells: Ledger, subjects: list[str], hours: np.ndarray) ->
 
 def _subjects(plan: Plan) -> dict[str, Subjects]:
     """By column of the ledger's key: whatever people may be exposed at."""
-    tasks = {rank: task.name for rank, task in enumerate(plan.tasks) if not task.automatic}
+    tasks = {rank: task.name for rank, task in enumerate(plan.tasks) if not task.automatic and task.levels is None}
     beside = _beside_work(plan)
     stations = {rank: station.name for rank, station in enumerate(plan.stations) if station.tasks}
     products = {rank: product.name for rank, product in enumerate(plan.products)}

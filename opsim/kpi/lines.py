@@ -17,6 +17,7 @@ from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, in_window, inside_s, mean, units_each, window_length_s
 from opsim.log import BAD, FALSE_ALARM, FINISH, JOB_KINDS, REWORK, SCRAP, SENT_ON, STANDS, WORK, EventLog
 from opsim.plan import LinePlan, Plan
+from opsim.plan.levels import for_product
 from opsim.plan.lines import BUCKET_BRIGADE, CrewPlan
 
 
@@ -60,7 +61,7 @@ def _work_s(plan: Plan, crew: CrewPlan) -> np.ndarray:
     found = np.full(len(plan.products), np.nan)
     for rank, product in enumerate(plan.products):
         steps = [step.stations[0] for step in product.route if set(step.stations) <= set(crew.stations)]
-        tasks = [plan.tasks[task] for station in steps for task in plan.stations[station].tasks]
+        tasks = [for_product(plan.tasks, task, rank) for one in steps for task in plan.stations[one].tasks]
         found[rank] = sum(task.mean_s() * (1 if task.per_lot else product.lot) for task in tasks) or np.nan
     return found
 

@@ -7,6 +7,7 @@ from opsim.laws.capacity import away, outages, rooms, shared
 from opsim.laws.effects import pace, rests, shifts
 from opsim.laws.hours import closed, duty
 from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
+from opsim.laws.levels import heights
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of
@@ -26,6 +27,7 @@ LAWS: dict[str, Law] = {
     "nobody works at a station that is down": outages,
     "nothing begins at a station that its calendar closes": closed,
     "no more tools, cards, repair teams and vehicles are in use than there are": shared,
+    "hands are at the height that the product, or the layer in turn, asks for": heights,
     "who learns, or goes at another pace, takes what was drawn for him times what that makes of it": pace,
     "a time is shifted by as much as the worker's day has tired him": shifts,
     "who rests by need was too tired, and rests for as long as it takes": rests,

@@ -19,6 +19,7 @@ from opsim.ergonomics.measures import missing_scores
 from opsim.external_draws import takes_shift
 from opsim.kpi.catalogue import SCORED
 from opsim.libraries import FINE
+from opsim.plan.levels import performed_ranks
 from opsim.plan.plan import Plan
 from opsim.plan.tasks import TaskPlan
 from opsim.plan.workers import WorkerPlan
@@ -55,6 +56,7 @@ def tasks_of(plan: Plan, worker: WorkerPlan) -> list[TaskPlan]:
     ranks = {task for station, rating in zip(plan.stations, worker.rating) if rating for task in station.tasks}
     ranks |= {task for one in plan.setups if worker.rating[one.station] for task in one.tasks_by_hand}
     ranks |= {task for station, task in plan.more_setups if worker.rating[station]}
+    ranks = {level for rank in ranks for level in performed_ranks(plan.tasks, rank)}
     return [plan.tasks[rank] for rank in sorted(ranks) if not plan.tasks[rank].automatic]
 
 
@@ -114,7 +116,7 @@ def unmoved_bodies(plan: Plan) -> Iterator[str]:
 
 def stretched(plan: Plan) -> Iterator[str]:
     """The warnings, by task and target: how far it lies from what was recorded, of people with heights of their own."""
-    for task in plan.tasks:
+    for task in (task for task in plan.tasks if task.levels is None):
         model: Any = task.model
         for target in getattr(model, "targets", ()):
             reach = model.reach(target.joint, target.mark)
@@ -135,7 +137,7 @@ def _measured(plan: Plan, task: TaskPlan) -> list[WorkerPlan]:
 
 def _effect(plan: Plan, task: TaskPlan, worker: WorkerPlan) -> Any:
     number = plan.workforce_of(0)
-    effect = worker_effect(task.model, task.name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
+    effect = worker_effect(task.model, task.stream_name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
     return getattr(effect, "effect", effect)
 
 
@@ -157,5 +159,5 @@ def lacking(tasks: Iterable[TaskPlan]) -> dict[str, list[str]]:
 def unseen(plan: Plan, asked: Iterable[str]) -> Iterator[str]:
     """The warnings, where scores are among the figures asked for."""
     if not set(SCORED).isdisjoint(asked):
-        for sentence, names in lacking(task for task in plan.tasks if has_body(task)).items():
+        for sentence, names in lacking(task for task in plan.tasks if has_body(task) and task.levels is None).items():
             yield f"{listed(names)}: {sentence}"

@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from opsim.plan.levels import for_product
 from opsim.plan.products import ProductPlan, onward_probabilities
 from opsim.plan.sources import SourcePlan
 from opsim.plan.stations import StationPlan
@@ -48,9 +49,10 @@ class WorkAhead:
     left_steps: tuple[tuple[float, ...], ...]
 
 
-def _at_s(station: StationPlan, tasks: Sequence[TaskPlan], lot: int) -> float:
-    """Mean time of an operation on a lot."""
-    return sum(tasks[rank].mean_s() * (1 if tasks[rank].per_lot else lot) for rank in station.tasks)
+def _at_s(station: StationPlan, tasks: Sequence[TaskPlan], product: int, lot: int) -> float:
+    """Mean time of an operation on a lot of a product."""
+    own = [for_product(tasks, rank, product) for rank in station.tasks]
+    return sum(task.mean_s() * (1 if task.per_lot else lot) for task in own)
 
 
 def has_priorities(products: Sequence[ProductPlan], sources: Sequence[SourcePlan]) -> bool:
@@ -83,8 +85,8 @@ def work_ahead(
 ) -> WorkAhead:
     """What rules know of the work that lies ahead; stations ``together`` do each task once for all of a batch."""
     at_s = tuple(
-        tuple(_at_s(one, tasks, 1 if rank in together else product.lot) for rank, one in enumerate(stations))
-        for product in products
+        tuple(_at_s(one, tasks, number, 1 if rank in together else product.lot) for rank, one in enumerate(stations))
+        for number, product in enumerate(products)
     )
     work_s = tuple(
         tuple(_mean(at[rank] for rank in step.stations) for step in product.route)

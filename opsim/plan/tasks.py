@@ -1,7 +1,6 @@
 """What a scenario says of scoring -> Options, with angles in degrees, as the methods' tables have them.
 
 Names become numbers: each at its natural rank.
-
 Tools: how many of each there are, who needs them, and between which moments of a task one is held.
 
 What a scenario says of a task beside its time, which no posture tells: load, grip, force, support.
@@ -9,7 +8,6 @@ What a scenario says of a task beside its time, which no posture tells: load, gr
 Set-ups: what a server needs before a job of another class than the one it did last.
 
 Tasks with their models of time.
-
 What nobody said of a task's hands, and which scores it leaves open: for warnings and the assumption sheet.
 """
 
@@ -21,6 +19,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from opsim.ergonomics.options import Options, Thresholds
+from opsim.plan.levels import Levels, found_levels, with_levels
 from opsim.plan.subjects import subject_tasks
 from opsim.problems import natural_key
 from opsim.task_model import TaskModel
@@ -296,8 +295,8 @@ def _rank(setup, last: str, new: str, ranks: Ranks) -> int:
 def _said(station) -> list[float | str]:
     if station.setup is None:
         return []
-    times = [time for row in station.setup.times.values() for time in row.values()]
-    return times if station.setup.otherwise is None else [*times, station.setup.otherwise]
+    otherwise = [] if station.setup.otherwise is None else [station.setup.otherwise]
+    return [*(time for row in station.setup.times.values() for time in row.values()), *otherwise]
 
 
 ATTENDED = "attended"
@@ -309,10 +308,9 @@ class TaskPlan:
 
     attended : it takes the station's time, and a worker stays; team : workers at once
     needs, hold : tools for the whole of the task, and between two moments of each performance
-    per_lot : done once for a lot; else for each of its units
+    per_lot : done once for a lot; else for each of its units; handling : what is in the hands, what carries the body
     interruption : the rule by which it is left, whatever the shift says; None: the shift's
-    handling : what is in the hands, and what carries the body
-    """
+    levels : which tasks stand for it, where its height changes; of : the task that this one stands for"""
 
     name: str
     model: TaskModel
@@ -325,6 +323,13 @@ class TaskPlan:
     per_lot: bool = False
     interruption: str | None = None
     handling: Handling = NOT_SAID
+    levels: Levels | None = None
+    of: str | None = None
+
+    @property
+    def stream_name(self) -> str:
+        """The name in which it is drawn: one for all levels of a task."""
+        return self.of or self.name
 
     def mean_s(self, worker=None) -> float:
         """Mean time of all repeats together for one unit, in seconds, of a worker with skill rating 1."""
@@ -336,9 +341,10 @@ def plan_tasks(scenario: Scenario, model_of, beside: Iterable[TaskPlan] = ()) ->
 
     beside : tasks that are planned elsewhere, and are not switched
     """
-    more_tasks = setup_tasks(scenario)
-    tasks = [_task(name, task, scenario, model_of(task)) for name, task in {**scenario.tasks, **more_tasks}.items()]
-    return tuple(sorted([*tasks, *beside], key=lambda task: natural_key(task.name)))
+    said = {**scenario.tasks, **setup_tasks(scenario)}
+    made = [one for item in said.items() for one in with_levels(*item, lambda n, t: _task(n, t, scenario, model_of(t)))]
+    tasks = sorted([*made, *beside], key=lambda task: natural_key(task.name))
+    return found_levels(tasks, said, list(ranked(scenario.products)))
 
 
 def _task(name: str, task, scenario: Scenario, model: TaskModel) -> TaskPlan:

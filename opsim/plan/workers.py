@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from opsim.engine.rules import in_turn
 from opsim.layout import given_out, turns_away
 from opsim.plan.calendar import Duty, plan_duties
+from opsim.plan.levels import task_said
 from opsim.plan.lines import kept_from
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
@@ -185,7 +186,7 @@ def _experience(scenario: Scenario, ranks: Ranks) -> tuple[tuple[float, ...], ..
     workers = [worker for _, worker in sorted(scenario.workers.items(), key=lambda item: natural_key(item[0]))]
     if not any(worker.experience for worker in workers):
         return ()
-    return tuple(tuple(worker.experience.get(task, 0.0) for task in ranks.tasks) for worker in workers)
+    return tuple(tuple(worker.experience.get(task_said(task), 0.0) for task in ranks.tasks) for worker in workers)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from pydantic.fields import FieldInfo
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import templates
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Place, Scenario, Step
+from opsim.scenario.schema.hands import BY_PRODUCT, HEIGHT, LAYERS, Layers
 from opsim.scenario.schema.human_models import MODEL_TAGS
 from opsim.scenario.schema.subjects import scenario_model
 from opsim.scenario.schema.tasks import CYCLE_KINDS, SO_MANY
@@ -48,7 +49,7 @@ def option_hint(path: tuple[Part, ...]) -> str:
 
 _HERE = "keys here"
 _FORMS = (RATING, SKILL, SO_MANY, *CYCLE_KINDS, *MODEL_TAGS)
-_WAYS = ("<at>", "<place>", "<places>", "<path>")
+_WAYS = ("<at>", "<place>", "<places>", "<path>", HEIGHT, LAYERS, BY_PRODUCT)
 _MARKS = ("[key]", "<time>", "<model>", *_WAYS, "<motion>", "<step>", "<range>", "<values>", *_FORMS)
 _TYPES = {
     "string_type": "text",
@@ -237,7 +238,7 @@ def keys_allowed(loc: tuple[Part, ...]) -> list[str]:
 
 def _model_at(loc: tuple[Part, ...]) -> type[Block]:
     """The block at a location, found by walking down the models; marks say which kind of a task, a path, a step."""
-    marked: dict[str, type[Block]] = {"<place>": Place, "<path>": Path, "<step>": Step, SKILL: Skill}
+    marked: dict[str, type[Block]] = {"<place>": Place, "<path>": Path, "<step>": Step, LAYERS: Layers, SKILL: Skill}
     marked |= TASK_KINDS | MODEL_TAGS | CYCLE_KINDS
     model: type[Block] = scenario_model()
     parts = iter(loc)

@@ -95,11 +95,11 @@ def task_model(task: Any, loaded: Loaded) -> Any:
 
 
 def hand_targets(task: Emulated, layout: Layout) -> tuple[HandTarget, ...]:
-    """Where a task's hands go, in the order of its marks by name."""
+    """Where a task's hands go, in the order of its marks by name; each mark of one height."""
     return tuple(_target(mark, task.hands[mark], layout) for mark in sorted(task.hands, key=natural_key))
 
 
-def _target(mark: str, said: float | tuple[str, str], layout: Layout) -> HandTarget:
+def _target(mark: str, said: Any, layout: Layout) -> HandTarget:
     if isinstance(said, float):
         return HandTarget(mark, said)
     name, level = said

@@ -141,12 +141,14 @@ def floor_of(plan: Plan, layout: Any, like: tuple[Plan, Any] | None = None) -> F
     points, facing = here.points_m, facings(here, {} if like is None else kept(here, _site(*like)))
     posts: dict[int, Post] = {}
     at = [0] * len(points)
+    places = [layout.with_heights.get(name) for name in plan.places]
     for rank, station in enumerate(plan.stations):
         if station.kind == STATION:
-            posts[rank] = _post(station.place, at[station.place], facing[station.place])
+            number = 0 if _is_rack(places[station.place]) else at[station.place]
+            posts[rank] = _post(station.place, number, facing[station.place])
             at[station.place] += 1
     bare = Floor(points, facing, posts, tuple(at), (), (), ())
-    benches = tuple(_bench(bare, plan, rank, layout.with_heights.get(plan.places[posts[rank].place])) for rank in posts)
+    benches = tuple(_bench(bare, plan, rank, places[posts[rank].place]) for rank in posts)
     return Floor(points, facing, posts, tuple(at), benches, _piles(bare, plan), _belts(bare, plan))
 
 
@@ -180,23 +182,37 @@ def _post(place: int, number: int, facing_rad: float) -> Post:
     return Post(place, (side + pi) % (2 * pi) - pi, left_m if number % 2 == 0 else -left_m)
 
 
+def _is_rack(place: Any) -> bool:
+    """Whether a place has levels: its stations share one rack, of which each is a bay, and people stand before it."""
+    return place is not None and bool(place.levels_m)
+
+
 def _bench(floor: Floor, plan: Plan, rank: int, place: Any) -> Bench:
     """place : what the layout says of its heights, or None"""
     station, post = plan.stations[rank], floor.posts[rank]
+    sharing = [other for other, one in floor.posts.items() if one.place == post.place] if _is_rack(place) else [rank]
     tasks = [plan.tasks[task] for task in station.tasks]
-    together = max([station.servers, *(task.team for task in tasks)])
-    width_m = min(WIDTH_M + BESIDE_M * (together - 1), 5 * WIDTH_M)
-    x, y = floor.spot_m(post.place, post.facing_rad, post.left_m, -AHEAD_M - DEPTH_M / 2)
-    buffer_m = floor.spot_m(post.place, post.facing_rad, post.left_m + width_m / 2 + 0.5, -AHEAD_M - DEPTH_M / 2)
+    together = sum(_abreast(plan, other) for other in sharing)
+    whole_m, bay = min(WIDTH_M + BESIDE_M * (together - 1), 5 * WIDTH_M), sharing.index(rank)
+    width_m = whole_m / len(sharing)
+    left_m, beside_m = post.left_m + width_m * (bay + 0.5) - whole_m / 2, post.left_m + whole_m / 2 + 0.5 + 1.1 * bay
+    x, y = floor.spot_m(post.place, post.facing_rad, left_m, -AHEAD_M - DEPTH_M / 2)
+    buffer_m = floor.spot_m(post.place, post.facing_rad, beside_m, -AHEAD_M - DEPTH_M / 2)
     alone = bool(tasks) and all(task.automatic for task in tasks)
     holds = None if station.buffer == inf else int(station.buffer)
-    levels_m = tuple(sorted(place.heights_m.values())) if place is not None and place.levels_m else ()
+    levels_m = tuple(sorted(place.heights_m.values())) if _is_rack(place) else ()
     surface_m = HEIGHT_M if place is None or place.surface_m is None else place.surface_m
     high_m = levels_m[-1] + ABOVE_M if levels_m else surface_m
     return Bench(
         *(station.name, station.place, x, y, post.facing_rad, width_m, DEPTH_M, high_m, alone, buffer_m, holds),
         levels_m,
     )
+
+
+def _abreast(plan: Plan, station: int) -> int:
+    """How many work side by side at a station."""
+    of = plan.stations[station]
+    return max([of.servers, *(plan.tasks[task].team for task in of.tasks)])
 
 
 def _piles(floor: Floor, plan: Plan) -> tuple[Pile, ...]:

@@ -106,6 +106,29 @@ def emulated(pick, values: Values) -> None:
             task["hold"] = {"tool": "driver", "from": begins, "to": ends}
 
 
+def heights(pick, values: Values) -> None:
+    """Some tasks go to heights that change, with the product or with the layer.
+
+    NOTE: not among ``TIMES``, which would move all made floors: ``test_levels`` puts it on some of them.
+    """
+    values["libraries"] = {**values.get("libraries", {}), "handling": "libraries/handling.npz"}
+    values.get("human", {}).pop("forgetting", None)
+    places = values["layout"]["places"]
+    name = pick.one_of(list(places))
+    places[name] = {"at": places[name], "levels": {"low": "0.3 m", "hip": "0.9 m", "top": "1.5 m"}}
+    levels = [f"{name}.low", f"{name}.hip", f"{name}.top", "0.6 m"]
+    of_stations = {task for station in values["stations"].values() for task in station.get("tasks", ())}
+    able = [
+        task
+        for key, task in values["tasks"].items()
+        if key in of_stations and "fixed" in task and not {"automatic", "team", "hold"} & set(task)
+    ]
+    for task in pick.shuffled(able)[: pick.whole(2, 4)]:
+        by_product = {product: pick.one_of(levels) for product in values["products"]}
+        layers = {"layers": pick.shuffled(levels)[: pick.whole(1, 4)], "pieces_each": pick.whole(1, 5)}
+        _retimed(task, {"emulator": "handling/shelf", "hands": {"grasp": pick.one_of([by_product, layers, layers])}})
+
+
 def slow(values: Values) -> int:
     """How many times as long everything lasts: on floors of two days 24 times."""
     return 24 if values["run"]["horizon"] == "36 h" else 1

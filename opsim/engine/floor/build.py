@@ -20,6 +20,7 @@ from opsim.engine.floor import (
     human_effects,
     indexed_and_moving_lines,
     interruption,
+    levels,
     quality,
     rotations,
     sequencing,
@@ -43,7 +44,8 @@ from opsim.plan.sources import POISSON, RENEWAL, SATURATED, SCHEDULE
 from opsim.plugins.subjects import subjects_of
 
 BLOCKS: tuple[Callable[[Any], None], ...] = (
-    *(allocation.install_preferences, stores.install, assembly.install_kits, assembly.install_splits, batches.install),
+    *(levels.install, allocation.install_preferences, stores.install),
+    *(assembly.install_kits, assembly.install_splits, batches.install),
     *(setups.install, sequencing.install, buffers.install, cards.install, sources.install_base_stock, quality.install),
     *(work_sharing.install, tools.install, failures.install, interruption.install_preemption),
     *(calendar.install_opening_hours, conveyors.install, transporters.install, indexed_and_moving_lines.install),
@@ -172,6 +174,7 @@ class Build:
         made.n_needs = len(task.needs)
         made.needs = self.ints(number for need in task.needs for number in need)
         made.hold_tool = -1 if task.hold is None else task.hold.tool
+        made.of = rank if task.of is None else next(i for i, one in enumerate(self.plan.tasks) if one.name == task.of)
         return made
 
     def _station(self, rank: int) -> Handle:

@@ -120,6 +120,8 @@ class Floor:
     works_line: Call
     stops_line: Call
     errors_line: Call
+    has_levels: int
+    level_line: Call
     asked_task: int
     asked_k: int
     asked_s: float

@@ -13,6 +13,7 @@ from opsim.engine.floor.machine import Array, Call, List, address_of, call_out, 
 from opsim.engine.floor.records import Hook
 from opsim.engine.floor.state import Event, Worker
 from opsim.plan import Plan
+from opsim.plan.levels import performed_ranks
 
 
 @struct
@@ -237,7 +238,8 @@ def posts_by_strain(plan: Plan, rates: Any, posts: Sequence[Sequence[int]], memb
         return sum(plan.tasks[task].mean_s() * per_s(task) for task in tasks)
 
     def per_s(task: int) -> float:
-        return sum(rates.per_s(member, task) for member in members) / len(members)
+        levels = performed_ranks(plan.tasks, task)
+        return sum(rates.per_s(member, level) for member in members for level in levels) / len(members) / len(levels)
 
     strain = [added(post) for post in posts]
     return sorted(range(len(posts)), key=lambda post: (-strain[post], post))

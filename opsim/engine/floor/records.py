@@ -51,7 +51,11 @@ class Seat:
 
 @struct
 class Task:
-    """Of a Plan, by rank. rule : of interruption, -1 where the shift's holds; hold_tool : -1 where none is held."""
+    """Of a Plan, by rank. rule : of interruption, -1 where the shift's holds; hold_tool : -1 where none is held
+
+    levels : ranks of the tasks that stand for it, of each product, or of n_levels layers in turn with pieces_each
+    begins; n_begun : how often a layer was asked for; of : rank of the task that it stands for, else its own
+    """
 
     rank: int
     repeat: int
@@ -64,4 +68,9 @@ class Task:
     n_needs: int
     needs: Array[int]
     hold_tool: int
+    n_levels: int
+    levels: Array[int]
+    pieces_each: int
+    n_begun: int
+    of: int
     subject: Any

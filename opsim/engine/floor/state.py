@@ -107,6 +107,7 @@ class Job:
     step, operation : where it is on its route, or wants to be next; ``operation_rank`` goes into its rows,
                       ``gate`` is in front of the operation
     task_position   : how many of the tasks at the station are done; ``repeats_done`` of the one under way
+    level           : 1 + rank of the task that stands for the one under way, where its height changes; 0: none yet
     worker .. pace_shift : the performance under way, where ``kind`` is WORK or SETUP; worker -1 where it is automatic
     asked           : what was drawn for it, before human effects, and how much of it was done then; None: nobody was
     progress_from, rest_s : where it goes on, and how many seconds are left, of a performance that was interrupted
@@ -135,6 +136,7 @@ class Job:
     station: Station
     task_position: int
     repeats_done: int
+    level: int
     worker: int
     task: int
     performance_id: int

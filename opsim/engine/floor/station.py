@@ -198,6 +198,10 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
         stand_still(floor, station, job)
         return
     task = task_of(job)
+    if floor.has_levels and job.setup_task < 0:
+        floor.asked_task = task
+        floor.level_line(floor, job)
+        task = floor.asked_task
     if job.rest_s:
         duration_s = rest_s(floor, job, worker, task)
         k = floor.asked_k

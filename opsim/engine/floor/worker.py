@@ -198,14 +198,22 @@ def task_of(job: Job) -> int:
 
 @inlined
 def own_next_s(floor: Floor, worker: Worker, task: int) -> float:
-    """The worker's own next time of a task, at rating 1, without human effects; ``floor.asked_k`` is its number."""
+    """The worker's own next time of a task, at rating 1, without human effects; ``floor.asked_k`` is its number.
+
+    A task at a level is counted with all levels, so that item k is one luck: what others had of it is passed by.
+    """
     luck = worker.luck[task]
     if not luck:
         luck = stream_of(floor, DURATION, worker.rank, task, 0)
         worker.luck[task] = luck
-    k = worker.next_k[task]
-    worker.next_k[task] = k + 1
+    of = floor.tasks[task].of if floor.has_levels else task
+    k = worker.next_k[of]
     floor.asked_k = k
+    if of != task:
+        for _ in range(worker.next_k[task], k):
+            next_number(floor, luck)
+        worker.next_k[task] = k + 1
+    worker.next_k[of] = k + 1
     return next_number(floor, luck)
 
 
@@ -243,6 +251,8 @@ def begin(floor: Floor, job: Job, worker: int, task: int, k: int, duration_s: fl
 @inlined
 def ended(floor: Floor, job: Job) -> None:
     """A performance of the job is over, to its end; its row is written when the job's state changes."""
+    if job.setup_task < 0:
+        job.level = 0
     if job.rest_s:
         log_job(floor, job)  # the last piece, while it is known where it began
         job.since_s = floor.now

@@ -199,8 +199,8 @@ class DoseRates:
             return 0.0
         who = (person.name, plan.seed, self._workforce, person.body, plan.across_tasks)
         with one_blas_thread():
-            effect = worker_effect(named.model, named.name, *who)
-            rng = stream(plan.seed, self._workforce, "dose", named.name, person.name, 0)
+            effect = worker_effect(named.model, named.stream_name, *who)
+            rng = stream(plan.seed, self._workforce, "dose", named.stream_name, person.name, 0)
             block = named.model.sample(N_DRAWS, rng, worker=effect)
             return self._mean_rula(block, named) if has_body(block) else 0.0
 

@@ -14,6 +14,7 @@ from itertools import pairwise
 from math import inf
 from typing import NamedTuple
 
+from opsim.plan.levels import for_product
 from opsim.plan.lines import SharePlan
 from opsim.plan.plan import Plan
 from opsim.plan.products import NOWHERE, ProductPlan, QualityPlan
@@ -210,7 +211,7 @@ LEAST_SETUP = "least_setup"
 
 def task_s(plan: Plan, task: int, product: int) -> float:
     """Mean time of a task for a job, all units of its lot, at rating 1."""
-    said = plan.tasks[task]
+    said = for_product(plan.tasks, task, product)
     return said.mean_s() * (1 if said.per_lot else plan.products[product].lot)
 
 

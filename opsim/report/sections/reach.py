@@ -12,6 +12,7 @@ from opsim.ergonomics.angles import trunk_flexion_rad, upper_arm_angles
 from opsim.ergonomics.measures import has_body
 from opsim.ergonomics.redraw import luck_of
 from opsim.libraries import HandTarget
+from opsim.plan.levels import performed_tasks, task_said
 from opsim.problems import natural_key
 from opsim.report.material import Material
 from opsim.report.numbers import digits
@@ -67,9 +68,9 @@ def reach_section(material: Material) -> Section | None:
 def postures_of(material: Material) -> list[Posture]:
     """Of each task with targets, mark and worker, the lowest height first."""
     scenario, plan = material.loaded.scenario, material.plan
-    found = []
+    found, performed = [], performed_tasks(scenario)
     for number, task in enumerate(plan.tasks):
-        said = scenario.tasks.get(task.name)
+        said: Any = performed.get(task.name)
         hands = getattr(said, "hands", {})
         for target in hand_targets(said, scenario.layout) if hands else ():
             level = hands[target.mark]
@@ -125,18 +126,19 @@ def _picture(one: Posture, among: Sequence[Posture]) -> Svg:
         label=said,
     )
     tall = "" if one.stature_m is None else f", {one.stature_m:.2f} m tall"
-    return Svg(picture, said, f"{height}: {one.task}", f"{one.worker}{tall}")
+    return Svg(picture, said, f"{height}: {task_said(one.task)}", f"{one.worker}{tall}")
 
 
 def _table(found: Sequence[Posture], material: Material) -> Grid:
     """Time and angles a height and worker; where exposure by task was asked for, that of the task too."""
     bars = {bar.subject: bar for bar in bars_by(material.summary["kpis"], "exposure_by_task")}
-    columns = ["Height", "Level", "Task, mark", "Worker", "Time, s", f"Trunk flexed, {DEGREE}", f"Upper arm, {DEGREE}"]
+    columns = ["Hands at", "Task, mark", "Worker", "Time, s", f"Trunk flexed, {DEGREE}", f"Upper arm, {DEGREE}"]
     rows = []
     for one in found:
-        words = [f"{one.target.height_m:.2f} m", one.level, f"{one.task}, {one.target.mark}", one.worker]
+        at = f"{one.target.height_m:.2f} m" + (f", {one.level}" if one.level else "")
+        words = [at, f"{task_said(one.task)}, {one.target.mark}", one.worker]
         row = [*words, f"{one.seconds:.2f}", f"{one.trunk_deg:.0f}", f"{one.arm_deg:.0f}"]
         if bars:
             row.append(digits(bars[one.task].five, 0.1) if one.task in bars else "")
         rows.append(row)
-    return Grid([*columns, *(["Task at RULA 5 or more, min/h"] if bars else [])], rows, "By height", words=4)
+    return Grid([*columns, *(["RULA 5 or more, min/h"] if bars else [])], rows, "By height", words=3)

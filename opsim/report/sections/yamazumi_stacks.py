@@ -16,6 +16,7 @@ from opsim.kpi.cycle_times import cycle_times
 from opsim.kpi.window import SECONDS_PER_HOUR, duty_hours, in_window, inside_s, is_in, open_hours
 from opsim.log import FINISH, SETUP, WALK, WORK, EventLog
 from opsim.plan import Plan
+from opsim.plan.levels import performed_ranks
 from opsim.plan.loads.flows import flows_of
 from opsim.report.material import Material
 from opsim.report.numbers import is_number, listing, three_digits
@@ -94,9 +95,13 @@ def _by_task(material: Material) -> dict[int, dict[str, float]]:
     cell = log["station"][rows] * len(plan.tasks) + log["task"][rows]
     spent_s = np.bincount(cell, log["end_s"][rows] - log["start_s"][rows], len(plan.stations) * len(plan.tasks))
     for rank, (station, own_s) in enumerate(zip(plan.stations, spent_s.reshape(len(plan.stations), -1))):
-        own = {plan.tasks[task].name: float(own_s[task]) for task in dict.fromkeys(station.tasks)}
+        own = {plan.tasks[task].name: float(own_s[task]) for task in _performed(plan, station.tasks)}
         found[rank] = own if own_s.sum() > 0 else _planned_s(plan, rank)
     return found
+
+
+def _performed(plan: Plan, tasks: Sequence[int]) -> list[int]:
+    return list(dict.fromkeys(level for task in tasks for level in performed_ranks(plan.tasks, task)))
 
 
 def _whole(log: EventLog, rows: np.ndarray, plan: Plan) -> np.ndarray:

@@ -50,8 +50,9 @@ def _hands(tree: Node) -> Iterator[tuple[str, str]]:
     """(place, level) wherever hands go to one."""
     for task in entries(tree, "tasks").values():
         for hand in entries(task, "hands").values():
-            place, _, level = (text(hand) or "").partition(".")
-            yield place.strip(), level.strip()
+            for height in (hand, *entries(hand).values(), *items(hand, "layers")):
+                place, _, level = (text(height) or "").partition(".")
+                yield place.strip(), level.strip()
 
 
 def _unused(tree: Node, base: Node, path: tuple[str, ...], used: Collection, what: str) -> Iterator[Problem]:

@@ -19,12 +19,14 @@ from opsim.libraries import (
     recorded_reach,
     resolve_library,
 )
-from opsim.problems import Problem, did_you_mean, shown
+from opsim.problems import Problem, did_you_mean, nearest, shown
+from opsim.scenario.checks.lookup import named, rework_at, stations_of
 from opsim.scenario.checks.motions import marks_of
+from opsim.scenario.checks.sequence import setup_times
 from opsim.scenario.fields import DEEPEST_M, HIGHEST_M
+from opsim.scenario.schema.hands import BY_PRODUCT, hand_height, hand_tag
 from opsim.scenario.schema.layout import SURFACE, Place
-from opsim.scenario.schema.task_block import hand_height
-from opsim.scenario.tree import Node, Part, child, entries, problem, text
+from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 
 _KEYS = {field.alias or name for name, field in Place.model_fields.items()}
 
@@ -39,11 +41,18 @@ class Hand:
 
 
 def hand_problems(tree: Node, folder: Path) -> Iterator[Problem]:
-    """Marks, places and levels that are not there, bodies without wrists, and targets that nobody was seen to reach."""
+    """Marks, products, places and levels that are not there, bodies without wrists, and targets that nobody was seen to
+    reach."""
+    yield from _one_height(tree)
     for name, task in entries(tree, "tasks").items():
         said = entries(task, "hands")
         if said and text(task, "emulator") is not None:
-            wrong = [*_marks(tree, name, task, folder), *_levels(tree, name, said), *_wrists(tree, name, task, folder)]
+            wrong = [
+                *_marks(tree, name, task, folder),
+                *_products(tree, name, said),
+                *_levels(tree, name, said),
+                *_wrists(tree, name, task, folder),
+            ]
             yield from wrong
             if not wrong:
                 yield from _beyond(tree, name, task, folder)
@@ -59,11 +68,72 @@ def _marks(tree: Node, name: str, task: Node, folder: Path) -> Iterator[Problem]
             yield problem(node.name_place, ("tasks", name, "hands", said), found, hint)
 
 
+def _one_height(tree: Node) -> Iterator[Problem]:
+    """Set-ups, and forgetting, which remembers each task by itself, where a task's height changes."""
+    hands = {name: entries(task, "hands").values() for name, task in entries(tree, "tasks").items()}
+    varying = [name for name, nodes in hands.items() if any(isinstance(node.value, dict) for node in nodes)]
+    forgetting = child(tree, "human", "forgetting")
+    for name in varying if forgetting is not None and forgetting.value is not None else ():
+        assert forgetting is not None
+        found = f"the hands of {shown(name)} go to heights that change, and nobody knows what is forgotten of which"
+        yield problem(forgetting.name_place, ("human", "forgetting"), found, "remove it, or take one height")
+    for name, station in entries(tree, "stations").items():
+        for time in setup_times(station):
+            if time.value in varying:
+                found = f"the hands of {shown(time.value)} go to heights that change"
+                yield problem(time.place, ("stations", name, "setup"), found, "take a task with one height")
+
+
+def _products(tree: Node, name: str, hands: dict[str, Node]) -> Iterator[Problem]:
+    """Of heights by product, products that are not there, and those that come to the task and are left out."""
+    products, stations = entries(tree, "products"), entries(tree, "stations")
+    at = {key for key, one in stations.items() if any(task.value == name for task in items(one, "tasks"))}
+    for mark, node in hands.items():
+        if not isinstance(node.value, dict) or hand_tag(_plain(node)) != BY_PRODUCT:
+            continue
+        said, path = entries(node), ("tasks", name, "hands", mark)
+        for product, height in said.items():
+            yield from named(Node(product, height.name_place), products, "product", (*path, product))
+        coming = [product for product, one in products.items() if at & _reached(tree, one)]
+        lacking = [product for product in coming if product not in said]
+        near = {nearest(product, lacking) for product in said if product not in products}
+        for product in (one for one in lacking if one not in near):  # a mistyped product is one mistake, not two
+            found = f"nothing says where hands go for {shown(product)}"
+            yield problem(node.name_place, path, found, f"add e.g. '{product}: {_first_height(said)}'")
+
+
+def _reached(tree: Node, product: Node) -> set[str]:
+    """The stations that a product comes to, for rework too."""
+    found = stations_of(product)
+    reworks = (rework_at(child(tree, "stations", station)) for station in found)
+    return found | {rework.value for rework in reworks if rework is not None}
+
+
+def _first_height(said: dict[str, Node]) -> str:
+    return next((node.value for node in said.values() if isinstance(node.value, str)), "rack.low")
+
+
+def _plain(node: Node) -> object:
+    """A node's value, a block's with the values that stand in it."""
+    return {key: one.value for key, one in entries(node).items()} if isinstance(node.value, dict) else node.value
+
+
+def _heights_said(hands: dict[str, Node]) -> Iterator[tuple[str, Node, tuple[Part, ...]]]:
+    """(mark, height, its path below ``hands``) of every height: the one at a mark, those by product, and of layers."""
+    for mark, node in hands.items():
+        if not isinstance(node.value, dict):
+            yield mark, node, (mark,)
+        elif hand_tag(_plain(node)) == BY_PRODUCT:
+            yield from ((mark, one, (mark, product)) for product, one in entries(node).items())
+        else:
+            yield from ((mark, one, (mark, "layers", at)) for at, one in enumerate(items(node, "layers")))
+
+
 def _levels(tree: Node, name: str, hands: dict[str, Node]) -> Iterator[Problem]:
     """Places without such a height; what the schema refuses is passed over."""
     places = entries(tree, "layout", "places")
-    for mark, node in hands.items():
-        height, path = _height(node), ("tasks", name, "hands", mark)
+    for _, node, below in _heights_said(hands):
+        height, path = _height(node), ("tasks", name, "hands", *below)
         if not isinstance(height, tuple):
             continue
         place, level = height
@@ -114,8 +184,8 @@ def hands_of(tree: Node, name: str, task: Node) -> list[Hand]:
     """The targets of a task whose words are right; what the schema refuses is left out."""
     places = entries(tree, "layout", "places")
     found = []
-    for mark, node in entries(task, "hands").items():
-        height, path = _height(node), ("tasks", name, "hands", mark)
+    for mark, node, below in _heights_said(entries(task, "hands")):
+        height, path = _height(node), ("tasks", name, "hands", *below)
         if isinstance(height, float):
             found.append(Hand(HandTarget(mark, height), node, path))
         elif height is not None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
+from pydantic import Field, model_validator
 
-from opsim import units
-from opsim.problems import shown
 from opsim.scenario.fields import Load, Seconds, Whole, plain_error
+from opsim.scenario.schema.hands import Hand, Layers
 from opsim.scenario.schema.run import RULES
 from opsim.scenario.schema.tools import ATTENDED, Automatic, Handling, Hold, Loaded, Needs
 from opsim.scenario.tree import Block
@@ -88,44 +87,36 @@ class TaskBlock(Block):
         return self
 
 
-_HAND = "such as rack.low, a level of a place, or 0.4 m above the floor"
-
-
-def hand_height(value: object) -> float | tuple[str, str]:
-    """Metres above the floor, or (place, level): of ``0.4 m`` and of ``rack.low``. Raises an error in our words."""
-    if isinstance(value, str):
-        place, _, level = (part.strip() for part in value.rpartition("."))
-        is_number = value.strip()[:1] in "+-.0123456789"
-        if place and level and not (is_number and (level[0].isdecimal() or place.lstrip("+-").isdecimal())):
-            return place, level
-        if not is_number:
-            raise plain_error(f"expected a height, found {shown(value)}", _HAND)
-    try:
-        height_m = units.parse(value, "length")
-    except units.UnitError as error:
-        raise plain_error(error.message, error.hint or _HAND) from None
-    if height_m < 0:
-        raise plain_error(f"must be at least 0 m, found {shown(value)}", "heights count from the floor")
-    return height_m
-
-
-HandHeight = Annotated[
-    float | tuple[str, str],
-    BeforeValidator(hand_height),
-    WithJsonSchema({"type": "string", "pattern": r"\S", "examples": ["rack.low", "0.4 m"]}),
-]
-
-
 class Emulated(TaskBlock):
     """Duration and posture from a motion emulator: ``emulator: library/task``."""
 
     emulator: str = Field(description="library/task", examples=["moves/deep_squat"])
-    hands: dict[str, HandHeight] = Field(
+    hands: dict[str, Hand] = Field(
         {},
         description="by a mark of the movement, where the middle of both hands is then: a level of a place, or a "
-        "height above the floor; body and time follow",
-        examples=["{grasp: rack.low, release: bench.surface}"],
+        "height above the floor; at one mark by product, or in layers that are used up in turn; body and time follow",
+        examples=["{grasp: rack.low, release: bench.surface}", "{grasp: {carton: rack.low, case: rack.top}}"],
     )
+
+    @model_validator(mode="after")
+    def _one_varies(self) -> Emulated:
+        """Who works alone, and with nothing held, can go to one height or another."""
+        varies = [mark for mark, said in self.hands.items() if isinstance(said, Layers | dict)]
+        if len(varies) > 1:
+            found = f"heights change at {varies[0]!r} and at {varies[1]!r}"
+            raise plain_error(found, "let them change at one mark of a task", on="hands")
+        if not varies:
+            return self
+        said = {"team": self.team > 1, "hold": self.hold is not None, "automatic": bool(self.automatic)}
+        for key in (key for key, is_said in said.items() if is_said):
+            hint = f"remove {key!r}, or take one height"
+            raise plain_error(f"heights that change go with one worker alone, and here is {key!r}", hint, on="hands")
+        return self
+
+    @property
+    def varies(self) -> str | None:
+        """The mark at which heights change with the product or the layer; None: at none."""
+        return next((mark for mark, said in self.hands.items() if isinstance(said, Layers | dict)), None)
 
     @property
     def library(self) -> str:

@@ -44,7 +44,7 @@ def ergonomics(loaded: Loaded, plan: Plan) -> Lines:
     if evens_out(plan):
         yield "exposure", _sent_by_dose()
     asked = {*loaded.scenario.outputs, *(read_asked(one).kpi for one in loaded.scenario.frontier or ())}
-    bodies = [task for task in plan.tasks if has_body(task)]
+    bodies = [task for task in plan.tasks if has_body(task) and task.levels is None]
     if asked.isdisjoint((*SCORED, *REGION)) or not bodies:
         return
     yield from _forks(plan.ergonomics)

@@ -258,7 +258,7 @@ def _beside(key: str, said: dict[tuple[str, str], tuple[str, ...]]) -> str:
 
 def _said(plan: Plan, worker: WorkerPlan, task: TaskPlan) -> tuple[str, ...]:
     """What an emulator says of the body that it was asked for."""
-    effect = worker_effect(task.model, task.name, worker.name, plan.seed, 0, worker.body)
+    effect = worker_effect(task.model, task.stream_name, worker.name, plan.seed, 0, worker.body)
     return tuple(getattr(getattr(effect, "effect", effect), "said", ()))
 
 

@@ -21,6 +21,7 @@ from opsim.kpi.deadlock import Locked
 from opsim.kpi.material_supply import NOBODY, TO_FILL
 from opsim.libraries import HandTarget
 from opsim.plan import Plan
+from opsim.plan.levels import performed_tasks
 from opsim.plan.model_warnings import stretched, unread
 from opsim.plan.resources import repairs_said
 from opsim.plan.tasks import setup_tasks
@@ -117,7 +118,8 @@ def _times(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
 
 def _hands(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     """Tasks whose hands go where the scenario says."""
-    tasks = {name: task for name, task in loaded.scenario.tasks.items() if isinstance(task, Emulated) and task.hands}
+    tasks = performed_tasks(loaded.scenario)
+    tasks = {name: task for name, task in tasks.items() if isinstance(task, Emulated) and task.hands}
     for name, task in tasks.items():
         at = [_at(one, task.hands[one.mark]) for one in hand_targets(task, loaded.scenario.layout)]
         yield (
@@ -201,6 +203,7 @@ def task_sources(loaded: Loaded, plan: Plan) -> list[dict]:
         if task.name in loaded.scenario.tasks
         else _unnamed(plan, rank, unnamed[task.name])
         for rank, task in enumerate(plan.tasks)
+        if task.of is None
     ]
 
 

@@ -106,7 +106,8 @@ def people_differ(plan: Plan) -> bool:
     drawn = [worker for worker in plan.workers if not _recorded(worker.body)]
     by_hand = [task for task in plan.tasks if not task.automatic]
     return any(
-        worker_effect(task.model, task.name, drawn[0].name, plan.seed, 1, drawn[0].body, plan.across_tasks) is not None
+        worker_effect(task.model, task.stream_name, drawn[0].name, plan.seed, 1, drawn[0].body, plan.across_tasks)
+        is not None
         for task in by_hand
         if drawn
     )

@@ -48,8 +48,10 @@ def test_the_section_has_a_picture_and_a_row_of_each_and_exposure_where_it_was_a
     section, n = reach_section(rack), len(postures_of(rack))
     _, pictures, table = section.blocks
     assert isinstance(pictures, Panels) and isinstance(table, Grid) and len(pictures.blocks) == len(table.rows) == n
+    assert len(table.columns) <= 7, "one more and it is wider than the page"
+    assert "0.30 m, rack.low" in {row[0] for row in table.rows}
     assert "ana, 1.60 m tall" in {one.caption for one in pictures.blocks}
-    assert {row[-1] for row in table.rows if row[2] == "pick_low, grasp"} == {"4.00"}
+    assert {row[-1] for row in table.rows if row[1] == "pick_low, grasp"} == {"4.00"}
     rack_without = of_log(
         rack.log, rack.plan, rack.loaded, rows=[{"kpi": "throughput_per_h", "subject": "", "mean": 1}]
     )
@@ -57,7 +59,7 @@ def test_the_section_has_a_picture_and_a_row_of_each_and_exposure_where_it_was_a
 
 
 def test_without_heights_or_rows_there_is_no_such_section(rack):
-    plain = read_scenarios("shelf_heights", ["base"])["base"]
+    plain = read_scenarios("serial_line", ["base"])["base"]
     plan = compile_plan(plain)
     assert reach_section(of_log(None, plan, plain, rows=exposures())) is None
     assert postures_of(of_log(rack.log, plan, plain, rows=exposures())) == []

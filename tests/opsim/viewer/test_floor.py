@@ -1,3 +1,4 @@
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 
 import numpy as np
@@ -74,6 +75,23 @@ workers: {{ana: {{skills: {{s1: 1, s2: 1, s3: 1}}}}}}
     assert (bench.height_m, bench.levels_m) == (1.1, ())
     assert shelves.levels_m == (0.3, 1.6) and shelves.height_m > 1.6
     assert (plain.height_m, plain.levels_m) == (HEIGHT_M, ())
+
+
+def test_stations_at_one_rack_are_bays_of_it_and_people_stand_before_it():
+    run = run_of("rack_levels")
+    floor = floor_of(run.plan, run.loaded.scenario.layout)
+    bays = [bench for bench in floor.benches if bench.name in ("hip", "low", "top")]
+    assert [bay.levels_m for bay in bays] == 3 * [(0.3, 0.95, 1.6)]
+    assert len({(bay.facing_rad, bay.height_m, bay.width_m) for bay in bays}) == 1
+    steps_m = [hypot(b.x_m - a.x_m, b.y_m - a.y_m) for a, b in pairwise(bays)]
+    assert steps_m == pytest.approx(2 * [bays[0].width_m]), "one joins the next"
+    x, y = floor.points_m[bays[0].place]
+    far = AHEAD_M + DEPTH_M / 2
+    middle = (x + far * cos(bays[1].facing_rad), y + far * sin(bays[1].facing_rad))
+    assert (bays[1].x_m, bays[1].y_m) == pytest.approx(middle)
+    posts = [post for post in floor.posts.values() if post.place == bays[0].place]
+    assert {(post.facing_rad, post.left_m) for post in posts} == {(bays[0].facing_rad, 0.0)}
+    assert all(hypot(a.buffer_m[0] - b.buffer_m[0], a.buffer_m[1] - b.buffer_m[1]) > 1.0 for a, b in pairwise(bays))
 
 
 def test_two_stations_of_one_place_stand_back_to_back():

@@ -108,7 +108,7 @@ class LuckOfPlan:
     def _effect(self, task: int, worker: int, workforce: int) -> Any:
         plan, one = self.plan.tasks[task], self.plan.workers[worker]
         seed, across = self.plan.seed, self.plan.across_tasks
-        return worker_effect(plan.model, plan.name, one.name, seed, workforce, one.body, across)
+        return worker_effect(plan.model, plan.stream_name, one.name, seed, workforce, one.body, across)
 
     def _of_people(self, what: tuple, model: Any, make: Callable[[], Any]) -> Any:
         """As ``_kept``, but people of one replication alone, and effects that a plug-in may change, are made anew."""
@@ -202,7 +202,7 @@ class BlockDraws:
         return self.begun + self._luck.name(name)
 
     def _of_worker(self, task: int, worker: int) -> tuple[str, ...]:
-        return "duration", self._plan.tasks[task].name, self._plan.workers[worker].name
+        return "duration", self._plan.tasks[task].stream_name, self._plan.workers[worker].name
 
     def _at_station(self, task: int, station: int) -> tuple[str, ...]:
         return "automatic", self._plan.tasks[task].name, self._plan.stations[station].name

@@ -1,0 +1,103 @@
+"""A task whose height changes with the product or with the layer: it is performed as a task of its own at each level.
+
+All levels draw the same noise: item k of a worker at the task is one luck, which each level turns into its own time
+and body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from opsim.scenario.schema.hands import Layers
+from opsim.tasks.levels import LevelsMean
+
+if TYPE_CHECKING:
+    from opsim.scenario.schema import Scenario
+
+T = TypeVar("T", bound=Any)
+"""A ``TaskPlan``, which imports this page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Levels:
+    """tasks : ranks of the tasks that stand for it, of each product (P,), or of each layer in turn (L,)
+
+    pieces_each : how often it is begun at a layer before the next one comes; 0: products decide
+    """
+
+    tasks: tuple[int, ...]
+    pieces_each: int = 0
+
+
+def level_name(task: str, height: float | tuple[str, str]) -> str:
+    """What a task is called at a height; a bracket is in no name of a scenario."""
+    return f"{task} [{f'{height:g} m' if isinstance(height, float) else '.'.join(height)}]"
+
+
+def task_said(name: str) -> str:
+    """The task of the scenario behind the name of one, at a level or not."""
+    return name.partition(" [")[0]
+
+
+def at_levels(name: str, task: Any) -> dict[str, Any]:
+    """The tasks that stand for one, by name, each with one height; empty where its height does not change."""
+    mark = getattr(task, "varies", None)
+    if mark is None:
+        return {}
+    return {
+        level_name(name, height): task.model_copy(update={"hands": {**task.hands, mark: height}})
+        for height in _heights(task.hands[mark])
+    }
+
+
+def performed_tasks(scenario: Scenario) -> dict[str, Any]:
+    """The tasks of a scenario as they are performed: by name, those that stand for one in its place."""
+    found: dict[str, Any] = {}
+    for name, task in scenario.tasks.items():
+        found |= at_levels(name, task) or {name: task}
+    return found
+
+
+def with_levels(name: str, task: Any, make: Callable[[str, Any], T]) -> list[T]:
+    """A task; where its height changes, those that stand for it too, and it has their mean time."""
+    own = [replace(make(key, one), of=name) for key, one in at_levels(name, task).items()]
+    if not own:
+        return [make(name, task)]
+    return [*own, replace(own[0], name=name, of=None, model=LevelsMean([one.model for one in own]))]
+
+
+def found_levels(tasks: Sequence[T], said: Mapping[str, Any], products: Sequence[str]) -> tuple[T, ...]:
+    """The tasks of a Plan, in their order, each with its ``levels`` where it has some."""
+    ranks = {task.name: rank for rank, task in enumerate(tasks)}
+    found = [_levels(task.name, said.get(task.name), products, ranks) for task in tasks]
+    return tuple(task if levels is None else replace(task, levels=levels) for task, levels in zip(tasks, found))
+
+
+def _levels(name: str, task: Any, products: Sequence[str], ranks: Mapping[str, int]) -> Levels | None:
+    """None where the height does not change. A product that never comes has the first of those that are said."""
+    mark = getattr(task, "varies", None)
+    if mark is None:
+        return None
+    said = task.hands[mark]
+    if isinstance(said, Layers):
+        return Levels(tuple(ranks[level_name(name, height)] for height in said.layers), said.pieces_each)
+    first = next(iter(said.values()))
+    return Levels(tuple(ranks[level_name(name, said.get(product, first))] for product in products))
+
+
+def for_product(tasks: Sequence[T], task: int, product: int) -> T:
+    """The task as it is done for a product: at its level, where products decide."""
+    levels = tasks[task].levels
+    return tasks[task if levels is None or levels.pieces_each else levels.tasks[product]]
+
+
+def performed_ranks(tasks: Sequence[Any], task: int) -> tuple[int, ...]:
+    """The ranks of the tasks that are performed where a station names one: itself, or those at its levels."""
+    levels = tasks[task].levels
+    return (task,) if levels is None else tuple(sorted(set(levels.tasks)))
+
+
+def _heights(said: Any) -> list[float | tuple[str, str]]:
+    return list(said.layers if isinstance(said, Layers) else said.values())
