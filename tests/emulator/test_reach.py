@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from emulator_evidence.reach import drawn_of, energy, seen_of
+from emulator_evidence.reach import drawn_of, energy, seen_of, summary
 from motion_evidence import reach as motion_evidence
 
 from emulator import MotionEmulator, Target
@@ -243,6 +243,16 @@ def test_the_evidence_tells_how_often_it_helped():
     told = motion_evidence.lines("squat", errors, np.array([0.0, 0.5]))
     assert told[0] == "squat: 2 recordings left out, one at a time; 25% of the draws miss by 5 mm"
     assert [line.split()[-1] for line in told[1:]] == ["100%", "100%", "50%"]
+
+
+def test_the_evidence_tells_the_bias_of_the_law_from_the_luck_of_a_fit():
+    """Two fits whose times are 5 % off, one either way: no bias."""
+    rows = np.zeros((2, 4, 16))
+    rows[..., 3:5] = rows[..., 6:8] = np.arange(4.0)[:, None]
+    rows[:, :, 5], rows[..., 15] = np.log([[1.05], [0.95]]), 1.0
+    told = summary(rows)
+    assert told[0] == "time: error of a fit mean 5.0%, 90 % of them within 5.0%, largest 5.0%; 0% within 3%"
+    assert told[1].startswith("  bias over 2 fits mean 0.0%") and "standard error 5.0%" in told[1]
 
 
 # the parts
