@@ -123,7 +123,8 @@ class MotionPerformances(Performances):
     def damped(self) -> np.ndarray:
         """(n,) how much a body was drawn in towards the mean movement, 0 to 1, since a joint was too fast for a body.
 
-        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; times and marks stay as they were drawn.
+        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; or since a joint missed its target, see
+        ``MotionEmulator.given``. Times and marks stay as they were drawn.
         """
         return np.concatenate([np.zeros(0), *(1.0 - some._ground.kept for _, some in self._blocks())])
 

@@ -55,7 +55,7 @@ class ReachEmulator(MotionEmulator):
         return self._reached(effect).law
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> ReachPerformances:
-        """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm."""
+        """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm where a body can."""
         drawn = super().performances(scores, body_scale)
         return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale)
 
