@@ -123,7 +123,8 @@ class MotionPerformances(Performances):
     def damped(self) -> np.ndarray:
         """(n,) how much a body was drawn in towards the mean movement, 0 to 1, since a joint was too fast for a body.
 
-        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; times and marks stay as they were drawn.
+        Beyond ``most_m_per_s`` of the model, see ``MotionEmulator``; or since a joint missed its target, see
+        ``MotionEmulator.given``. Times and marks stay as they were drawn.
         """
         return np.concatenate([np.zeros(0), *(1.0 - some._ground.kept for _, some in self._blocks())])
 
@@ -161,26 +162,30 @@ class MotionPerformances(Performances):
 
     @cached_property
     def _ground(self) -> Ground:
-        """Where and how the bodies stand, drawn in where a joint is too fast.
+        """Where and how the bodies stand, drawn in where they are beyond what is allowed.
 
-        By as many tenths as the last two speeds foretell, until none is; else as where the body was least fast.
+        By as many tenths as the last two excesses foretell, until there is none; else as where it was least.
         """
-        most_m_per_s = self.model.most_m_per_s * self.body_scale
         ground = self._grounded(np.ones(len(self)))
-        rows = np.flatnonzero(ground.fastest_m_per_s > most_m_per_s)
-        last, kept = np.ones(rows.size), np.full(rows.size, 1.0 - 1.0 / STEPS)
-        before = ground.fastest_m_per_s[rows]
+        excess = self._excess(ground)
+        rows = np.flatnonzero(excess > 0.0)
+        last, kept, before = np.ones(rows.size), np.full(rows.size, 1.0 - 1.0 / STEPS), excess[rows]
         while rows.size:
-            again = self._some(rows)._grounded(kept)
-            now, most = again.fastest_m_per_s, most_m_per_s[rows]
-            better = now < ground.fastest_m_per_s[rows]
-            for name, values in vars(again).items():
-                getattr(ground, name)[rows[better]] = values[better]
-            steps = np.ceil(STEPS * (now - most) * (last - kept) / np.maximum(before - now, 1e-9) - 1e-6)
+            some = self._some(rows)
+            again = some._grounded(kept)
+            now = some._excess(again)
+            better = now < excess[rows]
+            excess[rows[better]] = now[better]
+            put(ground, rows[better], rows_of(again, better))
+            steps = np.ceil(STEPS * now * (last - kept) / np.maximum(before - now, 1e-9) - 1e-6)
             following = np.where(before > now, kept - np.maximum(steps, 1.0) / STEPS, 0.0)
-            on = (now > most) & (kept > 0.0)
+            on = (now > 0.0) & (kept > 0.0)
             rows, last, kept, before = rows[on], kept[on], np.maximum(following, 0.0)[on], now[on]
         return ground
+
+    def _excess(self, ground: Ground) -> np.ndarray:
+        """(n,) by how many m/s the fastest joint of bodies that stand like this is above the bound."""
+        return np.asarray(ground.fastest_m_per_s - self.model.most_m_per_s * self.body_scale)
 
     def _grounded(self, kept: np.ndarray) -> Ground:
         """On the ground, with the shares ``kept`` (n,) of how postures and paths deviate from the mean movement."""
@@ -191,9 +196,9 @@ class MotionPerformances(Performances):
         model, n, own = self.model, len(self), self._drawn
         posture, root, flat = own.posture, own.root, own.flat
         if np.any(kept < 1.0):
-            centre = [model.scale.raw(model.middle, name) for name in ("posture", "root")]
+            *centre, control = self._centre
             posture, root = (c + kept[:, None] * (raw - c) for c, raw in zip(centre, (posture, root)))
-            flat = model.middle_control + kept[:, None, None] * (flat - model.middle_control)
+            flat = control + kept[:, None, None] * (flat - control)
         if moved is not None:
             posture, root = posture + moved[0], root + moved[1]
             flat = model.decoder.control(posture)
@@ -210,6 +215,12 @@ class MotionPerformances(Performances):
             path[..., :2] -= path[:, :1, :2]
         made = decoding.control_points(path), bends, posture.copy(), posture.copy(), flat.copy(), kept.copy(), fastest
         return Ground(*made)
+
+    @property
+    def _centre(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What bodies are drawn in towards: coefficients of posture (P,) and root (R,), control points (T + 2, C)."""
+        model = self.model
+        return model.scale.raw(model.middle, "posture"), model.scale.raw(model.middle, "root"), model.middle_control
 
     def _stands_as(self, posture: np.ndarray, root: np.ndarray) -> np.ndarray:
         """(n,) the recordings as which bodies stand that have coefficients of posture (n, P) and of root (n, R)."""
@@ -231,6 +242,12 @@ class MotionPerformances(Performances):
         own = np.linspace(0, 1, n_times) if times_s is None else np.asarray(times_s) / self.duration_s[:, None]
         own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
         return decoding.places(self.model.warps(self.scores), self.model.moving_share(self.scores, own))
+
+
+def put(record: Any, rows: np.ndarray, some: Any) -> None:
+    """Some rows of a record of arrays become those of another, in place."""
+    for name, values in vars(some).items():
+        getattr(record, name)[rows] = values
 
 
 def rows_of(record: Any, rows: np.ndarray) -> Any:

@@ -34,6 +34,8 @@ SPANS = (np.inf, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 AS_GOOD = 1.03
 """Curves follow as closely as they may at that price: what a narrow window adds to their scatter is not seen, but how a
 wide one cuts corners is. Times scatter more, and there the best window is taken."""
+SURE = 2.0
+"""Standard errors by which places must foretell a time better than its mean does, to be believed."""
 
 WIDE_M, FEW = 0.20, 3
 """Recordings farther apart than 0.20 m have a gap between them; fewer than 3 together within one do not end it."""
@@ -46,7 +48,8 @@ Places = Callable[[np.ndarray], np.ndarray]
 class HeldNormal(LowRankNormal):
     """A LowRankNormal whose deviations are held where they do not move the hands: x - mean -> (I - G H) (x - mean).
 
-    gain : (K, R) G = C H' (H C H' + s^2)^-1; slope : (R, K) H, how the hands move with x
+    gain : (K, R) G = M C H' (H M C H' + s^2)^-1, where M keeps what is not to be moved as it is; slope : (R, K) H, how
+           the hands move with x
     Takes the same random numbers as the free one. Source: Matheron's rule, see Journel & Huijbregts (1978), sec. VII.
     """
 
@@ -70,15 +73,19 @@ class HeldNormal(LowRankNormal):
         return np.asarray(self.covariance[:, index])
 
 
-def held(free: LowRankNormal, slope: np.ndarray) -> HeldNormal:
-    """The free one held for this derivative of the hands (R, K)."""
-    return HeldNormal(free.mean, free.factor, free.spread, free.rho, gain(free.covariance, slope, HIT_M), slope)
+def held(free: LowRankNormal, slope: np.ndarray, moved: np.ndarray) -> HeldNormal:
+    """The free one held for this derivative of the hands (R, K) by the coordinates that may be ``moved`` (K,)."""
+    by = gain(free.covariance, slope, moved)
+    return HeldNormal(free.mean, free.factor, free.spread, free.rho, by, slope)
 
 
-def gain(covariance: np.ndarray, slope: np.ndarray, spread_m: float) -> np.ndarray:
-    """(K, R) how z (K,) moves with the hands: C H' (H C H' + s^2 I)^-1."""
-    across = covariance @ slope.T
-    return np.asarray(np.linalg.solve(slope @ across + spread_m**2 * np.eye(len(slope)), across.T).T)
+def gain(covariance: np.ndarray, slope: np.ndarray, moved: np.ndarray) -> np.ndarray:
+    """(K, R) how z (K,) moves with the hands: M C H' (H M C H' + s^2 I)^-1, s being ``HIT_M``.
+
+    moved : (K,) the diagonal of M: which coordinates may be moved
+    """
+    across = moved[:, None] * (covariance @ slope.T)
+    return np.asarray(np.linalg.solve((slope @ across + HIT_M**2 * np.eye(len(slope))).T, across.T).T)
 
 
 def gaps_m(along_m: np.ndarray) -> list[tuple[float, float]]:
@@ -172,15 +179,18 @@ class LocalRegression:
         good = [one for one, error in zip(tried, errors) if error <= as_good * min(errors)]
         return max(good, key=lambda one: float(np.trace(one._smoother(one.place))))
 
-    def shrunk(self) -> LocalRegression:
+    def shrunk(self, sure: float = 0.0) -> LocalRegression:
         """Of which no more is believed than left-out recordings bear out: the slope of z on what is foretold, 0 to 1.
 
+        And nothing where places foretell them better than the mean does by less than ``sure`` standard errors.
         Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
         """
-        middle = self.z.mean(axis=0)
-        told = self._left_out() - middle
-        slope = np.sum(told * (self.z - middle), axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
-        return replace(self, trust=np.clip(slope, 0.0, 1.0))
+        n, apart, left_out = len(self.z), self.z - self.z.mean(axis=0), self._left_out()
+        told = left_out - self.z.mean(axis=0)
+        slope = np.sum(told * apart, axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
+        gain = (apart * n / (n - 1)) ** 2 - (self.z - left_out) ** 2
+        believed = gain.mean(axis=0) > sure * gain.std(axis=0, ddof=1) / np.sqrt(n)
+        return replace(self, trust=np.where(believed, np.clip(slope, 0.0, 1.0), 0.0))
 
     def _left_out(self) -> np.ndarray:
         """(N, K) each recording as foretold by the others."""
@@ -209,9 +219,12 @@ class Trend:
     """What recordings tell of z by places: of curves, and of the single numbers beside them, each by its own window.
 
     timed : (K,) which coordinates of z are durations, marks and pauses, of which places tell much or nothing
+    moved : (K,) which may be moved beyond what is foretold to bring joints to their places: no durations and pauses,
+            but all of a library of plain Gaussians, which foretells by its covariance alone
     """
 
     timed: np.ndarray
+    moved: np.ndarray
     curves: LocalRegression
     times: LocalRegression
 
@@ -220,7 +233,12 @@ class Trend:
         """Windows as left-out recordings ask for them; z (N, K), place (N, R)."""
         timed, scale = beside_curves(model), errors_scale(model)
         curves = LocalRegression(z[:, ~timed], place).best(scale[~timed], AS_GOOD)
-        return cls(timed, curves, LocalRegression(z[:, timed], place).best(scale[timed]).shrunk())
+        times = LocalRegression(z[:, timed], place).best(scale[timed])
+        if model.workforce.smoothed is None:
+            return cls(timed, np.ones(len(timed), bool), curves, times.shrunk())
+        moved = np.ones(len(timed), bool)
+        moved[model.scale.block("duration")] = moved[model.scale.block("dwells")] = False
+        return cls(timed, moved, curves, times.shrunk(SURE))
 
     def of(self, z: np.ndarray, place: np.ndarray) -> Trend:
         """The same windows and trust over other z (N, K) and places (N, R)."""
@@ -239,11 +257,6 @@ class Trend:
         weight, z = self.curves.weights(at[None])[0], self._together(self.curves.z, self.times.z)
         apart = z - weight @ z
         return np.asarray(apart.T @ (weight[:, None] * apart))
-
-    @property
-    def trust(self) -> np.ndarray:
-        """(K,) see ``LocalRegression``."""
-        return np.asarray(self._together(np.ones((1, self.curves.z.shape[1])), self.times.trust[None])[0])
 
     @property
     def place(self) -> np.ndarray:
@@ -313,7 +326,7 @@ def reached_law(
     slope = np.zeros((len(target), len(foretold)))
     for _ in range(ROUNDS):
         here, slope = derivative(places, middle)
-        moving = like.trust[:, None] * gain(near, slope, HIT_M)
+        moving = gain(near, slope, like.moved)
         if np.abs(target - here).max() < HIT_M:
             break
         middle = on_target(places, middle[None], moving, target)[0]
@@ -324,10 +337,11 @@ def reached_law(
         lost = np.flatnonzero(np.linalg.norm(target - places(moved), axis=1) > LOST_M)
         if lost.size == 0:
             break
-        moved[lost] = on_target(places, middle + share * (start[lost] - middle), moving, target)
-    people = None if law.people is None else held(law.people, slope)
+        nearer = np.where(like.moved, middle + share * (start[lost] - middle), start[lost])
+        moved[lost] = on_target(places, nearer, moving, target)
+    people = None if law.people is None else held(law.people, slope, like.moved)
     base = law.centre if law.people is None else law.people.mean
-    own = replace(law, mean=moved - base, noise=held(law.noise, slope), people=people)
+    own = replace(law, mean=moved - base, noise=held(law.noise, slope, like.moved), people=people)
     return ReachedLaw(own, middle, moving)
 
 

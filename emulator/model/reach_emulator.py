@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,8 @@ from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import fastest_of
 from emulator.model.gaussian import Law
-from emulator.model.performances import Ground, MotionPerformances, rows_of
-from emulator.model.reach import ReachedLaw, Trend, reached_law, recorded
+from emulator.model.performances import Ground, MotionPerformances, put, rows_of
+from emulator.model.reach import ReachedLaw, Trend, on_target, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
 from emulator.performances import Floats
@@ -26,6 +26,8 @@ HIT_M = 0.003
 FAR_M = 0.10
 """Beyond it the whole body is moved, feet and all; nearer, trunk and arms are."""
 ROUNDS = 4
+MISSED_M, MISSED_PER_S = 0.005, 1000.0
+"""One that is farther away is drawn in as one is whose joints are too fast: each metre counts as so many m/s."""
 LONGEST = 1.5
 """A step is at most so many times as long as the way that is left, or it would lead far aside."""
 STEP_M = 0.005
@@ -53,7 +55,7 @@ class ReachEmulator(MotionEmulator):
         return self._reached(effect).law
 
     def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> ReachPerformances:
-        """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm."""
+        """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm where a body can."""
         drawn = super().performances(scores, body_scale)
         return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale)
 
@@ -67,6 +69,11 @@ class ReachEmulator(MotionEmulator):
     def middle(self) -> np.ndarray:  # type: ignore[override]
         """(K,) the most likely z of anybody at the targets."""
         return self._reached(None).middle
+
+    @property
+    def moving(self) -> np.ndarray:
+        """(K, R) how z follows joints near the most likely z."""
+        return self._reached(None).moving
 
     @cached_property
     def target_m(self) -> np.ndarray:
@@ -98,7 +105,7 @@ class ReachEmulator(MotionEmulator):
     def whole_body(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
         """How coefficients of posture (P, R) and root (R0, R) follow hands, and how decoded hands go then (R, R)."""
         blocks = [self.scale.block(name) for name in ("posture", "root")]
-        posture, root = (self.scale.spread[at, None] * self._reached(None).moving[at] for at in blocks)
+        posture, root = (self.scale.spread[at, None] * self.moving[at] for at in blocks)
         n = len(self.target_m)
         tried = self.performances(np.broadcast_to(self.middle, (n + 1, len(self.middle))))
         moved = tuple(np.concatenate([np.zeros((1, len(way))), STEP_M * way.T]) for way in (posture, root))
@@ -178,6 +185,26 @@ class ReachPerformances(MotionPerformances):
             ground.fastest_m_per_s[rows] = some._fastest_m_per_s(rows_of(ground, rows))
         return ground
 
+    @cached_property
+    def _centre(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # type: ignore[override]
+        """The most likely movement brought to the targets in each draw's own bones and at its own marks, (n, ...)."""
+        model, z = self.model, self.scores.copy()
+        moving = np.zeros_like(model.moving)
+        for name in ("posture", "root"):
+            at = model.scale.block(name)
+            z[:, at], moving[at] = model.middle[at], model.moving[at]
+        for scale in np.unique(self.body_scale):
+            rows = self.body_scale == scale
+            z[rows] = on_target(partial(model.places, scale=scale), z[rows], moving, model.target_m)
+        posture = model.scale.raw(z, "posture")
+        return posture, model.scale.raw(z, "root"), model.decoder.control(posture)
+
+    def _excess(self, ground: Ground) -> np.ndarray:
+        """As ``MotionPerformances``; a body that misses its target by more than ``MISSED_M`` counts as much faster."""
+        miss_m = np.linalg.norm(self.model.target_m - self.places(ground), axis=1)
+        missed_m = np.maximum(miss_m - MISSED_M, 0.0)
+        return np.asarray(np.maximum(super()._excess(ground), 0.0) + MISSED_PER_S * missed_m)
+
     def _lifted(self, control: np.ndarray, upper: np.ndarray, miss: np.ndarray) -> np.ndarray:
         """(n, P) by how much coefficients of upper bones change where hands are to come by ``miss`` (n, R)."""
         place = self.model.hands.clock(self.scores)
@@ -213,8 +240,7 @@ class ReachPerformances(MotionPerformances):
             share[rows] = np.where(better, 1.0, 0.5 * share[rows])
             won = rows[better]
             at[won], miss[won] = tried[better], missed[better]
-            for name, values in vars(again).items():
-                getattr(ground, name)[won] = values[better]
+            put(ground, won, rows_of(again, better))
         return ground
 
     def _decoded(self, ground: Ground, place: np.ndarray, dtype: Floats) -> np.ndarray:

@@ -11,6 +11,7 @@ import pytest
 from bench.cpu import best_s
 from scipy.interpolate import CubicSpline
 
+from emulator import Target
 from emulator.geometry.alignment import align
 from emulator.model import decoding as decode
 from emulator.model.emulator import MotionEmulator
@@ -162,3 +163,28 @@ def test_300_sequences_are_fitted_and_decoded_in_a_gigabyte():
     fitted, decoded = (int(word) / 1024 for word in done.stdout.split())
     print(f"\n300 x 301 x 20: peak {fitted:.0f} MB after the fit, {decoded:.0f} MB after decoding 300 (target 1,000)")
     assert decoded < 1000
+
+
+def test_a_place_costs_milliseconds_once_and_draws_hardly_anything():
+    """A worker's law given a target, for the first height of all and for the next; then blocks of 64 draws."""
+    model = replace(on_feet())
+    worker = model.draw_worker(np.random.default_rng(0))
+
+    def law(height_m, fresh):
+        if fresh:
+            model.__dict__.pop("_trends", None)
+        model.given(Target("hands", "grasp", height_m=height_m)).law(worker)
+
+    low = model.given(Target("hands", "grasp", height_m=0.5))
+    few = low.sample(8, np.random.default_rng(1), worker=worker)
+    hands = [model.skeleton.names.index(f"{side}_wrist") for side in ("left", "right")]
+    assert np.abs(few.positions_m(few.mark_s)[:, 0, hands, 2].mean(axis=1) - 0.5).max() < 0.005
+    first, next_one = best_s(lambda: law(0.6, True), lambda: law(0.7, False), rounds=20)
+    free, given = best_s(
+        *(partial(one.sample, 64, np.random.default_rng(2), worker=worker) for one in (model, low)), rounds=200
+    )
+    print(
+        f"\na worker's law at a place: {first * 1e3:.1f} ms, at the next height {next_one * 1e3:.1f} ms (target 20); "
+        f"draws x {given / free:.2f} (target 1.1)"
+    )
+    assert next_one < 0.04 and given < 1.2 * free  # 18 ms on a quiet machine

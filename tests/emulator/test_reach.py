@@ -6,13 +6,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-from emulator_evidence.reach import drawn_of, energy, seen_of
+from emulator_evidence.reach import drawn_of, energy, seen_of, summary
 from motion_evidence import reach as motion_evidence
 
 from emulator import MotionEmulator, Target
+from emulator.model import reach_emulator
 from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_law import JointLaw
-from emulator.model.reach import LocalRegression, derivative, held
+from emulator.model.reach import SURE, LocalRegression, derivative, held, reached_law
 from emulator.model.targets import HandPlaces
 from emulator.synthetic.shelf import MARK, crew, make_shelf, median_duration_s
 from tests.emulator.fitted import made
@@ -106,6 +107,34 @@ def test_the_mean_duration_is_that_of_draws():
         given = at(0.5)
         mean_s = draws(given, 4000, effect).duration_s.mean()
         assert given.mean_duration_s(effect) == pytest.approx(mean_s, rel=0.02)
+
+
+def test_where_places_tell_nothing_of_time_durations_are_those_of_free_draws():
+    given = at(0.3)
+    trend = given._trend
+    silent = replace(trend, times=replace(trend.times, trust=np.zeros(trend.timed.sum())))
+    law = reached_law(given, None, given.places, given.target_m, silent).law
+    drawn, free = (one.sample(64, np.random.default_rng(1)) for one in (law, shelf().law(None)))
+    duration, posture = (shelf().scale.block(name) for name in ("duration", "posture"))
+    assert np.allclose(drawn[:, duration], free[:, duration], atol=1e-12)
+    assert np.abs(drawn[:, posture] - free[:, posture]).max() > 0.5
+
+
+def test_draws_that_trunk_and_arms_cannot_bring_to_a_high_shelf_are_drawn_in(monkeypatch):
+    """A shelf above what people of that stature were recorded at; where a miss counts nothing, several miss."""
+    short, high = shelf().draw_worker(np.random.default_rng(2), {"height_m": 1.6}), 1.7
+    off = []
+    for counts in (reach_emulator.MISSED_PER_S, 0.0):
+        monkeypatch.setattr(reach_emulator, "MISSED_PER_S", counts)
+        drawn = draws(at(high), 64, worker=short)
+        off.append(np.sum(np.abs(wrists_m(drawn)[:, 2] - high) > 0.005))
+    assert off[0] <= 4 < off[1]
+
+
+@pytest.mark.parametrize(("body", "height_m"), [(1.5, 1.54), (1.6, 1.68), (None, 1.9)])
+def test_nobody_misses_the_highest_shelf_that_was_reached_for(body, height_m):
+    worker = None if body is None else shelf().draw_worker(np.random.default_rng(2), {"height_m": body})
+    assert np.abs(wrists_m(draws(at(height_m), 64, worker=worker))[:, 2] - height_m).max() < 0.005
 
 
 def test_feet_stand_as_they_do_without_a_target():
@@ -216,6 +245,16 @@ def test_the_evidence_tells_how_often_it_helped():
     assert [line.split()[-1] for line in told[1:]] == ["100%", "100%", "50%"]
 
 
+def test_the_evidence_tells_the_bias_of_the_law_from_the_luck_of_a_fit():
+    """Two fits whose times are 5 % off, one either way: no bias."""
+    rows = np.zeros((2, 4, 16))
+    rows[..., 3:5] = rows[..., 6:8] = np.arange(4.0)[:, None]
+    rows[:, :, 5], rows[..., 15] = np.log([[1.05], [0.95]]), 1.0
+    told = summary(rows)
+    assert told[0] == "time: error of a fit mean 5.0%, 90 % of them within 5.0%, largest 5.0%; 0% within 3%"
+    assert told[1].startswith("  bias over 2 fits mean 0.0%") and "standard error 5.0%" in told[1]
+
+
 # the parts
 
 
@@ -223,7 +262,7 @@ def test_held_noise_does_not_move_the_hands_and_else_varies_as_much():
     rng = np.random.default_rng(0)
     free = LowRankNormal.of_rows(np.zeros(6), rng.normal(size=(9, 6)) / 3, 0.1)
     slope = rng.normal(size=(2, 6))
-    one = held(free, slope)
+    one = held(free, slope, np.ones(6, bool))
     x = one.sample(20000, np.random.default_rng(1))
     assert np.abs(x @ slope.T).max() < 1e-3
     exact = free.covariance - free.covariance @ slope.T @ np.linalg.solve(
@@ -232,6 +271,17 @@ def test_held_noise_does_not_move_the_hands_and_else_varies_as_much():
     assert np.allclose(one.covariance, exact, atol=1e-5)
     assert np.allclose(np.cov(x.T), exact, atol=0.05)
     assert np.allclose(one.covariance_with(2), one.covariance[:, 2])
+
+
+def test_noise_is_held_by_what_may_be_moved_and_the_rest_keeps_its_bits():
+    rng = np.random.default_rng(0)
+    free = LowRankNormal.of_rows(np.zeros(6), rng.normal(size=(9, 6)) / 3, 0.1)
+    slope, moved = rng.normal(size=(2, 6)), np.arange(6) != 3
+    one = held(free, slope, moved)
+    x, plain = (law.sample(2000, np.random.default_rng(1)) for law in (one, free))
+    assert np.abs(x @ slope.T).max() < 1e-3
+    assert np.array_equal(x[:, 3], plain[:, 3])
+    assert np.allclose(one.covariance[3, 3], free.covariance[3, 3])
 
 
 def test_a_local_line_foretells_a_line_and_bends_with_a_bend():
@@ -275,6 +325,16 @@ def test_what_places_do_not_tell_is_not_believed():
     z = np.column_stack([place[:, 0] + 0.1 * rng.normal(size=30), rng.normal(size=30)])
     trust = LocalRegression(z, place).shrunk().trust
     assert trust[0] > 0.9 and trust[1] < 0.4
+
+
+def test_what_places_tell_by_luck_alone_is_seldom_believed():
+    """Of 200 times that have nothing to do with places; one that has is."""
+    rng = np.random.default_rng(8)
+    place = rng.normal(size=(20, 3))
+    z = np.column_stack([place[:, 0] + 0.5 * rng.normal(size=20), rng.normal(size=(20, 200))])
+    lenient, strict = (LocalRegression(z, place).shrunk(sure).trust for sure in (0.0, SURE))
+    assert strict[0] > 0.7
+    assert np.mean(strict[1:] > 0) <= 0.02 < 0.05 < np.mean(lenient[1:] > 0)
 
 
 def with_step(motion):

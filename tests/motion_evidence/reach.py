@@ -30,6 +30,8 @@ N_TIMED = 2000
 ERRORS = ("posture at the mark, m", "whole movement, m", "log duration")
 QUARTILES = (0.25, 0.5, 0.75)
 MISSED_M = 0.005
+ROUNDING = 1e-9
+"""Where a place tells nothing of a time, draws keep theirs but for the last bits."""
 
 
 def classes() -> dict[str, Path]:
@@ -133,7 +135,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"  {time.monotonic() - start_s:.0f} s", file=sys.stderr)
             medians.append(np.median(errors, axis=0))
     without, told = np.array(medians)[:, 0], np.array(medians)[:, 1]
-    posture, slower = np.mean(told[:, 0] < without[:, 0]), np.sum(told[:, 2] > without[:, 2])
+    posture, slower = np.mean(told[:, 0] < without[:, 0]), np.sum(told[:, 2] > without[:, 2] + ROUNDING)
     print(f"posture at the mark better in {posture:.0%} of the classes; duration worse in {slower} of {len(medians)}")
     return int(posture < 0.9 or slower > 0)
 
