@@ -13,7 +13,8 @@ from opsim.plan.resources import BreakdownPlan, MaintenancePlan, RepairTeamPlan
 from opsim.plan.sources import SourcePlan
 from opsim.plan.stations import StationPlan
 from opsim.plan.tasks import Ranks, TaskPlan
-from opsim.plan.workers import RotationPlan, WalkingPlan, WorkerPlan
+from opsim.plan.workers import WalkingPlan, WorkerPlan
+from opsim.subjects.rotations.words import RotationPlan
 
 __all__ = [
     "BreakdownPlan",

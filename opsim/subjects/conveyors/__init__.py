@@ -1,0 +1,1 @@
+"""Conveyors: belts and roller tracks that take jobs from one place to another."""
