@@ -32,24 +32,21 @@ def replications(variant):
 def test_a_higher_low_level_takes_bending_away_and_time_with_it():
     (bent, rate), (bent_up, rate_up) = replications("base"), replications("low_raised")
     assert bent_up.max() < 0.8 * bent.min()
-    assert (rate_up > rate).all()
+    assert (rate_up >= rate).all() and rate_up.sum() > rate.sum()
 
 
 @pytest.mark.slow
 def test_heights_are_factors_of_a_sweep_with_paired_intervals(tmp_path):
-    """The sweep that stands in the file: the low level from 0.2 to 1 m, twice as many replications as here.
-
-    Between 0.8 and 1 m, about the hips, heights are as good as each other for the time.
-    """
-    code, shown, _ = opsim("sweep", "rack_levels", "--replications", 3, "-o", tmp_path, "--json", "--processes", 1)
+    """The sweep that stands in the file: the low level from 0.2 to 1 m."""
+    code, shown, _ = opsim("sweep", "rack_levels", "-o", tmp_path, "--json", "--processes", 1)
     summary = json.loads(shown)["summary"]
     assert code == 0 and [list(point.values()) for point in summary["points"]] == [
         [f"{height:g} m"] for height in (0.2, 0.4, 0.6, 0.8, 1.0)
     ]
     rate, rula = ([point["mean"] for point in figure["points"]] for figure in summary["figures"])
     (of_rate,), (of_rula,) = (figure["factors"] for figure in summary["figures"])
-    assert (np.diff(rate[:-1]) > 0).all() and min(rate[-2:]) > 1.005 * rate[2] and of_rate["lowest_at"] == "0.2 m"
-    assert of_rula["clear"] and of_rula["lowest_at"] == "1 m" and rula[0] > rula[-1]
+    assert (np.diff(rate) > 0).all() and rate[-1] > 1.02 * rate[0] and of_rate["clear"]
+    assert (np.diff(rula) < 0).all() and of_rula["clear"] and of_rula["lowest_at"] == "1 m"
 
 
 def test_each_height_is_a_value_for_the_command_line(tmp_path):
