@@ -85,8 +85,8 @@ def spreads(plan: Plan, variability: str) -> list[Spread]:
     found: list[Spread] = []
     for task in plan.tasks:
         share = getattr(task.model, "between_share", None)
-        if task.automatic or task.attended or share is None:
-            continue
+        if task.automatic or task.attended or share is None or task.levels is not None:
+            continue  # a task whose height changes is done as those that stand for it
         if cv := _cv(Same(task.model)):
             whole = Spread(task.name, cv, float(share), has_body(task))
             found += [one for one in (_switched(whole, left),) if one is not None]

@@ -17,6 +17,7 @@ from opsim.laws import BrokenLog, audit
 from opsim.log import WORK, EventLog
 from opsim.plan.levels import for_product, performed_ranks
 from opsim.plan.loads.flows import visit_s
+from opsim.report.sections.variability import spreads
 from opsim.study.assumptions.sheet import assumptions_of
 
 PALLET = """
@@ -209,3 +210,8 @@ def test_experience_in_a_task_holds_at_all_its_levels():
     audit(log, made)
     at = {task.name: made.human.experience[1][rank] for rank, task in enumerate(made.tasks)}
     assert {at[name] for name in LEVELS} == {300.0} and at["put [rack.low]"] == 0.0
+
+
+def test_the_chart_of_time_spread_has_the_levels_and_not_the_task_that_they_stand_for():
+    told = [one.task for one in spreads(plan(PALLET), "full")]
+    assert sorted(told) == sorted([*LEVELS, "put [rack.low]", "put [rack.hip]"])
