@@ -15,22 +15,22 @@ settings.register_profile("full", deadline=None)
 settings.load_profile("quick")
 
 LONG_FIRST = (
-    "test_known_answers.py",
     "test_faults.py",
+    "test_tools.py",
+    "test_bad_sets.py",
     "test_readme.py",
     "test_examples.py",
-    "test_random_people.py",
-    "test_truth.py",
-    "test_random_floors.py",
-    "test_bad_sets.py",
-    "test_validation.py",
-    "test_metamorphic.py",
-    "test_people_truth.py",
-    "test_people.py",
-    "test_study_killed.py",
-    "test_motion_people.py",
+    "test_check.py",
     "test_packed.py",
-    "test_replay.py",
+    "test_example_plugin.py",
+    "test_known_answers.py",
+    "test_motion_fit.py",
+    "test_subjects.py",
+    "test_people.py",
+    "test_metamorphic.py",
+    "test_motion_judge.py",
+    "test_recording_pages.py",
+    "test_report.py",
 )
 """Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 
