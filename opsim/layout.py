@@ -20,7 +20,7 @@ from opsim.problems import natural_key
 if TYPE_CHECKING:
     import numpy as np
 
-    from opsim.scenario.schema.layout import Layout, Path
+    from opsim.scenario.schema import Layout, Path
 
 Point = tuple[float, float]
 Matrix = tuple[tuple[float, ...], ...]

@@ -15,7 +15,7 @@ from opsim.laws import CHECKS, audit
 from opsim.log import COLUMNS, EventLog
 from opsim.plan import Plan, compile_plan
 from opsim.scenario.read import Loaded, scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 
 LOCKS = re.compile(r"nothing moves any more|for ever|never fills|cannot be finished")
 """What ``opsim check`` says of a floor that may lock itself."""

@@ -21,8 +21,8 @@ LAYERS = (
     "units problems clock streams files log log_parquet shipped libraries results csv_input threads pool checkup "
     "task_model performance worker_effects engine.rules kpi.catalogue",
     "plugins",
-    "scenario plan tasks human ergonomics kpi laws layout history external_draws external_log external_worker subjects",
-    "engine export fitting subjects.floor",
+    "scenario plan tasks human ergonomics kpi laws layout history external_draws external_log external_worker",
+    "engine export fitting",
     "floor study",
     "report",
     "viewer notebook cli",
@@ -101,8 +101,6 @@ def layer_of(module: str) -> int:
     """The place in LAYERS of the longest beginning that is named there."""
     places = {name: place for place, names in enumerate(LAYERS) for name in names.split()}
     parts = module.split(".")[1:]
-    if parts[0] == "subjects" and len(parts) > 2:
-        del parts[1]  # whichever subject: its floor.py stands with the engine
     return next(places[name] for n in range(len(parts), 0, -1) if (name := ".".join(parts[:n])) in places)
 
 
@@ -152,7 +150,7 @@ def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[st
         ("import opsim.cli.check, opsim.cli.run, opsim.cli.study_options", {"numpy", "yaml", "pydantic", "rich"}),
         ("import opsim.scenario.read", {"numpy", "numba", "matplotlib", "emulator"}),
         (
-            "import opsim.plan, opsim.tasks, opsim.scenario.warnings.table",
+            "import opsim.plan, opsim.tasks, opsim.scenario.warnings",
             {"numpy", "simpy", "scipy", "matplotlib", "emulator"},
         ),
         ("import opsim.engine.floor", {"numba", "matplotlib", "scipy", "emulator"}),
@@ -164,12 +162,6 @@ def test_importing_is_light(statement, absent):
         subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     )
     assert not absent & loaded
-
-
-@pytest.mark.parametrize("module", [name for name in modules("opsim") if name.count(".") == 3 and ".subjects." in name])
-def test_each_file_of_a_subject_can_be_imported_first(module):
-    """The core knows subjects and they know the core: a front door that knew them too would close the circle."""
-    subprocess.run([sys.executable, "-c", f"import {module}"], check=True)
 
 
 def test_no_file_holds_more_than_a_page_or_two():

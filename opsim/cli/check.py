@@ -55,8 +55,8 @@ def _checked(loaded: dict[str, Any]) -> tuple[dict[str, Any], dict[str, list[str
     from opsim.plan.loads import loads_of, overloads
     from opsim.plan.model_warnings import stretched, unmoved_bodies, unread, unseen, wide_joins
     from opsim.plan.sources import late_orders
-    from opsim.plan.warnings.table import hour_risks
-    from opsim.scenario.warnings.table import risks_of
+    from opsim.plan.warnings import hour_risks
+    from opsim.scenario.warnings import risks_of
 
     loads, warnings, without = {}, {}, {}
     for name, variant in loaded.items():

@@ -14,7 +14,7 @@ from opsim.kpi.wait_graph import Inside, Pool, Way
 from opsim.log import BATCH, JOB_KINDS, QUEUE, EventLog
 from opsim.plan import Plan, SourcePlan
 from opsim.plan.sources import BASE_STOCK, INSIDE, SCHEDULE
-from opsim.subjects.batches.words import BatchPlan
+from opsim.plan.stores import BatchPlan
 
 TO_FILL = "its batch to fill"
 

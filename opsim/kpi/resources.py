@@ -2,7 +2,7 @@
 
 What transporters do, how far they drive, and how long jobs wait for them.
 
-What lies in stores.
+What lies in stores and on conveyors.
 
 When stations were down: how much of the time, how often, and how long until they ran again.
 
@@ -19,10 +19,12 @@ import numpy as np
 from opsim.kpi.catalogue import Figure, figure
 from opsim.kpi.window import SECONDS_PER_HOUR, by_rank, created_s, in_window, inside_s, mean, window_length_s
 from opsim.log import (
+    BLOCKED,
     BREAKDOWN,
     DOWN,
     HELD,
     IDLE,
+    JOB_KINDS,
     JOIN,
     MAINTENANCE,
     NO_TOOL,
@@ -36,7 +38,7 @@ from opsim.log import (
 )
 from opsim.plan import Plan
 from opsim.plan.compile import stores_of
-from opsim.plan.stations import STORE
+from opsim.plan.stations import CONVEYOR, STORE
 
 
 def tools(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -121,13 +123,27 @@ def stores(log: EventLog, plan: Plan) -> Iterator[Figure]:
         yield figure("parts_used_per_h", plan.products[product].name, "", per_h)
 
 
+def conveyors(log: EventLog, plan: Plan) -> Iterator[Figure]:
+    """Of each conveyor: on_conveyor, jobs on it, averaged over the window; conveyor_blocked, the share of the window in
+    which the job at its end finds no room.
+    """
+    for rank, belt in enumerate(plan.stations):
+        if belt.kind != CONVEYOR:
+            continue
+        here = np.flatnonzero((log["station"] == rank) & (log["job"] >= 0) & np.isin(log["kind"], JOB_KINDS))
+        blocked = here[log["kind"][here] == BLOCKED]
+        length_s = window_length_s(plan)
+        yield figure("on_conveyor", belt.name, "", inside_s(log, here, plan).sum() / length_s)
+        yield figure("conveyor_blocked", belt.name, "", _any_s(log, plan, blocked) / length_s)
+
+
 def _stock(log: EventLog, plan: Plan, rows: np.ndarray, store: str, product: str) -> Iterator[Figure]:
     length_s = window_length_s(plan)
     yield figure("stock", store, product, inside_s(log, rows, plan).sum() / length_s)
-    yield figure("stock_empty", store, product, 1.0 - any_s(log, plan, rows) / length_s)
+    yield figure("stock_empty", store, product, 1.0 - _any_s(log, plan, rows) / length_s)
 
 
-def any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
+def _any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
     """Seconds of the window in which any of some rows is open."""
     order = rows[np.argsort(log["start_s"][rows], kind="stable")]
     start_s, end_s = (np.clip(log[edge][order], *plan.window_s) for edge in ("start_s", "end_s"))

@@ -9,7 +9,7 @@ from opsim.kpi.cycle_times import cycle_times, durations, oee, task_durations, w
 from opsim.kpi.exposure import exposure
 from opsim.kpi.lines import crews, lines, quality
 from opsim.kpi.posture import trunk_flexion
-from opsim.kpi.resources import outages, stops, stores, tools, transporters
+from opsim.kpi.resources import conveyors, outages, stops, stores, tools, transporters
 from opsim.kpi.states import active_time, bottleneck, station_states, worker_states
 from opsim.kpi.throughput import (
     due_dates,
@@ -25,7 +25,6 @@ from opsim.kpi.workers import duty, fatigue, interruptions, learned, trips, walk
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of
-from opsim.subjects.conveyors.figures import conveyors
 
 _FUNCTIONS = (
     throughput,

@@ -13,8 +13,7 @@ from opsim.plan.resources import BreakdownPlan, MaintenancePlan, RepairTeamPlan
 from opsim.plan.sources import SourcePlan
 from opsim.plan.stations import StationPlan
 from opsim.plan.tasks import Ranks, TaskPlan
-from opsim.plan.workers import WalkingPlan, WorkerPlan
-from opsim.subjects.rotations.words import RotationPlan
+from opsim.plan.workers import RotationPlan, WalkingPlan, WorkerPlan
 
 __all__ = [
     "BreakdownPlan",

@@ -19,13 +19,11 @@ from opsim.plan.products import ProductPlan, plan_products, plan_quality, with_d
 from opsim.plan.resources import plan_breakdowns, plan_maintenance, plan_repair_teams, plan_transporters, repair_tasks
 from opsim.plan.sequence import has_priorities, looks_ahead, plan_queues, work_ahead
 from opsim.plan.sources import plan_sources
-from opsim.plan.stations import STORE, plan_stations
+from opsim.plan.stations import STORE, plan_conveyors, plan_stations
 from opsim.plan.stores import CardPlan, plan_assembly, plan_cards
 from opsim.plan.subjects import plan_subjects
 from opsim.plan.tasks import plan_ergonomics, plan_setups, plan_tasks, plan_tools, ranks_of
-from opsim.plan.workers import plan_human, plan_walking, plan_workers
-from opsim.subjects.conveyors.words import plan_conveyors
-from opsim.subjects.rotations.words import plan_rotations
+from opsim.plan.workers import plan_human, plan_rotations, plan_walking, plan_workers
 
 
 def compile_plan(loaded, *, seed: int | None = None) -> Plan:
@@ -77,12 +75,12 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         breakdowns=plan_breakdowns(scenario, ranks, model_of),
         maintenance=plan_maintenance(scenario, ranks),
         repair_teams=plan_repair_teams(scenario),
-        conveyors=plan_conveyors(scenario.conveyors, scenario.layout, ranks.stations, ranks.places),
+        conveyors=plan_conveyors(scenario, ranks),
         transporters=plan_transporters(scenario, ranks, distance_m),
         shifts=plan_shifts(scenario),
         crews=plan_crews(scenario, ranks),
         lines=plan_lines(scenario, ranks),
-        rotations=plan_rotations(scenario.rotations, scenario.workers, ranks.stations),
+        rotations=plan_rotations(scenario, ranks),
         shares=plan_shares(scenario, ranks),
         priorities=tuple(scenario.allocation.priorities),
         serve=scenario.allocation.serve,

@@ -14,15 +14,12 @@ from opsim.plan.products import ProductPlan, QualityPlan
 from opsim.plan.resources import BreakdownPlan, MaintenancePlan, RepairTeamPlan, TransporterPlan
 from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
 from opsim.plan.sources import SourcePlan
-from opsim.plan.stations import StationPlan
-from opsim.plan.stores import CardPlan, KitPlan, SplitPlan, StorePlan
+from opsim.plan.stations import ConveyorPlan, StationPlan
+from opsim.plan.stores import BatchPlan, CardPlan, KitPlan, SplitPlan, StorePlan
 from opsim.plan.subjects import SubjectPlan
 from opsim.plan.tasks import SetupPlan, TaskPlan, ToolPlan
-from opsim.plan.workers import NO_EFFECTS, HumanPlan, WalkingPlan, WorkerPlan
+from opsim.plan.workers import NO_EFFECTS, HumanPlan, RotationPlan, WalkingPlan, WorkerPlan
 from opsim.problems import natural_key
-from opsim.subjects.batches.words import BatchPlan
-from opsim.subjects.conveyors.words import ConveyorPlan
-from opsim.subjects.rotations.words import RotationPlan
 
 FIXED_WORKFORCE = 0
 """The number of the people who work in every replication, where staffing is fixed."""

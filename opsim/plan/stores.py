@@ -10,16 +10,17 @@ Loops of cards: where each product takes one, and where it is given back.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any
 
+from opsim.clock import on_grid
 from opsim.plan.products import ProductPlan
 from opsim.plan.sources import INSIDE, SourcePlan
 from opsim.plan.tasks import Ranks
 from opsim.problems import natural_key
-from opsim.subjects.batches.words import BatchPlan, plan_batches
 
 if TYPE_CHECKING:
-    from opsim.scenario.schema import Scenario
+    from opsim.scenario.schema import Batch, Scenario
 
 Pieces = tuple[tuple[int, int], ...]
 """(product rank, number), in natural order."""
@@ -147,6 +148,20 @@ class KitPlan:
 
 
 @dataclass(frozen=True, slots=True)
+class BatchPlan:
+    """size : jobs on a server at once
+
+    most_wait_s : after which a job goes with those there are, on the grid; inf for never
+    class_of : (P,) jobs go together whose products have the same number
+    """
+
+    station: int
+    size: int
+    most_wait_s: float
+    class_of: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Assembly:
     """All of it, and the sources that a scenario names with those that it makes necessary."""
 
@@ -164,14 +179,12 @@ def plan_assembly(scenario: Scenario, ranks: Ranks, sources: tuple[SourcePlan, .
     made = sorted([*known[len(sources) :], *pieces], key=lambda source: natural_key(source.name))
     ordered = (*sources, *made)
     source_ranks = {source.name: rank for rank, source in enumerate(ordered)}
-    batches = {name: made.batch for name, made in scenario.stations.items() if made.batch is not None}
-    families = {product: scenario.products[product].family for product in ranks.products}
     return Assembly(
         ordered,
         plan_stores(scenario, ranks, source_ranks),
         _kits(scenario, ranks),
         plan_splits(scenario, ranks, source_ranks, most),
-        plan_batches(batches, families, ranks.stations),
+        _batches(scenario, ranks),
     )
 
 
@@ -181,6 +194,25 @@ def _kits(scenario: Scenario, ranks: Ranks) -> tuple[KitPlan, ...]:
         for product, rank in ranks.products.items()
         for station, parts in sorted(scenario.products[product].parts.items(), key=lambda item: natural_key(item[0]))
     )
+
+
+def _batches(scenario: Scenario, ranks: Ranks) -> tuple[BatchPlan, ...]:
+    found = ((name, scenario.stations[name].batch) for name in sorted(scenario.stations, key=natural_key))
+    return tuple(_batch(name, batch, scenario, ranks) for name, batch in found if batch is not None)
+
+
+def _batch(name: str, batch: Batch, scenario: Scenario, ranks: Ranks) -> BatchPlan:
+    classes = [_class(batch.of, product, scenario.products[product]) for product in ranks.products]
+    number = {one: number for number, one in enumerate(dict.fromkeys(classes))}
+    most_wait_s = inf if batch.most_wait_s is None else batch.most_wait_s and on_grid(batch.most_wait_s)
+    return BatchPlan(ranks.stations[name], batch.size, most_wait_s, tuple(number[one] for one in classes))
+
+
+def _class(of: str, name: str, product) -> str:
+    """What goes together has the same word: all, a product, or a family (a product without one is by itself)."""
+    if of == "family":
+        return name if product.family is None else f"family: {product.family}"
+    return name if of == "product" else ""
 
 
 def jobs_on_a_server(plan, station: int) -> int:

@@ -271,7 +271,3 @@ def _check_length(kind: str, text: object, length: str) -> None:
     except units.UnitError as error:
         hint = f"; {error.hint}" if error.hint else ""
         raise ValueError(f"{kind} {shown(text)}: {error.message}{hint}") from None
-
-
-MOST_PIECES = 10_000
-"""Pieces of one part in a product, units in a lot, jobs in a batch."""

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
-from opsim.scenario.checks.table import check_problems
+from opsim.scenario.checks import check_problems
 from opsim.scenario.messages import schema_problems
 from opsim.scenario.schema import Scenario
 from opsim.scenario.schema.subjects import scenario_model, subject_problems

@@ -1,7 +1,5 @@
 """Modules of this package that are rules of the floor: found in ``opsim.engine.floor``, with its names for this one's.
 
-The floor of a subject (``opsim/subjects/rotations/floor.py``) is the module of that subject's name here.
-
 They are kept beside what Python has compiled, as long as neither the rule nor this file changes.
 """
 
@@ -11,7 +9,6 @@ import importlib
 import importlib.abc
 import importlib.util
 import marshal
-import re
 import sys
 from contextlib import suppress
 from os import getpid, replace
@@ -22,8 +19,6 @@ from typing import Any
 WRITTEN, COMPILED = "opsim.engine.floor", "opsim.engine.fast_engine"
 HERE = Path(__file__).parent
 FLOOR = HERE.parent / "floor"
-SUBJECTS = HERE.parents[1] / "subjects"
-_OF_A_SUBJECT = re.compile(r"opsim\.subjects\.(\w+)\.floor")
 
 
 def know_all() -> None:
@@ -34,12 +29,11 @@ def know_all() -> None:
 
 def rules() -> list[str]:
     """Names of all modules of rules, within the package."""
-    of_subjects = {path.parent.name for path in SUBJECTS.glob("*/floor.py")}
-    return sorted(
-        name
-        for name in of_subjects | {path.stem for path in FLOOR.glob("[!_]*.py")}
-        if name != "machine" and not (HERE / f"{name}.py").exists()
-    )
+    return [
+        path.stem
+        for path in sorted(FLOOR.glob("[!_]*.py"))
+        if path.stem != "machine" and not (HERE / path.name).exists()
+    ]
 
 
 class Lowering(importlib.abc.MetaPathFinder, importlib.abc.Loader):
@@ -48,10 +42,9 @@ class Lowering(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
         """Where a module is."""
         if name.startswith(COMPILED + "."):
-            rule = name.removeprefix(COMPILED + ".").replace(".", "/")
-            for file in (FLOOR / f"{rule}.py", SUBJECTS / rule / "floor.py"):
-                if file.is_file():
-                    return importlib.util.spec_from_file_location(name, file, loader=self)
+            file = FLOOR.joinpath(*name.removeprefix(COMPILED + ".").split(".")).with_suffix(".py")
+            if file.is_file():
+                return importlib.util.spec_from_file_location(name, file, loader=self)
         return None
 
     def create_module(self, spec: Any) -> ModuleType | None:
@@ -60,13 +53,12 @@ class Lowering(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         """What stands in it, lowered."""
-        kept = HERE.joinpath(*module.__name__.removeprefix(COMPILED + ".").split(".")).with_suffix(".py")
-        exec(_code(Path(str(module.__file__)), kept), module.__dict__)
+        exec(_code(Path(str(module.__file__))), module.__dict__)
 
 
-def _code(path: Path, as_if: Path) -> CodeType:
+def _code(path: Path) -> CodeType:
     """From disk where it is that of today's source, of this pass and this Python."""
-    kept = Path(importlib.util.cache_from_source(str(as_if)))
+    kept = Path(importlib.util.cache_from_source(str(HERE / path.relative_to(FLOOR))))
     times = [of.stat() for of in (path, Path(str(__file__)))]
     key = importlib.util.MAGIC_NUMBER + repr([(one.st_mtime_ns, one.st_size) for one in times] + [str(path)]).encode()
     with suppress(OSError, ValueError, EOFError, TypeError):
@@ -74,8 +66,7 @@ def _code(path: Path, as_if: Path) -> CodeType:
         if data.startswith(key):
             found: CodeType = marshal.loads(data[len(key) :])
             return found
-    text = path.read_text(encoding="utf-8").replace(WRITTEN, COMPILED)
-    made = compile(_OF_A_SUBJECT.sub(rf"{COMPILED}.\1", text), str(path), "exec")
+    made = compile(path.read_text(encoding="utf-8").replace(WRITTEN, COMPILED), str(path), "exec")
     if not sys.dont_write_bytecode:
         with suppress(OSError):
             _write(kept, key + marshal.dumps(made))

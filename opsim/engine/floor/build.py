@@ -9,10 +9,12 @@ from typing import Any
 from opsim.engine.floor import (
     allocation,
     assembly,
+    batches,
     bucket_brigades,
     buffers,
     calendar,
     cards,
+    conveyors,
     failures,
     flow,
     human_effects,
@@ -20,6 +22,7 @@ from opsim.engine.floor import (
     interruption,
     levels,
     quality,
+    rotations,
     sequencing,
     settle,
     setups,
@@ -39,17 +42,14 @@ from opsim.plan import Plan
 from opsim.plan.calendar import OPEN
 from opsim.plan.sources import POISSON, RENEWAL, SATURATED, SCHEDULE
 from opsim.plugins.subjects import subjects_of
-from opsim.subjects.batches.floor import install as install_batches
-from opsim.subjects.conveyors.floor import install as install_conveyors
-from opsim.subjects.rotations.floor import install as install_rotations
 
 BLOCKS: tuple[Callable[[Any], None], ...] = (
     *(levels.install, allocation.install_preferences, stores.install),
-    *(assembly.install_kits, assembly.install_splits, install_batches),
+    *(assembly.install_kits, assembly.install_splits, batches.install),
     *(setups.install, sequencing.install, buffers.install, cards.install, sources.install_base_stock, quality.install),
     *(work_sharing.install, tools.install, failures.install, interruption.install_preemption),
-    *(calendar.install_opening_hours, install_conveyors, transporters.install, indexed_and_moving_lines.install),
-    *(calendar.install_shifts, bucket_brigades.install, install_rotations, human_effects.install),
+    *(calendar.install_opening_hours, conveyors.install, transporters.install, indexed_and_moving_lines.install),
+    *(calendar.install_shifts, bucket_brigades.install, rotations.install, human_effects.install),
     allocation.install_doses,
 )
 """What hangs in, in this order: each looks at its own part of the plan, and does nothing where that is empty."""

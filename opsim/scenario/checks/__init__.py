@@ -1,1 +1,88 @@
 """What the schema cannot see: names that lead nowhere, work nobody can do, lines without end. One file a subject."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+from pathlib import Path
+
+from opsim.problems import Problem
+from opsim.scenario.checks.assembly import (
+    assembly_problems,
+    batch_problems,
+    card_problems,
+    card_stock_problems,
+    store_problems,
+)
+from opsim.scenario.checks.lines import line_problems, line_way_problems, sharing_problems
+from opsim.scenario.checks.lookup import reference_problems
+from opsim.scenario.checks.motions import ergonomic_problems, human_problems, motion_problems, walking_emulator_problems
+from opsim.scenario.checks.names import (
+    addition_problems,
+    file_problems,
+    material_problems,
+    plugin_problems,
+    point_problems,
+)
+from opsim.scenario.checks.people import (
+    assignment_problems,
+    crew_problems,
+    patrol_problems,
+    person_problems,
+    rotation_problems,
+    staffing_problems,
+)
+from opsim.scenario.checks.reach import hand_problems
+from opsim.scenario.checks.routes import quality_problems, routing_problems, walking_problems
+from opsim.scenario.checks.sequence import failure_problems, sequence_problems, team_problems
+from opsim.scenario.checks.shifts import shift_problems
+from opsim.scenario.checks.sources import saturated_problems, source_problems
+from opsim.scenario.checks.transport import carrying_problems, conveyor_problems, tool_problems, transporter_problems
+from opsim.scenario.tree import Node
+
+
+def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
+    """The problems of a variant, found one by one; parts that the schema refuses are passed over.
+
+    tree : the variant's tree, ``like`` resolved; base : the file's tree before any override.
+    """
+    return chain(
+        reference_problems(tree),
+        shift_problems(tree),
+        staffing_problems(tree),
+        patrol_problems(tree),
+        assignment_problems(tree),
+        sharing_problems(tree),
+        routing_problems(tree),
+        walking_problems(tree),
+        point_problems(tree),
+        store_problems(tree),
+        assembly_problems(tree),
+        batch_problems(tree),
+        conveyor_problems(tree),
+        transporter_problems(tree),
+        carrying_problems(tree),
+        material_problems(tree),
+        source_problems(tree, folder),
+        card_problems(tree),
+        card_stock_problems(tree),
+        saturated_problems(tree),
+        failure_problems(tree),
+        crew_problems(tree),
+        line_problems(tree),
+        line_way_problems(tree),
+        sequence_problems(tree),
+        quality_problems(tree),
+        tool_problems(tree, folder),
+        team_problems(tree),
+        rotation_problems(tree),
+        ergonomic_problems(tree, base, folder),
+        hand_problems(tree, folder),
+        human_problems(tree),
+        addition_problems(tree, base),
+        file_problems(tree, folder),
+        motion_problems(tree, folder),
+        person_problems(tree, folder),
+        plugin_problems(tree),
+        walking_emulator_problems(tree, folder),
+    )

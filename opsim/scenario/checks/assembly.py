@@ -2,6 +2,8 @@
 
 Stores: at a place, at the end of ways, and at the start no fuller than they can be.
 
+Batches: as many jobs as they take can wait for each other, and no worker would have to carry them on.
+
 Loops of cards lie on the way of a product, from a point to a later one.
 
 What lies in stores at the start holds cards: no more pieces than there are cards for them.
@@ -146,6 +148,33 @@ def _middle(product: Node, stores: dict[str, Node], path: tuple[str, ...]) -> It
 
 def _whole(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
+
+
+def batch_problems(tree: Node) -> Iterator[Problem]:
+    """Buffers in which a batch never fills; jobs of a batch that one worker would have to carry."""
+    for name, station in entries(tree, "stations").items():
+        batch, buffer = child(station, "batch"), child(station, "buffer")
+        if batch is None:
+            continue
+        size = child(batch, "size")
+        if _is_whole(size) and _is_whole(buffer) and buffer.value < size.value:  # type: ignore[union-attr]
+            found = f"a batch of {size.value} never comes together in a buffer of {buffer.value}"  # type: ignore[union-attr]
+            hint = f"give the buffer at least {size.value} places"  # type: ignore[union-attr]
+            yield problem(batch.name_place, ("stations", name, "batch"), found, hint)
+        yield from _carried(tree, name)
+
+
+def _carried(tree: Node, name: str) -> Iterator[Problem]:
+    for product, node in entries(tree, "products").items():
+        carried = child(node, "carried")
+        if carried is not None and carried.value is True and name in stations_of(node):
+            found = f"{shown(product)} comes to {shown(name)}, whose batches nobody can carry on"
+            hint = "remove 'carried', or give the station no batch"
+            yield problem(carried.place, ("products", product, "carried"), found, hint)
+
+
+def _is_whole(node: Node | None) -> bool:
+    return node is not None and isinstance(node.value, int) and not isinstance(node.value, bool)
 
 
 def card_problems(tree: Node) -> Iterator[Problem]:

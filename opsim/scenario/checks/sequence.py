@@ -12,7 +12,6 @@ from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.lookup import stations_of, visited
 from opsim.scenario.schema.tasks import Maintenance
 from opsim.scenario.tree import Node, Part, Place, child, entries, items, problem, text
-from opsim.subjects.batches.checks import place_before_problems
 from opsim.units import UnitError, parse
 
 
@@ -29,7 +28,7 @@ def sequence_problems(tree: Node) -> Iterator[Problem]:
     yield from rule_problems(child(tree, "flow", "routing"), ("flow", "routing"), "opsim.routing", ROUTING_RULES)
     for name, station in stations.items():
         yield from _preempt(station, ("stations", name))
-        yield from place_before_problems(tree, station, ("stations", name))
+        yield from _batch_before(tree, station, ("stations", name))
         yield from _setup(tree, name, child(station, "setup"))
 
 
@@ -71,6 +70,15 @@ def _preempt(station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
     if child(station, "batch") is not None:
         found = "the jobs of a batch are not pre-empted"
         yield problem(preempt.place, (*path, "preempt"), found, "remove 'preempt', or 'batch'")
+
+
+def _batch_before(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
+    """A batch would begin when its first job has a place downstream; the others would wait after all."""
+    batch, own, of_all = child(station, "batch"), child(station, "blocking"), child(tree, "flow", "blocking")
+    blocking = of_all if own is None else own
+    if batch is not None and blocking is not None and blocking.value == "before":
+        found = "the jobs of a batch go on one by one, and cannot all be sure of a place before it begins"
+        yield problem(batch.name_place, (*path, "batch"), found, "write 'blocking: after' at this station")
 
 
 def _setup(tree: Node, name: str, setup: Node | None) -> Iterator[Problem]:

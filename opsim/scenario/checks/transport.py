@@ -1,5 +1,7 @@
 """Transporters: what they bring jobs between exists, nobody else brings them there, and roads lead there.
 
+Conveyors: their ends are places, and at least one job fits between them.
+
 Who carries a product can lift one piece of it.
 
 Tools that are needed exist, there are enough of them, and are held between moments that exist.
@@ -10,6 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from itertools import pairwise
+from math import hypot
 from pathlib import Path
 
 from opsim import units
@@ -95,7 +98,32 @@ def _hint(graph: Graph, *places: str) -> str:
     return "is a road missing, or 'one_way' too much?" if cut_off is None else f"add e.g. [{cut_off}, ...]"
 
 
-def metres(node: Node | None) -> float | None:
+def conveyor_problems(tree: Node) -> Iterator[Problem]:
+    """Ends that are no places, and belts without a length that are too short for one job."""
+    places = entries(tree, "layout", "places")
+    for name, belt in entries(tree, "conveyors").items():
+        for end in ("from", "to"):
+            yield from named(child(belt, end), places, "place", ("conveyors", name, end))
+        straight_m, pitch_m = _straight_m(belt, places), _metres(child(belt, "pitch"))
+        if child(belt, "length") is None and straight_m is not None and pitch_m is not None and straight_m < pitch_m:
+            found = f"from {shown(text(belt, 'from'))} to {shown(text(belt, 'to'))} it is {straight_m:g} m: no room"
+            yield problem(
+                belt.name_place, ("conveyors", name), f"{found} for a job of {pitch_m:g} m", "add e.g. 'length: 6 m'"
+            )
+
+
+def _straight_m(belt: Node, places: dict[str, Node]) -> float | None:
+    """The length of the straight line between the ends; None where it cannot be known."""
+    at = [places.get(text(belt, end) or "") for end in ("from", "to")]
+    ends = [items(place) or items(place, "at") for place in at]
+    points = [[_metres(coordinate) for coordinate in end] for end in ends]
+    if any(len(point) != 2 or None in point for point in points):
+        return None
+    (x, y), (u, v) = points
+    return hypot(x - u, y - v)  # type: ignore[operator]
+
+
+def _metres(node: Node | None) -> float | None:
     try:
         return None if node is None else units.parse(node.value, "length")
     except units.UnitError:

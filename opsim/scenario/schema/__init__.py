@@ -19,7 +19,7 @@ from opsim.scenario.schema.lines import Crew, Flow, Setup
 from opsim.scenario.schema.run import Run, Shift
 from opsim.scenario.schema.scenario import BLOCKS, Scenario
 from opsim.scenario.schema.sources import Card, Release
-from opsim.scenario.schema.stations import Product, Station, Store
+from opsim.scenario.schema.stations import Batch, Product, Station, Store
 from opsim.scenario.schema.task_block import Emulated, Fixed, Plugged, Recorded, TaskBlock
 from opsim.scenario.schema.tasks import (
     DISTRIBUTIONS,
@@ -37,7 +37,6 @@ from opsim.scenario.schema.tasks import (
 )
 from opsim.scenario.schema.workers import Allocation, Worker, Workforce
 from opsim.scenario.tree import Block
-from opsim.subjects.batches.words import Batch
 
 __all__ = [
     "BLOCKS",

@@ -10,8 +10,8 @@ from opsim.kpi.catalogue import KPIS, USUAL, read_asked
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Name, plain_error
 from opsim.scenario.schema.human import Ergonomics, Human
-from opsim.scenario.schema.layout import Layout, Transporter
-from opsim.scenario.schema.lines import Crew, Flow, Line
+from opsim.scenario.schema.layout import Conveyor, Layout, Transporter
+from opsim.scenario.schema.lines import Crew, Flow, Line, Rotation
 from opsim.scenario.schema.run import Run, Shift
 from opsim.scenario.schema.sources import Card, Release
 from opsim.scenario.schema.stations import Product, Station, Store
@@ -21,8 +21,6 @@ from opsim.scenario.schema.tasks import RepairTeam, Task, Walking
 from opsim.scenario.schema.tools import Tool
 from opsim.scenario.schema.workers import Allocation, SkillLevels, Worker, Workforce
 from opsim.scenario.tree import Block
-from opsim.subjects.conveyors.words import Conveyor
-from opsim.subjects.rotations.words import Rotation
 
 
 def _known_output(value: object) -> object:

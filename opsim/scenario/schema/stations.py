@@ -1,4 +1,4 @@
-"""What comes together and apart: stores, the parts of a product, what a product is split into.
+"""What comes together and apart: stores, the parts of a product, what a product is split into, batches on a server.
 
 Stations and products.
 """
@@ -10,15 +10,16 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from opsim.problems import shown
-from opsim.scenario.fields import MOST_PIECES, MostLoad, Name, NameText, Seconds, Whole, plain_error
+from opsim.scenario.fields import MostLoad, Name, NameText, Seconds, Whole, plain_error
 from opsim.scenario.schema.lines import Blocking, Setup, Share
 from opsim.scenario.schema.routing import Inspect, LessThanAll, Onward, Yield, one_word_on_scrap
 from opsim.scenario.schema.run import ShiftNames
 from opsim.scenario.schema.tasks import Breakdown, Maintenance
 from opsim.scenario.schema.tools import Needs
 from opsim.scenario.tree import Block
-from opsim.subjects.batches.words import Batch
 
+MOST_PIECES = 10_000
+"""Pieces of one part in a product, units in a lot, jobs in a batch."""
 MOST_INITIAL = 100_000
 """Jobs that may lie in a store at the start."""
 MOST_PLACES = 1_000_000_000
@@ -75,6 +76,24 @@ class Store(Block):
         {},
         description="jobs that lie here at the start: a number, or numbers by product where several end here",
         examples=["4"],
+    )
+
+
+class Batch(Block):
+    """Several jobs at once on one server, such as in an oven: its tasks are done once for all of them together.
+
+    A batch begins when it is full, or when the first job of it has waited as long as it may.
+    """
+
+    size: Whole = Field(ge=2, le=MOST_PIECES, description="jobs on a server at once, a lot is one", examples=[4])
+    most_wait_s: Seconds | None = Field(
+        None,
+        alias="most_wait",
+        description="a job that has waited so long takes a server with those there are; absent: waits for a full batch",
+        examples=["10 min"],
+    )
+    of: Literal["any", "product", "family"] = Field(
+        "any", description="which jobs go together: any, those of one product, or those of one family"
     )
 
 

@@ -21,6 +21,7 @@ from math import gcd, inf
 from opsim.layout import reached, reverse, rings
 from opsim.problems import natural_key
 from opsim.scenario.schema import Product, Scenario
+from opsim.scenario.schema.lines import Rotation
 from opsim.scenario.warnings.routes import (
     Ways,
     between,
@@ -34,7 +35,6 @@ from opsim.scenario.warnings.routes import (
     way_of,
     ways,
 )
-from opsim.subjects.rotations.words import Rotation
 
 
 def held_risks(scenario: Scenario) -> Iterator[str]:

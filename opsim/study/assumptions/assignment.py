@@ -1,5 +1,7 @@
 """What the assumption sheet says of who does what: zones, floaters, priorities, qualities, shared work.
 
+What the sheet says of job rotation.
+
 What the sheet says of crews.
 """
 
@@ -9,7 +11,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from opsim.plan import Plan
+from opsim.plan.compile import LEAST_EXPOSED
 from opsim.plan.lines import BUCKET_BRIGADE
+from opsim.plan.workers import IN_TURN, RotationPlan
 from opsim.problems import listed
 
 if TYPE_CHECKING:
@@ -83,6 +87,36 @@ def _shared(plan: Plan) -> Iterator[Line]:
             f"{tasks}: done at {here} where {there} has no free server and {filled}, else at {there}; what was begun "
             "is finished where it was begun",
         )
+
+
+def rotations(plan: Plan) -> Iterator[tuple[str, str]]:
+    """(topic, what is assumed) of each rotation."""
+    new = ", and nobody is slower for being new at a post" if plan.human.learning is None else ""
+    for rotation in plan.rotations:
+        names = listed([plan.workers[worker].name for worker in rotation.workers])
+        yield (
+            "rotation",
+            f"{rotation.name}: {names} share {len(rotation.posts)} posts, and change {_when(rotation)}, "
+            f"{_who(rotation)}; what was begun is finished at the old post, a change takes no time but the walk{new}",
+        )
+
+
+def _when(rotation: RotationPlan) -> str:
+    if rotation.every_s is not None:
+        return f"every {rotation.every_s / 3600:g} h from the start of the run, work time or not"
+    if rotation.after == 1:
+        return "after every operation at one of the posts"
+    return f"when {rotation.after} operations were done at one of the posts, by whomever"
+
+
+def _who(rotation: RotationPlan) -> str:
+    if rotation.rule == IN_TURN:
+        return "each to the next post"
+    if rotation.rule == "least_time":
+        return "a post going to who was there for the shortest time so far, breaks included"
+    if rotation.rule == LEAST_EXPOSED:
+        return "the heaviest post going to whose body has gone through least so far"
+    return f"by the rule {rotation.rule}"
 
 
 _HOW_CREWS_SHARE = {

@@ -24,8 +24,6 @@ from opsim.plan.stations import STATION, STORE
 from opsim.problems import listed
 from opsim.study.assumptions.assignment import assignment, crews, qualities
 from opsim.study.assumptions.people import Line
-from opsim.subjects.batches.checks import batches
-from opsim.subjects.conveyors.checks import belts
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
@@ -69,7 +67,7 @@ def _said(plan: Plan, source: SourcePlan) -> str:
 def station_model(plan: Plan) -> Iterator[Line]:
     """(topic, what is assumed) of all of them, most weighty first."""
     yield from _absent(plan)
-    for part in (_setups, _queues, _rooms, _assembly, batches, _quality, _tools):
+    for part in (_setups, _queues, _rooms, _assembly, _batches, _quality, _tools):
         yield from part(plan)
 
 
@@ -145,6 +143,15 @@ def _assembly(plan: Plan) -> Iterator[Line]:
         yield "lots", f"{listed(lots)}: a lot moves as one, and is good or bad as one"
 
 
+def _batches(plan: Plan) -> Iterator[Line]:
+    for batch in plan.batches:
+        name = plan.stations[batch.station].name
+        wait = (
+            "and waits until it is full" if batch.most_wait_s == inf else f"and waits at most {batch.most_wait_s:g} s"
+        )
+        yield "batches", f"{name}: {batch.size} jobs at once, {wait}; the time is that of one, however many there are"
+
+
 def _quality(plan: Plan) -> Iterator[Line]:
     for one in plan.quality:
         name = plan.stations[one.station].name
@@ -185,7 +192,9 @@ def vehicles(plan: Plan) -> Iterator[Line]:
         names = listed([pool.name for pool in plan.transporters])
         yield "transport", f"{names}: drivers and batteries always there; vehicles do not meet on the road"
         yield "transport", f"{names}: called when a job's next place is sure, oldest call first; never waits to fill"
-    yield from belts(plan)
+    if plan.conveyors:
+        names = listed([plan.stations[belt.station].name for belt in plan.conveyors])
+        yield "transport", f"{names}: belts run all the time, and never break"
 
 
 def by_themselves(plan: Plan) -> bool:

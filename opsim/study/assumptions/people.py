@@ -17,7 +17,7 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.workers import WorkerPlan, start_place
 from opsim.problems import listed
 from opsim.streams import stream
-from opsim.subjects.rotations.checks import rotations
+from opsim.study.assumptions.assignment import rotations
 from opsim.task_model import keys_read
 from opsim.worker_effects import worker_effect
 

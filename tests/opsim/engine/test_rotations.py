@@ -236,7 +236,7 @@ rotations: {{r: {{workers: [{members}], posts: [{", ".join(names)}], every: {eve
 """
     log, plan = ran(text)
     (rotation,), duties = plan.rotations, [worker.duties for worker in plan.workers]
-    can, begun = rotation.can([worker.rating for worker in plan.workers]), 0
+    can, begun = rotation.can(plan.workers), 0
     rows = log.where((log["kind"] == WORK) & (log["worker"] >= 0) & (log["progress_from"] == 0))
     seen = set()
     for start_s, worker, station, performance in zip(

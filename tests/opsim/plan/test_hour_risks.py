@@ -3,7 +3,7 @@
 
 from plans import plan
 
-from opsim.plan.warnings.table import hour_risks
+from opsim.plan.warnings import hour_risks
 
 DAY = """
 opsim: 1

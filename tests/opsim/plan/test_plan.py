@@ -29,7 +29,7 @@ from opsim.plan.model_warnings import lacking, unread, unseen
 from opsim.plan.products import NOWHERE
 from opsim.plan.resources import NO_TEAM
 from opsim.plan.tasks import Moment
-from opsim.plan.warnings.table import hour_risks
+from opsim.plan.warnings import hour_risks
 from opsim.scenario.read import scenarios_in
 from opsim.tasks import Exponential, Fixed, Geometric
 from opsim.tasks.model import UniformCount

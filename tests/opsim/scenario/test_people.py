@@ -21,7 +21,7 @@ from opsim.human.catalogue import catalogue
 from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 from opsim.study.assumptions.sheet import assumptions_of
 from opsim.study.resolved_scenario import resolved_text
 

@@ -14,7 +14,7 @@ from opsim.problems import ScenarioError
 from opsim.scenario import Scenario, read_scenarios
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.tree import child
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 from opsim.scenario.yaml import read_tree, scalar
 from opsim.tasks import Erlang, Lognormal, Recorded, task_model, time_model
 

@@ -13,7 +13,7 @@ import pytest
 
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 
 BIKES = """
 opsim: 1

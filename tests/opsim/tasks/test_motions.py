@@ -13,7 +13,7 @@ from opsim.plan.model_warnings import unread, wide_joins
 from opsim.problems import ScenarioError
 from opsim.scenario import read_scenarios
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 from opsim.streams import stream
 from opsim.study.assumptions.sheet import assumptions_of, task_sources
 from opsim.tasks.from_scenario import emulators_of, same_task

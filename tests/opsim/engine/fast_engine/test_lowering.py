@@ -26,12 +26,12 @@ def test_what_is_kept_of_a_rule_is_read_where_it_is_whole_and_of_today(tmp_path,
     monkeypatch.setattr(lowering, "FLOOR", tmp_path)
     monkeypatch.setattr(lowering, "HERE", tmp_path)
     monkeypatch.setattr("sys.dont_write_bytecode", False)
-    before = lowering._code(path, path)
+    before = lowering._code(path)
     (kept,) = (tmp_path / "__pycache__").iterdir()
     if harm is None:
         path.write_text("import opsim.engine.floor as said\nx = 22\n")
     else:
         kept.write_bytes(harm)
-    again = lowering._code(path, path)
+    again = lowering._code(path)
     assert (again == before) == (harm is not None) and "opsim.engine.fast_engine" in again.co_names
-    assert lowering._code(path, path) == again
+    assert lowering._code(path) == again

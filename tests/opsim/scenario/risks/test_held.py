@@ -7,7 +7,7 @@ from plans import plan
 from opsim.engine.floor import run_plan
 from opsim.kpi.deadlock import locked
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 
 HEAD = """
 opsim: 1

@@ -4,7 +4,7 @@ import plans
 import pytest
 
 from opsim.plan.model_warnings import unmoved_bodies
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 
 GOOD = """
 opsim: 1

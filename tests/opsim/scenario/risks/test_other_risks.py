@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings.table import risks_of
+from opsim.scenario.warnings import risks_of
 
 LINE = """
 opsim: 1

@@ -22,11 +22,10 @@ from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
 from opsim.study import run_scenario
-from opsim.study.assumptions.assignment import assignment, crews, qualities
+from opsim.study.assumptions.assignment import assignment, crews, qualities, rotations
 from opsim.study.assumptions.flow import station_model
 from opsim.study.assumptions.people import working_time
 from opsim.study.assumptions.sheet import assumptions_of
-from opsim.subjects.rotations.checks import rotations
 from tests.opsim.made_walks import made_library
 
 TEXT = """

@@ -374,7 +374,7 @@ def _rotation(build: Any, plan: Any, rank: int) -> Handle:
     made.at, made.found = build.ints([-1] * n_members), build.ints([-1] * n_members)
     made.time_s, made.here_s = (build.floats([0.0] * (n_members * n_posts)) for _ in range(2))
     made.dose, made.heaviest = build.floats([0.0] * n_members), build.ints(range(n_posts))
-    can = plan.can([worker.rating for worker in build.plan.workers])
+    can = plan.can(build.plan.workers)
     able = [can(member, post) for post in range(n_posts) for member in range(n_members)]
     made.can, made.posts = build.ints(able), posts_of(build, n_posts, n_members, able)
     return made

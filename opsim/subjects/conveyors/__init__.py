@@ -1,1 +1,0 @@
-"""Conveyors: belts and roller tracks that take jobs from one place to another."""
