@@ -341,7 +341,7 @@ def test_models_that_cannot_be_kept_are_drawn_again(made):
             assert n == DRAWS and worker is None and condition is None
             return SimpleNamespace(duration_s=np.ones(n), skeleton=None)
 
-    task = SimpleNamespace(name="x", model=Slotted(), handling=None)
+    task = SimpleNamespace(name="x", stream_name="x", model=Slotted(), handling=None)
     person = SimpleNamespace(name="ana", body=None)
     alone = SimpleNamespace(seed=1, across_tasks="as_recorded", workers=[person], tasks=[task])
     assert Burdens(alone, 0).course(0, 0) is None
