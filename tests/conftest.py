@@ -1,5 +1,6 @@
 """Machines are shared: hypothesis asks what is true, not how long it takes, and test processes take a core each."""
 
+import gc
 import os
 
 from hypothesis import settings
@@ -56,6 +57,12 @@ def pytest_collection_modifyitems(items):
     if settings.default.max_examples == QUICK:
         for item in items:
             few_examples(item.obj)
+
+
+def pytest_collection_finish():
+    """What was imported stays: the collector need not look at it again and again (a tenth of the time)."""
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
 
 
 def few_examples(test):
