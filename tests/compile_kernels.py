@@ -24,7 +24,7 @@ def movements() -> None:
 def bodies() -> None:
     """Scored and tired, in a run."""
     with TemporaryDirectory() as folder:
-        asked = "--scenario tiring --replications 1 --horizon".split()
+        asked = ["--scenario", "tiring", "--replications", "1", "--horizon"]
         run.main(["shelf_heights", *asked, "20 min", "-o", f"{folder}/run"], standalone_mode=False)
 
 
