@@ -1,6 +1,5 @@
 """Machines are shared: hypothesis asks what is true, not how long it takes, and test processes take a core each."""
 
-import gc
 import os
 
 from hypothesis import settings
@@ -57,11 +56,6 @@ def pytest_collection_modifyitems(items):
     if settings.default.max_examples == QUICK:
         for item in items:
             few_examples(item.obj)
-
-
-def pytest_collection_finish():
-    """The collector looks less often at all that was imported: a tenth of the time, else."""
-    gc.set_threshold(20_000, 20, 20)
 
 
 def few_examples(test):
