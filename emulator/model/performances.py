@@ -216,7 +216,7 @@ class MotionPerformances(Performances):
         made = decoding.control_points(path), bends, posture.copy(), posture.copy(), flat.copy(), kept.copy(), fastest
         return Ground(*made)
 
-    @property
+    @cached_property
     def _centre(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What bodies are drawn in towards: coefficients of posture (P,) and root (R,), control points (T + 2, C)."""
         model = self.model

@@ -186,7 +186,7 @@ class ReachPerformances(MotionPerformances):
         return ground
 
     @cached_property
-    def _centre(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # type: ignore[override]
+    def _centre(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The most likely movement brought to the targets in each draw's own bones and at its own marks, (n, ...)."""
         model, z = self.model, self.scores.copy()
         moving = np.zeros_like(model.moving)

@@ -6,8 +6,7 @@ from itertools import chain
 from opsim.laws.capacity import away, outages, rooms, shared
 from opsim.laws.effects import pace, rests, shifts
 from opsim.laws.hours import closed, duty
-from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
-from opsim.laws.levels import heights
+from opsim.laws.jobs import Stays, conserved, heights, integral, one_state, places, progress, tiled
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from opsim.scenario.schema.hands import Layers
-from opsim.tasks.levels import LevelsMean
 
 if TYPE_CHECKING:
     from opsim.scenario.schema import Scenario
@@ -101,3 +100,25 @@ def performed_ranks(tasks: Sequence[Any], task: int) -> tuple[int, ...]:
 
 def _heights(said: Any) -> list[float | tuple[str, str]]:
     return list(said.layers if isinstance(said, Layers) else said.values())
+
+
+class LevelsMean:
+    """A TaskModel with the mean time of several; all else, draws too, is that of the first: nobody performs it."""
+
+    def __init__(self, models: Sequence[Any]):
+        self.models = tuple(models)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__") or name == "models":
+            raise AttributeError(name)
+        return getattr(self.models[0], name)
+
+    def mean_duration_s(self, worker: Any = None) -> float:
+        """Seconds, at rating 1, the levels in equal parts."""
+        return sum(model.mean_duration_s(worker) for model in self.models) / len(self.models)
+
+    def draw_worker(self, *arguments: Any, **more: Any) -> Any:
+        return self.models[0].draw_worker(*arguments, **more)
+
+    def sample(self, *arguments: Any, **more: Any) -> Any:
+        return self.models[0].sample(*arguments, **more)
