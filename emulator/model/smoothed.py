@@ -2,7 +2,7 @@
 
 One Gaussian fills the gaps between kinds of execution with movements nobody made: its draws lie twice as far from the
 nearest recording as unseen repetitions do. A smoothed bootstrap that keeps variances (Silverman & Young 1987) does not.
-A known worker is drawn from his own repetitions, and with the weight of ``BASE`` repetitions from what all others do,
+A known worker is drawn from his own repetitions, and with the weight of ``BASE`` of one from what all others do,
 about his shrunk mean: the predictive of a Dirichlet process (Ferguson 1973, sec. 5) with the crew as base measure.
 
 How much to blur: so much that a draw is as far from the nearest recording as a repetition that was left out.
@@ -22,7 +22,8 @@ import numpy as np
 from emulator.model.gaussian import Law, LowRankNormal, compressed
 from emulator.model.joint_coordinates import within_worker
 
-BASE = 1.0
+BASE = 0.5
+"""Repetitions that a known worker's law takes from all others: of three recorded ones a seventh is theirs."""
 FEWEST_OWN = 5
 
 
@@ -128,8 +129,10 @@ def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
 
 QUARTILES = (0.25, 0.5, 0.75)
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
-MOST_NOISE = (0.7, 0.5)
-"""Shares of a curve's variance that noise may be, to choose from: beyond hardly anything of the recordings is left."""
+MOST_NOISE = (0.85, 0.7, 0.5)
+"""Shares of a posture's variance that noise may be, to choose from: beyond, hardly anything of recordings is left."""
+MOST_NOISE_BESIDE = 0.3
+"""And of the variance of paths and paces: with more, movements have speeds where nobody has recorded any."""
 PENALTIES = np.geomspace(1e-4, 1e4, 33)
 """Tried penalties on what curves tell, in mean squared lengths of the curves' singular values."""
 
@@ -203,7 +206,7 @@ def smoothed(
     posture : decides the bandwidth; others : are blurred like it, as stiffly
     gram    : (N, N) products of the whole centred posture sequences, of which the raw scores are the leading part
     stiffness : how much smoother than the recordings the noise is
-    most_noise : share of a curve's variance that noise may be
+    most_noise : share of a posture's variance that noise may be
     """
     square = np.diag(gram)[:, None] + np.diag(gram)[None] - 2 * gram
     other = np.sqrt(np.maximum(square, 0.0)) + np.diag(np.full(len(z), np.inf))
@@ -243,8 +246,9 @@ def _blurred(
     """
     lacking = len(sharp.owner) / _n_free(sharp.owner)
     factor, left = sharp.factor.copy(), sharp.left.copy()
-    for curve, band in zip(curves, bands):
-        noise = band.noise(h, most_noise)
+    shares = most_noise, *(min(most_noise, MOST_NOISE_BESIDE) for _ in curves[1:])
+    for curve, band, most in zip(curves, bands, shares):
+        noise = band.noise(h, most)
         factor[:, curve.at] = band.times(factor[:, curve.at], np.sqrt(noise))
         left[:, curve.at] = band.times(left[:, curve.at], np.sqrt(np.minimum(lacking * (1.0 - noise), 1.0)))
     return _beside_curves(replace(sharp, factor=factor, left=left), curves)
