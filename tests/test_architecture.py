@@ -3,7 +3,9 @@
 import ast
 import subprocess
 import sys
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -30,6 +32,7 @@ LAYERS = (
 """Modules and packages of opsim: what stands lower knows nothing of what stands above it; the foot first."""
 
 
+@cache
 def modules(package: str) -> dict[str, Path]:
     def name(path: Path) -> str:
         parts = path.relative_to(ROOT).with_suffix("").parts
@@ -38,20 +41,43 @@ def modules(package: str) -> dict[str, Path]:
     return {name(path): path for path in sorted((ROOT / package).rglob("*.py"))}
 
 
-def imported(path: Path, *, everywhere: bool) -> set[str]:
-    """Full names of what a file imports: at its top level, or everywhere. Imports for type checkers do not count."""
+@dataclass(frozen=True)
+class Imports:
+    """What a file imports, by full names: at its top level; everywhere, inside functions, too; and what it takes from
+    where (``from a import b`` is a.b) at its top level or for type checkers. Imports for these count only there."""
+
+    top: frozenset[str]
+    everywhere: frozenset[str]
+    taken: frozenset[str]
+
+
+@cache
+def imports_of(path: Path) -> Imports:
+    """The tree itself is not kept: the collector of garbage would go through its nodes again and again."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    nodes = ast.walk(tree) if everywhere else tree.body
-    names = set()
+    typed = [
+        node
+        for one in tree.body
+        if isinstance(one, ast.If) and "TYPE_CHECKING" in ast.dump(one.test)
+        for node in one.body
+    ]
+    plain, taken = names_in(tree.body)
+    return Imports(plain | taken, frozenset().union(*names_in(ast.walk(tree))), taken | names_in(typed)[1])
+
+
+def names_in(nodes: Iterable[ast.AST]) -> tuple[frozenset[str], frozenset[str]]:
+    """Modules that these nodes import, and a.b for each ``from a import b``."""
+    modules, taken = set(), set()
     for node in nodes:
         if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
+            modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and not node.level and node.module:
-            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    return names
+            modules.add(node.module)
+            taken |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return frozenset(modules), frozenset(taken)
 
 
-def top(names: set[str]) -> set[str]:
+def top(names: frozenset[str]) -> set[str]:
     return {name.partition(".")[0] for name in names}
 
 
@@ -60,14 +86,14 @@ def test_dependence_points_one_way(package):
     broken = [
         f"{path.relative_to(ROOT)}: imports {name}"
         for path in modules(package).values()
-        for name in top(imported(path, everywhere=False)) & FORBIDDEN[package]
+        for name in top(imports_of(path).top) & FORBIDDEN[package]
         if name != "numba" or not path.relative_to(ROOT).as_posix().startswith(COMPILED)
     ]
     assert not broken, broken
 
 
 def test_the_emulator_knows_nothing_of_opsim_even_inside_functions():
-    broken = [path for path in modules("emulator").values() if "opsim" in top(imported(path, everywhere=True))]
+    broken = [path for path in modules("emulator").values() if "opsim" in top(imports_of(path).everywhere)]
     assert not broken, broken
 
 
@@ -75,14 +101,14 @@ def test_opsim_meets_the_emulator_only_at_its_two_doors():
     meeting = [
         path.relative_to(ROOT).as_posix()
         for path in modules("opsim").values()
-        if "emulator" in top(imported(path, everywhere=True))
+        if "emulator" in top(imports_of(path).everywhere)
     ]
     assert meeting and all(path.startswith(MAY_MEET_THE_EMULATOR) for path in meeting), meeting
 
 
 def test_rules_are_plain_arithmetic():
     path = ROOT / "opsim/engine/rules.py"
-    assert not imported(path, everywhere=True)
+    assert not imports_of(path).everywhere
     tree = ast.parse(path.read_text(encoding="utf-8"))
     calls = {one.func.id for one in ast.walk(tree) if isinstance(one, ast.Call) and isinstance(one.func, ast.Name)}
     assert calls <= {"min", "max", "range"}, calls
@@ -118,16 +144,7 @@ def test_imports_of_opsim_go_down_only():
 
 def needed(path: Path, known: Collection[str]) -> set[str]:
     """The modules that a file imports at its top level or for type checkers; ``from a import b`` needs a.b."""
-    body = ast.parse(path.read_text(encoding="utf-8")).body
-    body += [
-        node for one in body if isinstance(one, ast.If) and "TYPE_CHECKING" in ast.dump(one.test) for node in one.body
-    ]
-    names = {
-        name if name in known else name.rpartition(".")[0]
-        for node in body
-        if isinstance(node, ast.ImportFrom) and not node.level and node.module
-        for name in (f"{node.module}.{alias.name}" for alias in node.names)
-    }
+    names = {name if name in known else name.rpartition(".")[0] for name in imports_of(path).taken}
     return names & set(known)
 
 

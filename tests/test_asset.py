@@ -35,6 +35,7 @@ def built(npm, tmp_path_factory):
     return {path.name: path.read_bytes() for path in (viewer / "assets").iterdir()}
 
 
+@pytest.mark.slow
 def test_the_committed_assets_are_what_their_source_is_built_into(built):
     assert {*built} == {path.name for path in ASSETS.iterdir()}
     others = [name for name, content in built.items() if content != (ASSETS / name).read_bytes()]

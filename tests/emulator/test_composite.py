@@ -22,15 +22,14 @@ from emulator.geometry import sphere
 from emulator.motion import motion_from_positions, turn
 from emulator.skeleton import Skeleton
 from emulator.synthetic.tasks import make
-from tests.emulator.fitted import made
-from tests.emulator.test_reach import shelf
+from tests.emulator.fitted import shipped
 
 NAMES = ("reach", "place", "fasten", "fasten")
 
 
 @cache
 def kit():
-    return CompositeEmulator("kit", tuple(Part(name, made(name)[2]) for name in NAMES))
+    return CompositeEmulator("kit", tuple(Part(name, shipped(name)) for name in NAMES))
 
 
 @cache
@@ -141,7 +140,7 @@ class Way:
     """A walk by an emulator of fixed length: it takes distance over speed."""
 
     def __init__(self):
-        self.asked, self.skeleton, self.body_keys, self.workers = [], made("reach")[2].skeleton, (), ()
+        self.asked, self.skeleton, self.body_keys, self.workers = [], shipped("reach").skeleton, (), ()
 
     def mean_duration_s(self, worker=None, condition=None):
         return condition["distance_m"] / condition.get("speed_m_per_s", 1.0)
@@ -151,22 +150,22 @@ class Way:
 
     def sample(self, n, rng, *, worker=None, condition=None):
         self.asked.append(condition)
-        return made("reach")[2].sample(n, rng)
+        return shipped("reach").sample(n, rng)
 
 
 def test_a_walk_is_asked_for_its_length_at_the_worker_s_own_speed():
     way = Way()
-    model = CompositeEmulator("kit", (Part("reach", made("reach")[2]), Part("walk", way, {"distance_m": 3.0})))
+    model = CompositeEmulator("kit", (Part("reach", shipped("reach")), Part("walk", way, {"distance_m": 3.0})))
     effect = model.draw_worker(np.random.default_rng(0), {"walk_m_per_s": 1.5, "height_m": 1.7})
     model.sample(2, np.random.default_rng(0), worker=effect, condition={"pace": 1.1})
     assert way.asked == [{"distance_m": 3.0, "speed_m_per_s": 1.5, "pace": 1.1}]
-    reach_s = made("reach")[2].mean_duration_s(effect.effects["reach"])
+    reach_s = shipped("reach").mean_duration_s(effect.effects["reach"])
     assert model.mean_duration_s(effect) == pytest.approx(reach_s + 2.0)
     assert model.body_part == 1
 
 
 def test_parts_of_one_key_are_one_task_whoever_asks_for_their_effects():
-    parts = (Part("reach", made("reach")[2], key="bench"), Part("reach", made("reach")[2], key="bench"))
+    parts = (Part("reach", shipped("reach"), key="bench"), Part("reach", shipped("reach"), key="bench"))
     asked = []
     effect = CompositeEmulator("kit", parts).draw_worker(
         np.random.default_rng(0),
@@ -176,7 +175,7 @@ def test_parts_of_one_key_are_one_task_whoever_asks_for_their_effects():
 
 
 def test_a_person_is_known_where_every_part_knows_him():
-    assert kit().workers == made("reach")[2].workers and kit().body_keys == ("height_m", "pace", "person")
+    assert kit().workers == shipped("reach").workers and kit().body_keys == ("height_m", "pace", "person")
     assert kit().sample(3, np.random.default_rng(0), worker="w2").duration_s.shape == (3,)
 
 
@@ -188,14 +187,14 @@ def test_joins_say_how_far_postures_are_apart():
 
 
 def test_other_skeletons_effects_and_nothing_are_refused():
-    reach = made("reach")[2]
+    reach = shipped("reach")
     other = SimpleNamespace(skeleton=Skeleton((*reach.skeleton.names[:-1], "right_heel"), reach.skeleton.parents))
     with pytest.raises(ValueError, match="kit: kick has no right_toe and also right_heel, unlike reach; expected one"):
         CompositeEmulator("kit", (Part("reach", reach), Part("kick", other)))
     with pytest.raises(ValueError, match="found no motions"):
         CompositeEmulator("kit", ())
     with pytest.raises(ValueError, match="was not drawn from this emulator"):
-        kit().sample(1, np.random.default_rng(0), worker=made("reach")[2].known_worker("w1"))
+        kit().sample(1, np.random.default_rng(0), worker=shipped("reach").known_worker("w1"))
 
 
 def test_the_typical_performance_takes_the_parts_mean_times():
@@ -440,7 +439,7 @@ def test_motions_shorter_than_a_blend_can_be_joined(moves):
 
 
 def rack():
-    return CompositeEmulator("rack", (Part("place", made("place")[2]), Part("shelf", shelf())))
+    return CompositeEmulator("rack", (Part("place", shipped("place")), Part("shelf", shipped("lift"))))
 
 
 @pytest.mark.parametrize("body", [None, {"height_m": 1.9}])
@@ -462,7 +461,7 @@ def test_a_target_is_passed_on_to_the_part_that_has_the_mark(body):
         ([], "rack: found no target"),
         ("hands", "rack: found 'h', expected a Target"),
         (Target("hands", "shelf.gras", height_m=1.0), "no mark 'shelf.gras'; did you mean 'shelf.grasp'?"),
-        (Target("nose", "shelf.grasp", height_m=1.0), "shelf: no joint 'nose'"),
+        (Target("nose", "shelf.grasp", height_m=1.0), "lift: no joint 'nose'"),
     ],
 )
 def test_a_target_that_no_part_can_meet_is_told(targets, said):

@@ -8,7 +8,7 @@ from emulator.geometry import elastic, sphere
 from emulator.geometry import warps as warp
 from emulator.geometry.alignment import align
 from emulator.geometry.elastic import channels, warped, warped_numpy
-from emulator.model.emulator import MotionEmulator
+from emulator.model.emulator import SCHEMES, MotionEmulator
 from emulator.recordings import read_motions
 from emulator.synthetic.choreography import TASKS
 from emulator.synthetic.tasks import make
@@ -38,7 +38,7 @@ def test_moves_are_the_35_coprime_slopes_and_the_straight_one_is_first():
     assert len(step.rises) == 35 and (step.rises[0], step.runs[0]) == (1, 1)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
 def test_the_optimum_is_the_naive_optimum(seed):
     q1, q2 = fields(16, seed=seed)
     inner, path = elastic.optimum(q1 @ q2.T)
@@ -261,7 +261,9 @@ def test_marks_come_together_and_the_objective_still_never_rises():
     assert np.all(spreads[1] < spreads[0]) and np.all(spreads[2] < spreads[1])
 
 
-@pytest.mark.parametrize("task", ["lift", "inspect", "walk", "fasten"])
+@pytest.mark.parametrize(
+    "task", ["lift", *(pytest.param(t, marks=pytest.mark.slow) for t in ("inspect", "walk", "fasten"))]
+)
 def test_labels_that_scatter_do_not_spoil_the_warps_of_clean_recordings(task):
     motions, truth = make(task, 5, 6, seed=1)
     own = motions.mark_s / motions.duration_s[:, None]
@@ -270,7 +272,7 @@ def test_labels_that_scatter_do_not_spoil_the_warps_of_clean_recordings(task):
     assert marked < plain + 0.03
 
 
-@pytest.mark.parametrize("task", ["reach", "pick", "place"])
+@pytest.mark.parametrize("task", ["reach", *(pytest.param(t, marks=pytest.mark.slow) for t in ("pick", "place"))])
 def test_under_tracking_noise_exact_marks_take_a_fifth_of_the_error_beside_them_away(task):
     motions, truth = make(task, 5, 6, seed=1)
     rng = np.random.default_rng(0)
@@ -293,7 +295,7 @@ def test_the_turns_of_a_recorded_squat_come_nearer_to_one_moment():
 
 def test_a_fit_asks_for_landmarks_by_name():
     motions = make("lift", 3, 4, seed=2)[0]
-    plain, marked = MotionEmulator.fit(motions), MotionEmulator.fit(motions, landmarks=0.05)
+    plain, marked = (MotionEmulator.fit(motions, scheme=SCHEMES[-1], landmarks=strength) for strength in (0.0, 0.05))
     assert "landmarks" not in plain.report.methods and "0.05" in marked.report.methods["landmarks"]
     at = marked.scale.block("marks")
     assert np.all(marked.workforce.within.spread[at] > 0)

@@ -37,6 +37,7 @@ def trunk_deg(emulator, height_m):
     return np.degrees(np.arccos(trunk[:, 2] / np.linalg.norm(trunk, axis=1))).mean(), drawn.duration_s.mean()
 
 
+@pytest.mark.slow
 def test_halves_pooled_are_as_good_as_fitted_together():
     pooled = MotionEmulator.fit(family("shelf", halves()))
     for height_m in (0.4, 0.9, 1.5):

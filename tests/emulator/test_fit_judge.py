@@ -5,7 +5,7 @@ from tests.emulator.fitted import made
 
 
 def test_enough_components_reconstruct_what_lies_in_their_span():
-    emulator = made("reach")[2]
+    emulator = made("lift")[1]
     scores = emulator.sample(30, np.random.default_rng(0)).scores
     scores[:, 6 : emulator.posture.n_components] = 0.0
     siem, y = emulator.flatten, emulator.aligned_directions(scores)

@@ -13,7 +13,7 @@ from emulator.geometry.opposite_points import led_around, led_over
 from emulator.model.decoding import Decoder, directions_numpy
 from emulator.model.reduction import JointPCA
 from emulator.synthetic.tasks import make
-from tests.emulator.fitted import made, recorded
+from tests.emulator.fitted import motions_of, recorded
 
 
 def postures(rng, *shape):
@@ -56,7 +56,7 @@ def test_forward_and_back_keeps_aligned_recordings_to_1e_12(name):
 
 
 def test_place_size_and_proportions_do_not_enter():
-    motions, _, _ = made("reach")
+    motions = motions_of("reach")
     skeleton, position = motions.skeleton, motions.motions[0].positions_m()
     siem = SIEM.fit(motions.motions[0].directions)
     longer = skeleton.bone_lengths(position[0]) * np.linspace(0.8, 1.3, skeleton.n_bones)

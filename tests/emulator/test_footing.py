@@ -9,7 +9,7 @@ from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import Footing, Legs, Stance, bend, on_its_feet, prints, standing, stood, strays
 from emulator.motion import turn
 from emulator.skeleton import Skeleton
-from tests.emulator.fitted import made, recorded
+from tests.emulator.fitted import made, motions_of, recorded
 from tests.naive import footing as naive_footing
 
 RATE_HZ = 60.0
@@ -17,7 +17,7 @@ RATE_HZ = 60.0
 
 def a_step(slip_m=0.0):
     """(joints, legs, stands): a left foot that stands half a second, lifts for half a second, and stands again."""
-    skeleton, at = made("walk")[0].skeleton, np.arange(91)
+    skeleton, at = motions_of("walk").skeleton, np.arange(91)
     joints = np.zeros((91, skeleton.n_joints, 3))
     swing = np.clip((at - 30) / 30, 0, 1)
     legs = Legs.of(skeleton)
@@ -64,7 +64,7 @@ def test_a_joint_between_ankle_and_toe_goes_with_its_foot():
 
 def of_lift(worker=0):
     """What ``stood`` takes of drawn lifts, with stances of the nearest recordings."""
-    emulator = made("lift")[2]
+    emulator = made("lift")[1]
     some = emulator.sample(4, np.random.default_rng(worker))
     clock = np.tile(np.arange(float(emulator.n_times)), (4, 1))
     aligned = emulator.decoder.directions(emulator.scale.raw(some.scores, "posture"), clock)
@@ -109,7 +109,7 @@ def test_the_compiled_bend_is_the_naive_one_and_bones_keep_their_lengths():
 
 
 def test_planted_feet_of_draws_stray_no_farther_than_recorded_ones():
-    motions, _, emulator = made("walk")
+    motions, emulator = made("walk")
     drawn, slips = emulator.sample(12, np.random.default_rng(0)), []
     for joints, seconds in (
         *((m.positions_m(), m.duration_s) for m in motions.motions[:12]),
@@ -137,7 +137,7 @@ def test_feet_that_never_turn_do_not_turn_in_draws():
 
 
 def test_a_library_of_before_has_prints_without_directions(tmp_path):
-    emulator = made("lift")[2]
+    emulator = made("lift")[1]
     before = replace(emulator, footing=replace(emulator.footing, prints=emulator.footing.prints[..., :3].copy()))
     before.save(tmp_path / "lift.npz")
     again = MotionEmulator.load(tmp_path / "lift.npz")
@@ -185,7 +185,7 @@ def test_a_body_off_its_feet_is_moved_over_them_and_its_feet_stay():
 
 
 def test_nothing_changes_for_recordings_whose_bones_do_not_breathe():
-    motion = made("lift")[0].motions[0]
+    motion = motions_of("lift").motions[0]
     still = replace(motion, stretch=None)
     assert on_its_feet(still) is still
 
@@ -201,7 +201,7 @@ def test_recorded_feet_are_kept_when_breathing_bones_are_made_rigid():
 
 @pytest.mark.parametrize("joints", [[0, 1], [0, 0, 1]])
 def test_a_saved_footing_is_the_fitted_one(tmp_path, joints):
-    emulator = made("walk")[2]
+    emulator = made("walk")[1]
     floors = emulator.footing.foot_floor[:, :, joints]
     emulator = replace(emulator, footing=replace(emulator.footing, foot_floor=floors))
     emulator.save(tmp_path / "walk.npz")
@@ -218,7 +218,7 @@ def test_the_nearest_recording_is_the_nearest():
 
 
 def test_a_draw_faster_than_a_body_is_drawn_in_and_counted_and_its_times_stay():
-    _, _, emulator = made("lift")
+    _, emulator = made("lift")
     calm = emulator.sample(6, np.random.default_rng(0))
     wild = calm.scores.copy()
     block = emulator.scale.block("posture")
@@ -231,7 +231,7 @@ def test_a_draw_faster_than_a_body_is_drawn_in_and_counted_and_its_times_stay():
 
 
 def test_a_draw_that_nothing_slows_down_stays_where_it_was_least_fast():
-    emulator = replace(made("lift")[2])
+    emulator = replace(made("lift")[1])
     emulator.__dict__["most_m_per_s"] = 0.01
     drawn = emulator.sample(6, np.random.default_rng(0))
     ground, free, mean = drawn._ground, drawn._grounded(np.ones(6)), drawn._grounded(np.zeros(6))

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from emulator.judge.held_out import held_out_rows, holm, resampled_rows, split_within_workers, table_text
-from tests.emulator.fitted import made, recorded
+from tests.emulator.fitted import motions_of, recorded
 
 CLASSES = ("deep_squat", "sit_to_stand", "side_lunge", "shoulder_abduction", "shoulder_scaption")
 
@@ -16,7 +16,7 @@ def test_holm_never_passes_one():
 
 
 def test_each_worker_is_split_in_halves():
-    first, second = split_within_workers(made("lift")[0], 3)
+    first, second = split_within_workers(motions_of("lift"), 3)
     for half in (first, second):
         assert np.bincount(half.worker_index).tolist() == [4] * 5
     assert not {m.name for m in first.motions} & {m.name for m in second.motions}
@@ -24,7 +24,7 @@ def test_each_worker_is_split_in_halves():
 
 def test_resampled_durations_are_those_of_the_same_workers():
     """Fitted on itself the control has the law of what it is compared with."""
-    motions = made("lift")[0]
+    motions = motions_of("lift")
     rows = resampled_rows(motions, motions, np.random.default_rng(0))
     assert [row.quantity for row in rows] == ["duration", "grasp", "set_down"]
     assert max(row.distance for row in rows) < 0.03
@@ -35,7 +35,7 @@ def test_a_wrong_model_would_be_seen():
     """The test has power: durations stretched by half are refused."""
     from dataclasses import replace
 
-    motions = made("lift")[0]
+    motions = motions_of("lift")
     _, held = split_within_workers(motions, 0)
     slow = {m.name for m in held.motions}
     stretched = tuple(

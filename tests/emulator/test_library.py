@@ -8,14 +8,16 @@ import pytest
 
 from emulator.archive import FORMAT, MemberError, open_members, read_member
 from emulator.byte_planes import from_planes
-from emulator.model.emulator import MotionEmulator
+from emulator.model.emulator import SCHEMES, MotionEmulator
 from emulator.model.library import LibraryError, MotionLibrary, file_sha256, read_header
-from tests.emulator.fitted import made, recorded
+from tests.emulator.fitted import made, motions_of, recorded
 
 
 @pytest.fixture(scope="module")
 def library():
-    return MotionLibrary.of(made("reach")[2], made("walk")[2], command="made by a test", notes=("two tasks",))
+    reach, walk = (motions_of(task).subset(np.arange(0, 40, 2)) for task in ("reach", "walk"))
+    emulators = MotionEmulator.fit(reach), MotionEmulator.fit(walk, scheme=SCHEMES[-1])
+    return MotionLibrary.of(*emulators, command="made by a test", notes=("two tasks",))
 
 
 @pytest.fixture
@@ -65,8 +67,8 @@ def test_saving_what_was_loaded_gives_the_same_bytes(saved, tmp_path):
 
 
 def test_an_emulator_saves_and_loads_itself(tmp_path):
-    made("reach")[2].save(tmp_path / "reach.npz")
-    assert MotionEmulator.load(tmp_path / "reach.npz").task == "reach"
+    made("lift")[1].save(tmp_path / "lift.npz")
+    assert MotionEmulator.load(tmp_path / "lift.npz").task == "lift"
 
 
 def test_one_task_cannot_be_loaded_from_a_library_of_two(saved):
@@ -75,7 +77,7 @@ def test_one_task_cannot_be_loaded_from_a_library_of_two(saved):
 
 
 def test_a_recorded_class_of_another_shape_survives(tmp_path):
-    emulator = MotionEmulator.fit(recorded("shoulder_scaption"))
+    emulator = MotionEmulator.fit(recorded("shoulder_scaption"), scheme=SCHEMES[-1])
     emulator.save(tmp_path / "x.npz")
     again = MotionEmulator.load(tmp_path / "x.npz")
     assert again.report.source.startswith("UI-PRMD")
@@ -101,14 +103,14 @@ def test_an_unknown_task_is_answered_with_the_nearest(library):
 
 
 def test_two_libraries_become_one(library):
-    merged = library.merge(MotionLibrary.of(made("lift")[2], command="another"))
+    merged = library.merge(MotionLibrary.of(made("lift")[1], command="another"))
     assert merged.tasks == ("reach", "walk", "lift")
     assert merged.command == "made by a test; another"
 
 
 def test_a_task_is_not_overwritten_in_silence(library):
     with pytest.raises(LibraryError, match="already"):
-        library.add(made("walk")[2])
+        library.add(library["walk"])
 
 
 @pytest.mark.parametrize("content", [b"", b"not a zip at all", b"PK\x03\x04 and then nothing"])
@@ -282,7 +284,7 @@ def test_an_exponent_beyond_all_numbers_is_refused(saved):
 
 def test_a_reference_posture_that_is_none_is_refused(tmp_path):
     saved = tmp_path / "walk.npz"
-    MotionEmulator.fit(made("walk")[0], scheme="SIEM/JointPCA/Smoothed").save(saved)
+    MotionEmulator.fit(motions_of("walk").subset(np.arange(0, 40, 4)), scheme=SCHEMES[-1]).save(saved)
 
     def nothing(name, content):
         return npy(np.zeros_like(np.load(io.BytesIO(content)))) if name == "walk/reference.npy" else content

@@ -81,7 +81,7 @@ def test_recordings_turned_about_the_vertical_each_by_its_own_angle_give_the_sam
     assert_same(fitted(), refitted(filmed(lambda joints, number: turn(joints, angles[number]))))
 
 
-@pytest.mark.parametrize("size", [0.7, 1.3])
+@pytest.mark.parametrize("size", [0.7, pytest.param(1.3, marks=pytest.mark.slow)])
 def test_larger_bodies_move_alike_and_everything_they_reach_is_as_much_larger(size):
     """But for the feet, which share the support within a centimetre whoever stands on them (``root.SOFT_M``): the path
     of the root is another by less than a millimetre. New people then come of the same law by other random numbers."""
@@ -93,7 +93,7 @@ def test_larger_bodies_move_alike_and_everything_they_reach_is_as_much_larger(si
     assert np.allclose(*(some.covariance[np.ix_(rest, rest)] for some in people), atol=ROUNDING)
 
 
-@pytest.mark.parametrize("times", [0.9, 1.25])
+@pytest.mark.parametrize("times", [pytest.param(0.9, marks=pytest.mark.slow), 1.25])
 def test_slower_recordings_give_the_same_postures_slower(times):
     """Up to where a rest becomes a pause: lifts 1.25 times slower rest for less than a quarter of a second. Legs to a
     few milliradians: what is slow enough to stand is said in metres a second, and twice as fast, feet that lag in the
@@ -102,7 +102,7 @@ def test_slower_recordings_give_the_same_postures_slower(times):
     assert_same(fitted(), refitted(replace(MADE, motions=tuple(slower))), seconds=times, turn_rad=0.01, feet_m=0.003)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", [SCHEMES[0], pytest.param(SCHEMES[1], marks=pytest.mark.slow), SCHEMES[2]])
 def test_the_order_of_the_recordings_decides_not_a_single_bit(scheme):
     order = np.random.default_rng(2).permutation(len(MADE))
     one, two = (drawn(emulator) for emulator in (fitted(scheme), refitted(MADE.subset(order), scheme)))

@@ -11,7 +11,7 @@ from tests.emulator.fitted import made
 
 @pytest.fixture(scope="module")
 def emulator():
-    return made("lift")[2]
+    return made("lift")[1]
 
 
 def rng(seed=0):
@@ -34,7 +34,7 @@ def test_numbers_for_people_draw_the_same_law_as_numbers_of_their_own(emulator):
     between = emulator.workforce.between
     assert np.allclose(emulator.workforce.by_person.T @ emulator.workforce.by_person, np.eye(len(between.factor)))
     given, own = (
-        np.stack([emulator.draw_worker(rng(i), None, people(i)).z for i in range(4000)])
+        np.stack([emulator.draw_worker(rng(i), None, people(i)).z for i in range(1500)])
         for people in (numbers, lambda i: None)
     )
     varies = between.spread > 0.1
@@ -46,7 +46,7 @@ def test_numbers_for_people_draw_the_same_law_as_numbers_of_their_own(emulator):
 def test_new_people_spread_as_the_next_of_so_few_does(emulator):
     """Five people: a t with 4 degrees of freedom and sqrt(1 + 1/5), beside the normal's 0.674 and 1.645."""
     at, between = emulator.scale.block("duration").start, emulator.workforce.between
-    off = np.array([emulator.draw_worker(rng(i)).z[at] for i in range(4000)]) - between.mean[at]
+    off = np.array([emulator.draw_worker(rng(i)).z[at] for i in range(1500)]) - between.mean[at]
     middle, most = np.quantile(np.abs(off) / between.spread[at], [0.5, 0.9])
     assert middle == pytest.approx(0.741 * np.sqrt(1.2), rel=0.2)
     assert most == pytest.approx(2.132 * np.sqrt(1.2), rel=0.2)
@@ -182,7 +182,7 @@ def test_slowness_is_kept_in_standard_deviations_whatever_the_luck(emulator, slo
 
 def test_slowness_by_luck_is_the_law_of_any_worker(emulator):
     between = emulator.workforce.between
-    slow = rng(1).standard_normal(4000)
+    slow = rng(1).standard_normal(1500)
     drawn = np.stack([emulator.draw_worker(rng(i), None, None, float(s)).z for i, s in enumerate(slow)])
     at, varies = emulator.scale.block("duration").start, between.spread > 0.1
     assert drawn[:, at].std() == pytest.approx(between.spread[at], rel=0.05)

@@ -15,6 +15,7 @@ def sets():
     return [synthetic.make("lift", 8, 10, seed=seed, between_share=TRUE_ICC)[0] for seed in range(N_SETS)]
 
 
+@pytest.mark.slow
 def test_the_true_icc_lies_in_its_interval_in_17_of_20_sets_or_more_and_the_interval_is_of_use(sets):
     found = [intraclass_correlation(np.log(motions.duration_s), motions.worker_index) for motions in sets]
     inside = sum(low < TRUE_ICC < high for _, low, high in found)

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from emulator.model.decoding import directions_numpy
-from emulator.model.emulator import MotionEmulator
+from emulator.model.emulator import SCHEMES, MotionEmulator
 from emulator.model.library import MotionLibrary
 from emulator.model.mean_performance import mean_performance
 from emulator.motion import turn
@@ -15,7 +15,7 @@ from tests.emulator.pausing import paused_work
 
 @pytest.fixture(scope="module")
 def drawn():
-    return made("lift")[2].sample(12, np.random.default_rng(1))
+    return made("lift")[1].sample(12, np.random.default_rng(1))
 
 
 def test_shapes_are_those_of_the_seam(drawn):
@@ -29,7 +29,7 @@ def test_shapes_are_those_of_the_seam(drawn):
 
 
 def test_marks_are_in_order_and_inside_the_duration(drawn):
-    many = made("lift")[2].sample(5000, np.random.default_rng(0))
+    many = made("lift")[1].sample(5000, np.random.default_rng(0))
     edges = np.column_stack([np.zeros(5000), many.mark_s, many.duration_s])
     assert np.all(np.diff(edges, axis=1) > 0)
 
@@ -98,11 +98,11 @@ def test_durations_and_marks_are_drawn_without_decoding_a_posture(monkeypatch):
 
     for name in ("aligned_directions", "root_channel", "bone_length_m"):
         monkeypatch.setattr(MotionEmulator, name, refuse)
-    assert len(made("lift")[2].sample(64, np.random.default_rng(0))) == 64
+    assert len(made("lift")[1].sample(64, np.random.default_rng(0))) == 64
 
 
 def test_the_grasp_mark_is_where_the_hand_is_lowest():
-    drawn = made("lift")[2].sample(40, np.random.default_rng(2))
+    drawn = made("lift")[1].sample(40, np.random.default_rng(2))
     hand = drawn.positions_m(n_times=201)[:, :, drawn.skeleton.index("right_wrist"), 2]
     share = hand.argmin(axis=1) / 200 - drawn.mark_s[:, 0] / drawn.duration_s
     assert np.median(np.abs(share)) < 0.03
@@ -116,14 +116,14 @@ def shipped():
 
 @pytest.mark.parametrize("worker", [None, "known"])
 def test_it_lasts_the_mean_duration_of_everybody_or_of_one_worker(worker):
-    emulator = made("lift")[2]
+    emulator = made("lift")[1]
     worker = emulator.workers[0] if worker else None
     mean = mean_performance(emulator, worker)
     assert mean.duration_s == pytest.approx([emulator.mean_duration_s(worker)], rel=1e-9)
 
 
 def test_aligned_postures_are_the_mean_of_those_of_many_draws():
-    emulator = made("lift")[2]
+    emulator = made("lift")[1]
     drawn = emulator.sample(400, np.random.default_rng(0))
     many = emulator.aligned_directions(drawn.scores).mean(axis=0)
     many /= np.linalg.norm(many, axis=-1, keepdims=True)
@@ -154,7 +154,7 @@ def way(directions):
 @pytest.fixture(scope="module")
 def pausing():
     """Carrying, with a pause of about 1.2 s in 40 % of the repetitions."""
-    return MotionEmulator.fit(paused_work("carry", 0.4, 5, 6, seed=3, spread=0.3).motions)
+    return MotionEmulator.fit(paused_work("carry", 0.4, 5, 6, seed=3, spread=0.3).motions, scheme=SCHEMES[-1])
 
 
 def test_a_pause_lasts_the_mean_of_all_dwells_and_the_movement_the_mean_of_moving_times(pausing):
@@ -174,12 +174,12 @@ def test_it_stands_still_as_long_as_the_pause_and_not_longer(pausing):
 
 
 def test_marks_lie_inside_and_in_order():
-    mean = mean_performance(made("lift")[2])
+    mean = mean_performance(made("lift")[1])
     whole = np.concatenate([[0.0], mean.mark_s[0], mean.duration_s])
     assert len(whole) > 2 and np.all(np.diff(whole) > 0)
 
 
 def test_an_unknown_worker_is_refused_with_the_nearest():
-    emulator = made("lift")[2]
+    emulator = made("lift")[1]
     with pytest.raises(ValueError, match=rf"did you mean '{emulator.workers[0]}'"):
         mean_performance(emulator, emulator.workers[0] + "x")

@@ -96,10 +96,10 @@ def test_the_same_seed_makes_the_same_motions():
 
 
 def test_the_population_is_the_one_that_was_asked_for():
-    truth = make("reach", 150, 4, seed=3, between_share=0.7, correlation=-0.5)[1]
-    per_worker = truth.log_duration.reshape(150, 4)
+    truth = make("reach", 150, 2, seed=3, between_share=0.7, correlation=-0.5)[1]
+    per_worker = truth.log_duration.reshape(150, 2)
     within = per_worker.var(axis=1, ddof=1).mean()
-    between = per_worker.mean(axis=1).var(ddof=1) - within / 4
+    between = per_worker.mean(axis=1).var(ddof=1) - within / 2
     assert abs(between / (between + within) - 0.7) < 0.08
     assert abs(np.corrcoef(truth.latents[:, 0], truth.log_duration)[0, 1] + 0.5) < 0.1
     assert abs(np.exp(truth.log_duration).mean() / truth.duration_mean_s - 1) < 0.05

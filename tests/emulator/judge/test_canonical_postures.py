@@ -82,7 +82,7 @@ def test_a_canonical_posture_is_the_mean_of_its_cluster():
 
 
 def test_the_order_of_the_sample_changes_no_bit():
-    postures = unit(path())
+    postures = unit(path(1500))
     order = np.random.default_rng(3).permutation(len(postures))
     one, other = Quantization.fit(postures), Quantization.fit(postures[order])
     assert np.array_equal(one.canonical, other.canonical)
@@ -90,7 +90,7 @@ def test_the_order_of_the_sample_changes_no_bit():
 
 
 def test_turning_the_whole_body_turns_the_canonical_postures():
-    postures = unit(path())
+    postures = unit(path(1500))
     turn = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
     one, other = Quantization.fit(postures), Quantization.fit(postures @ turn)
     assert np.allclose(one.canonical @ turn, other.canonical, atol=1e-9)

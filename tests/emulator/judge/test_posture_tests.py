@@ -9,7 +9,7 @@ from emulator.judge.comparison import resampler
 from emulator.judge.held_out import COPIER, KNOWN, RECORDED, SHAKER, USUAL, drawer, kind, unknown_names
 from emulator.judge.posture_tests import reconstruction_error
 from emulator.schemes import SCHEMES, Scheme
-from tests.emulator.judge.halved import halves
+from tests.emulator.judge.halved import drawn_by, halves
 from tests.emulator.judge.made import parts, plain_distances
 from tests.recordings import reference
 
@@ -183,14 +183,14 @@ def test_all_wrong_names_are_told_each_once():
 
 @pytest.mark.parametrize("name", [*USUAL, COPIER, SHAKER])
 def test_every_drawer_draws_sequences_on_the_clock_and_the_same_seed_gives_the_same(name):
-    one = drawer(name, halves())
+    one = drawn_by(name)
     drawn, again = (one.draw(7, np.random.default_rng(2)) for _ in range(2))
     assert drawn.shape == (7, *halves().a.shape[1:]) and np.array_equal(drawn, again)
     assert np.allclose(np.linalg.norm(drawn, axis=-1), 1)
 
 
 def test_ours_has_an_emulator_and_a_scheme_a_likelihood():
-    ours, paper = (drawer(name, halves()) for name in USUAL)
+    ours, paper = (drawn_by(name) for name in USUAL)
     assert ours.emulator is not None and ours.log_likelihood is None
     assert paper.emulator is None and paper.log_likelihood(halves().b).shape == (12,)
     for one in (ours, paper):

@@ -29,7 +29,7 @@ def errors(take, truth):
 
 
 @pytest.mark.parametrize("task", ["reach", "fasten", "inspect", "lift"])
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_twelve_made_repetitions_are_found_with_starts_and_ends_within_ten_frames_but_for_one(task, seed):
     worst = np.sort(np.abs(errors(*made_take(task, seed=seed))).max(axis=1))
     assert worst[-2] <= 10 and worst[-1] <= 12
@@ -83,7 +83,9 @@ def test_a_repetition_that_the_take_cuts_off_is_left_out_and_said():
     assert len(found.start) == 5 and len(found.left_out) == 1 and "begins outside the take" in found.left_out[0]
 
 
-@pytest.mark.parametrize("worker", ["s01", "s02", "s04", "s05", "s06"])
+@pytest.mark.parametrize(
+    "worker", ["s01", "s04", *(pytest.param(s, marks=pytest.mark.slow) for s in ("s02", "s05", "s06"))]
+)
 def test_twelve_sit_to_stands_of_a_person_are_cut_back_within_ten_frames_each(worker):
     takes = read_recording(recording("uiprmd_sit_to_stand")).takes
     own = usual_ends([plain(t) for t in takes if t.worker == worker and t.covariates["cov_correct"] == 1])
