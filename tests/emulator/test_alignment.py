@@ -87,7 +87,7 @@ def test_on_recordings_the_objective_never_rises_and_settles_and_centring_costs_
     assert np.abs(warp.mean(alignment.warps) - CLOCK).max() < 5e-3
 
 
-@pytest.mark.parametrize("name", ["deep_squat", "shoulder_scaption"])
+@pytest.mark.parametrize("name", ["deep_squat", pytest.param("shoulder_scaption", marks=pytest.mark.slow)])
 def test_going_on_beyond_the_tolerance_moves_no_warp_worth_speaking_of(name):
     motions = read_motions(recording(f"uiprmd_{name}"), where="cov_correct==1")
     directions = [motion.directions for motion in motions.motions]

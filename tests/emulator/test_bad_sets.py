@@ -134,8 +134,11 @@ STILL = ("a constant repetition", "nothing but standing", "all one recording")
 @pytest.mark.parametrize(
     ("case", "settings"),
     [
-        *((case, GAUSSIAN) for case in NOTED),
-        *(pytest.param(case, {}, marks=() if case in STILL else pytest.mark.slow) for case in NOTED),
+        *(pytest.param(case, GAUSSIAN, id=case) for case in NOTED),
+        *(
+            pytest.param(case, {}, id=f"{case}, usual density", marks=() if case in STILL else pytest.mark.slow)
+            for case in NOTED
+        ),
     ],
 )
 def test_what_is_mended_or_odd_is_noted_and_the_model_draws(case, settings):

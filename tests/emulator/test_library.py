@@ -16,7 +16,7 @@ from tests.emulator.fitted import made, motions_of, recorded
 @pytest.fixture(scope="module")
 def library():
     reach, walk = (motions_of(task).subset(np.arange(0, 40, 2)) for task in ("reach", "walk"))
-    emulators = MotionEmulator.fit(reach), MotionEmulator.fit(walk, scheme=SCHEMES[-1])
+    emulators = (MotionEmulator.fit(one, scheme=scheme) for one, scheme in zip((reach, walk), SCHEMES[1:]))
     return MotionLibrary.of(*emulators, command="made by a test", notes=("two tasks",))
 
 
