@@ -35,8 +35,10 @@ def cell():
     return shipped("repack_cell")
 
 
-@pytest.mark.parametrize("name", ALONE)
-@pytest.mark.parametrize("start_s", STARTS_S)
+@pytest.mark.parametrize(
+    ("name", "start_s"),
+    [*((name, STARTS_S[2]) for name in ALONE), *(("torque_guns", start_s) for start_s in STARTS_S[:2])],
+)
 def test_a_floor_alone_gives_the_rows_of_run_plan(name, start_s):
     plan = shipped(name)
     env = simpy.Environment(initial_time=start_s)
