@@ -105,7 +105,7 @@ def test_other_processes_change_nothing(cell):
     assert rows(floor.ended.value) == rows(run_plan(cell))
 
 
-@pytest.mark.parametrize("name", [*ALONE, "two_shift_plant", "kanban_cell"])
+@pytest.mark.parametrize("name", [*ALONE, pytest.param("two_shift_plant", marks=pytest.mark.slow), "kanban_cell"])
 def test_the_log_may_be_asked_for_at_any_moment(name):
     plan = shipped(name)
     env = simpy.Environment(initial_time=100.3)

@@ -92,6 +92,7 @@ def test_fit_takes_a_scheme_a_clock_and_landmarks_and_keeps_the_command(emulated
     assert model.report.command == f"opsim motion fit reach.npz -o lib.npz {said}"
 
 
+@pytest.mark.slow
 def test_a_recorded_task_is_fitted_with_its_six_people(tmp_path):
     words = ("-o", tmp_path / "lib.npz", "--n-components", 3, "--n-times", 21, "--json")
     code, shown, _ = opsim("motion", "fit", recording("uiprmd_deep_squat"), *words)

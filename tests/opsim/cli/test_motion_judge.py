@@ -176,6 +176,7 @@ def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(judg
     assert "default-src 'none'" in written and "http://" not in written.replace("http://www.w3.org/", "")
 
 
+@pytest.mark.slow
 def test_json_has_the_figures_in_real_time(reach, small):
     code, shown, _ = opsim("motion", "judge", reach, "--splits", 1, "--json")
     (found,) = json.loads(shown)["tasks"]["reach"]["real_time"]

@@ -63,16 +63,16 @@ def drawn(monkeypatch):
 
 
 def test_the_page_lies_beside_the_report_and_the_last_line_says_where_and_how_large(results):
-    code, said, progress = opsim("view", results / "alone", "--to", "3 min")
+    code, said, progress = opsim("view", results / "alone", "--to", "1 min")
     page = results / "alone" / "replay.html"
     assert code == 0 and said.splitlines()[-1] == f"replay: {page} ({page.stat().st_size / 1e6:.1f} MB)"
     assert page.read_text().startswith("<!doctype html>") and "draw alone: " in progress
 
 
 def test_two_variants_stand_on_one_page_beside_both_folders(results):
-    code, said, _ = opsim("view", results, "--scenario", "together", "--scenario", "alone", "--to", "2 min", "--json")
+    code, said, _ = opsim("view", results, "--scenario", "together", "--scenario", "alone", "--to", "1 min", "--json")
     told = json.loads(said)
-    assert code == 0 and told["replay"] == str(results / "replay.html") and told["window_s"] == [0, 120]
+    assert code == 0 and told["replay"] == str(results / "replay.html") and told["window_s"] == [0, 60]
     assert [one["variant"] for one in told["variants"]] == ["together", "alone"]
     page = (results / "replay.html").read_text()
     assert 'id="columns-0"' in page and 'id="columns-1"' in page and told["bytes"] == len(page.encode())

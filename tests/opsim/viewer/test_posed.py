@@ -89,7 +89,7 @@ def test_feet_that_bear_hold_still_on_straight_ways():
     assert len(slides) > 20 and max(slides) < 0.06
 
 
-@pytest.mark.parametrize("name", ["walking_cell", "two_shift_plant"])
+@pytest.mark.parametrize("name", ["walking_cell", pytest.param("two_shift_plant", marks=pytest.mark.slow)])
 def test_nobody_jumps(name):
     """From one segment to the next the root stays within a hand's breadth, though feet end a task where they end."""
     shown = scene(name)

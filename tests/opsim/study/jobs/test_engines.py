@@ -46,8 +46,9 @@ def test_both_engines_give_the_same_answers_and_a_journal_of_the_same_bytes(sour
     assert (tmp_path / "simpy.jsonl").read_bytes() == (tmp_path / "fast.jsonl").read_bytes()
 
 
-def test_the_fast_engine_itself_gives_a_journal_of_the_same_bytes(source, tmp_path):
-    for engine, processes in (("simpy", 1), ("fast", 2)):
+@pytest.mark.parametrize("at_once", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_the_fast_engine_itself_gives_a_journal_of_the_same_bytes(source, tmp_path, at_once):
+    for engine, processes in (("simpy", 1), ("fast", at_once)):
         journal = Journal(own=tmp_path / f"{engine}.jsonl")
         Answers(source, journal, processes=processes, engine=engine).ensure(JOBS)
         journal.close()
