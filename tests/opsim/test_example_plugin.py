@@ -55,6 +55,12 @@ class Installed:
 
 
 @pytest.fixture(scope="module")
+def found_and_done(installed):
+    """What the scripts below print of what is found (three lines), and of work that is done (the last)."""
+    return installed.run(FOUND + WORK).splitlines()
+
+
+@pytest.fixture(scope="module")
 def installed(tmp_path_factory):
     return Installed(tmp_path_factory.mktemp("plugin"))
 
@@ -104,8 +110,8 @@ DRAW = f"{MAKE}.sample(64, numpy.random.default_rng())"
 CHOOSE = "dispatch_rule('spare_the_best')(1, 0, 0, 1, 0, 0)"
 
 
-def test_the_installed_example_is_found_with_its_distribution(installed):
-    emulators, rules, subjects = installed.run(FOUND).splitlines()
+def test_the_installed_example_is_found_with_its_distribution(found_and_done):
+    emulators, rules, subjects, _ = found_and_done
     assert subjects == "opsim-example-plugin 0.1.0 (opsim.subjects: cooling = opsim_example_plugin.cooling:COOLING)"
     assert emulators == (
         "opsim-example-plugin 0.1.0 (opsim.emulators: mtm1_get_and_place = opsim_example_plugin.mtm1:GetAndPlace)"
@@ -116,8 +122,8 @@ def test_the_installed_example_is_found_with_its_distribution(installed):
     )
 
 
-def test_the_emulator_of_the_example_works_for_a_worker(installed):
-    mean_s, mean_drawn_s, marks, duration_s = json.loads(installed.run(WORK))
+def test_the_emulator_of_the_example_works_for_a_worker(found_and_done):
+    mean_s, mean_drawn_s, marks, duration_s = json.loads(found_and_done[-1])
     assert mean_s == pytest.approx(0.036 * (12.9 + 3.5 + 17.0 + 2.0))
     assert mean_drawn_s == pytest.approx(mean_s, rel=4 * 0.1 / 500**0.5)
     shares = [mark / duration_s for mark in marks]

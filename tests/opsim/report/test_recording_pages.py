@@ -152,10 +152,6 @@ def test_a_take_with_nothing_but_gaps_is_drawn_too():
     assert draw_import([shown(positions)], "svg")
 
 
-def test_names_of_files_are_no_formulas():
-    assert draw_import([shown(title="$a_b$ ^{ \\frac.bvh")], "svg")
-
-
 def test_more_takes_than_rows_are_drawn_as_far_as_there_is_room(imported, monkeypatch):
     monkeypatch.setattr("opsim.report.motion.importing.MOST_ROWS", 2)
     many = [replace(shown(), title=f"take {k}") for k in range(3)]
@@ -164,11 +160,11 @@ def test_more_takes_than_rows_are_drawn_as_far_as_there_is_room(imported, monkey
     assert b"take 1" in picture and b"take 2" not in picture
 
 
-def test_characters_without_a_glyph_become_question_marks():
+def test_characters_without_a_glyph_become_question_marks_and_names_of_files_are_no_formulas():
     assert drawable("日本_é.bvh\nµ") == "??_é.bvh\nµ" and drawable("日本.bvh\t\x1b") == "??.bvh??"
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert draw_import([shown(title="日本.bvh\t\x1b")], "svg").startswith(b"<?xml")
+        assert draw_import([shown(title="日本$a_b$ ^{ \\frac.bvh\t\x1b")], "svg").startswith(b"<?xml")
 
 
 @pytest.fixture(scope="module")
