@@ -310,7 +310,7 @@ def test_doctor_alone_is_as_it_was_and_knows_the_nearest_word():
     assert code == 2 and "did you mean 'engines'?" in complaint
 
 
-QUICK = ("assembly", "press_shop", "queue", "starter", "two_shift_plant")
+QUICK = ("press_shop", "starter", "two_shift_plant")
 """Templates that ``make test`` writes; that all shipped scenarios are right is said in tests/test_shipped.py, too."""
 
 

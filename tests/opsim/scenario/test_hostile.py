@@ -40,8 +40,8 @@ HOSTILE = {
         "more than can be checked",
     ),
     "many overrides of many workers": (
-        lines("workers", "  w{i}: {{like: ana}}\n", 20_000).replace(
-            "overrides:\n", "overrides:\n" + "".join(f"  o{i}: {{workers.w{i}.walk: 1 m/s}}\n" for i in range(20_000))
+        lines("workers", "  w{i}: {{like: ana}}\n", 10_000).replace(
+            "overrides:\n", "overrides:\n" + "".join(f"  o{i}: {{workers.w{i}.walk: 1 m/s}}\n" for i in range(10_000))
         ),
         "more than can be checked",
     ),
@@ -51,7 +51,7 @@ HOSTILE = {
         ),
         "more than can be checked",
     ),
-    "unknown overrides": (GOOD.replace("near: [near]", f"near: [{'x, ' * 100_000}x]"), "no override 'x'"),
+    "unknown overrides": (GOOD.replace("near: [near]", f"near: [{'x, ' * 30_000}x]"), "no override 'x'"),
     "a long chain of likes": (lines("workers", "  w{i}: {{like: w{j}}}\n", 5_000), "no 'w5000' among the workers"),
     "likes of nobody": (lines("workers", "  w{i}: {{like: v{i}}}\n", 10_000), "no 'v0' among the workers"),
     "a name of megabytes": (GOOD.replace("One bench", "x" * 7_000_000), "at most 200 characters"),
