@@ -21,7 +21,7 @@ from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 
 BENCH = shipped_folder() / "libraries" / "bench_work.npz"
-QUICK = ("--n-components", 2, "--n-times", 21)
+QUICK = ("--n-components", 2, "--n-times", 31)
 
 
 @pytest.fixture(scope="module")
@@ -314,7 +314,7 @@ QUICKLY_NOTED = ("one foot", "no number in one", "one stands still")
 
 def fit(folder, arrays, *words):
     np.savez(folder / "bad.npz", **arrays)
-    return opsim("motion", "fit", folder / "bad.npz", "-o", folder / "lib.npz", "--n-times", 21, *words)
+    return opsim("motion", "fit", folder / "bad.npz", "-o", folder / "lib.npz", "--n-times", 31, *words)
 
 
 @pytest.mark.parametrize("case", REFUSED)

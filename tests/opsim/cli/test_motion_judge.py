@@ -92,16 +92,16 @@ def reach(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def judged_twice(reach):
-    """Exit code, screen, progress and page of two splits."""
+def judged_once(reach):
+    """Exit code, screen, progress and page of one split."""
     page = reach.parent / "new" / "judged.html"
     with pytest.MonkeyPatch.context() as patch:
         judge_little(patch)
-        return *opsim("motion", "judge", reach, "--splits", 2, "--page", page), page
+        return *opsim("motion", "judge", reach, "--splits", 1, "--page", page), page
 
 
 def judge_little(patch):
-    judge = partial(held_out_table.judge_held_out, n_times=21, n_drawn=40)
+    judge = partial(held_out_table.judge_held_out, n_times=31, n_drawn=40)
     patch.setattr(held_out_table, "judge_held_out", judge)
 
 
@@ -128,10 +128,10 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def test_the_table_has_a_row_for_each_and_a_line_on_each_column(judged_twice):
-    code, shown, progress, _ = judged_twice
-    assert code == 0 and "judge: reach: 10 of 10" in progress
-    assert "reach: 16 repetitions of one person (all), halves dealt out 2 times" in shown
+def test_the_table_has_a_row_for_each_and_a_line_on_each_column(judged_once):
+    code, shown, progress, _ = judged_once
+    assert code == 0 and "judge: reach: 5 of 5" in progress
+    assert "reach: 16 repetitions of one person (all), halves dealt out once" in shown
     places = [shown.index(f"\n {name}" if f"\n {name}" in shown else name) for name in ROWS]
     assert places == sorted(places)
     assert "both controls fail novelty" in shown and "novelty   distance to the nearest" in shown
@@ -166,8 +166,8 @@ def test_a_folder_gets_the_csv_and_the_same_seed_the_same_bytes(reach, small, tm
     assert made.read_bytes() != first
 
 
-def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(judged_twice):
-    code, shown, progress, page = judged_twice
+def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(judged_once):
+    code, shown, progress, page = judged_once
     assert code == 0 and f"page: {page}" in shown and "real time: reach" in progress
     assert "reach: movements in real time, against the unseen half" in shown and "slide cm   way of" in shown
     assert "draws are" in shown and "a classifier" in shown
