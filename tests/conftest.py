@@ -15,22 +15,26 @@ settings.register_profile("full", deadline=None)
 settings.load_profile("quick")
 
 LONG_FIRST = (
-    "test_faults.py",
-    "test_tools.py",
     "test_bad_sets.py",
-    "test_readme.py",
     "test_examples.py",
-    "test_check.py",
-    "test_packed.py",
-    "test_example_plugin.py",
-    "test_known_answers.py",
-    "test_motion_fit.py",
-    "test_subjects.py",
+    "test_readme.py",
     "test_people.py",
+    "test_run.py",
     "test_metamorphic.py",
+    "test_motion_fit.py",
+    "test_dwell_times.py",
+    "test_known_answers.py",
+    "test_held_out.py",
+    "test_motion.py",
     "test_motion_judge.py",
+    "test_subjects.py",
+    "test_whole.py",
+    "test_reach.py",
     "test_recording_pages.py",
-    "test_report.py",
+    "test_told.py",
+    "test_example_plugin.py",
+    "test_architecture.py",
+    "test_check.py",
 )
 """Files whose tests take longest: begun first, so that no process is left alone with one of them at the end."""
 

@@ -15,7 +15,7 @@ from opsim.viewer.write import packed
 from tests.bench.full_shift import full_shift
 
 SECONDS = {
-    "walking_cell": 1200.0, "two_shift_plant": 7200.0, "kitting": 250.0, "repack_cell": 2400.0,
+    "walking_cell": 600.0, "two_shift_plant": 7200.0, "kitting": 250.0, "repack_cell": 2400.0,
     "eight_station_cell": 900.0,
 }  # fmt: skip
 SHIFT = "a made shift"

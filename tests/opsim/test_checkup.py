@@ -17,7 +17,14 @@ def test_here_nothing_is_wrong_and_every_required_package_is_looked_at():
     assert {"Python", "numpy", "simpy", "pydantic", "shipped scenarios", "motion libraries", "processes"} <= set(states)
 
 
-def test_a_package_that_is_missing_or_too_old_is_wrong(monkeypatch):
+@pytest.fixture
+def unread(monkeypatch):
+    """Shipped scenarios and libraries are not looked at."""
+    for question in ("_scenarios", "_libraries"):
+        monkeypatch.setattr(checkup, question, lambda: iter(()))
+
+
+def test_a_package_that_is_missing_or_too_old_is_wrong(unread, monkeypatch):
     version = metadata.version
 
     def other(name):
@@ -40,12 +47,12 @@ def test_a_broken_shipped_scenario_is_wrong(monkeypatch, tmp_path):
     assert found("motion libraries").state == WRONG and "not a motion library" in found("motion libraries").said
 
 
-def test_where_nothing_can_be_written_it_is_said_and_not_wrong(monkeypatch):
+def test_where_nothing_can_be_written_it_is_said_and_not_wrong(unread, monkeypatch):
     monkeypatch.setattr(checkup, "_writable", lambda _: False)
     assert found("compiled code").state == found("this folder").state == NOTE
 
 
-def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(monkeypatch, tmp_path):
+def test_how_much_of_the_fast_engine_is_compiled_is_said_with_its_place(unread, monkeypatch, tmp_path):
     monkeypatch.setattr(code_cache, "folder", lambda: tmp_path)
     monkeypatch.setattr(code_cache, "shipped", lambda: None)
     assert found("fast engine").said == f"compiled when it is first used, in {tmp_path}"
@@ -65,14 +72,14 @@ def test_a_file_is_no_folder(tmp_path):
     assert not checkup._writable(tmp_path / "file")
 
 
-def test_why_there_is_no_fast_engine_is_said(monkeypatch):
+def test_why_there_is_no_fast_engine_is_said(unread, monkeypatch):
     monkeypatch.setattr("opsim.engine.fast_engine.machine.code_cache.folder", lambda: None)
     assert found("fast engine").said == "compiled anew by each command, as it can be kept nowhere"
     monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
     assert found("fast engine").said.startswith("off, as NUMBA_DISABLE_JIT is set")
 
 
-def test_a_place_for_compiled_code_that_cannot_be_written_is_named(monkeypatch, tmp_path):
+def test_a_place_for_compiled_code_that_cannot_be_written_is_named(unread, monkeypatch, tmp_path):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file"))
     assert found("compiled code").state == NOTE and str(tmp_path / "file") in found("compiled code").said

@@ -49,7 +49,7 @@ def test_at_the_same_pace_emulated_tasks_and_distributions_go_together():
 def test_tasks_of_the_same_people_go_together_as_recorded():
     """Six people did both: who leans to a slow one is slow in both, by their own correlation less what is shrunk."""
     models = [PUBLIC["deep_squat"], PUBLIC["side_lunge"]]
-    drawn = [[slowness(m, worker_effect(m, m.task, f"w{i}", 3, 0)) for m in models] for i in range(1500)]
+    drawn = [[slowness(m, worker_effect(m, m.task, f"w{i}", 3, 0)) for m in models] for i in range(700)]
     at = [m.scale.block("duration").start for m in models]
     recorded = np.corrcoef(models[0].workforce.effects[:, at[0]], models[1].workforce.effects[:, at[1]])[0, 1]
     kept = 1 - models[0].workforce.between.rho

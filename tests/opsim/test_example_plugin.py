@@ -55,6 +55,12 @@ class Installed:
 
 
 @pytest.fixture(scope="module")
+def found_and_done(installed):
+    """What the scripts below print of what is found (three lines), and of work that is done (the last)."""
+    return installed.run(FOUND + WORK).splitlines()
+
+
+@pytest.fixture(scope="module")
 def installed(tmp_path_factory):
     return Installed(tmp_path_factory.mktemp("plugin"))
 
@@ -104,8 +110,8 @@ DRAW = f"{MAKE}.sample(64, numpy.random.default_rng())"
 CHOOSE = "dispatch_rule('spare_the_best')(1, 0, 0, 1, 0, 0)"
 
 
-def test_the_installed_example_is_found_with_its_distribution(installed):
-    emulators, rules, subjects = installed.run(FOUND).splitlines()
+def test_the_installed_example_is_found_with_its_distribution(found_and_done):
+    emulators, rules, subjects, _ = found_and_done
     assert subjects == "opsim-example-plugin 0.1.0 (opsim.subjects: cooling = opsim_example_plugin.cooling:COOLING)"
     assert emulators == (
         "opsim-example-plugin 0.1.0 (opsim.emulators: mtm1_get_and_place = opsim_example_plugin.mtm1:GetAndPlace)"
@@ -116,8 +122,8 @@ def test_the_installed_example_is_found_with_its_distribution(installed):
     )
 
 
-def test_the_emulator_of_the_example_works_for_a_worker(installed):
-    mean_s, mean_drawn_s, marks, duration_s = json.loads(installed.run(WORK))
+def test_the_emulator_of_the_example_works_for_a_worker(found_and_done):
+    mean_s, mean_drawn_s, marks, duration_s = json.loads(found_and_done[-1])
     assert mean_s == pytest.approx(0.036 * (12.9 + 3.5 + 17.0 + 2.0))
     assert mean_drawn_s == pytest.approx(mean_s, rel=4 * 0.1 / 500**0.5)
     shares = [mark / duration_s for mark in marks]
@@ -125,8 +131,7 @@ def test_the_emulator_of_the_example_works_for_a_worker(installed):
 
 
 def test_a_scenario_names_the_example_and_its_results_say_which_version_it_was(installed):
-    assert installed.opsim("check", SCENARIO)[0] == 0
-    code, said = installed.opsim("run", SCENARIO, "-o", "out")
+    code, said = installed.opsim("run", SCENARIO, "-o", "out", "--processes", "1")
     assert code == 0 and "Work a job gets at the station" in said
     manifest = json.loads((installed.folder / "out" / "base" / "manifest.json").read_text())
     assert manifest["plugins"] == dict.fromkeys(["spare_the_best", "mtm1_get_and_place"], "opsim-example-plugin 0.1.0")
@@ -136,6 +141,7 @@ def test_a_scenario_names_the_example_and_its_results_say_which_version_it_was(i
     assert pick["mean"] == pytest.approx(by_the_slower, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_scenario_with_the_subject_of_the_example_runs_and_its_results_say_which_version_it_was(installed):
     text = (EXAMPLE / "glue_station.yaml").read_text()
     assert installed.opsim("check", text)[0] == 0
@@ -155,11 +161,15 @@ def test_every_mistake_in_naming_a_plug_in_is_said_at_its_place(installed):
     assert "tasks.pick.with.reech: no parameter 'reech'" in said and "did you mean 'reach'?" in said
     assert "tasks.pick.with.reach: 4 has no unit; expected a length" in said
     assert "allocation.rule: no rule 'spare_the_bes'" in said and "did you mean 'spare_the_best'?" in said
+
+
+@pytest.mark.slow
+def test_an_emulator_that_is_not_there_is_said_at_its_place(installed):
     code, said = installed.opsim("check", SCENARIO.replace("mtm1_get", "mtm2_get"))
     assert code == 2 and "tasks.pick.plugin: no plug-in 'mtm2_get_and_place'" in said
 
 
-@pytest.mark.parametrize("processes", ["1", "2"])
+@pytest.mark.parametrize("processes", [pytest.param("1", marks=pytest.mark.slow), "2"])
 def test_a_plug_in_that_fails_in_the_middle_of_a_run_is_blamed_without_a_traceback_of_ours(processes, installed):
     mend = installed.broken("spare_the_best.py", "+rating", "1 / (n_waiting - n_waiting)")
     try:

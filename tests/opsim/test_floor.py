@@ -35,8 +35,10 @@ def cell():
     return shipped("repack_cell")
 
 
-@pytest.mark.parametrize("name", ALONE)
-@pytest.mark.parametrize("start_s", STARTS_S)
+@pytest.mark.parametrize(
+    ("name", "start_s"),
+    [*((name, STARTS_S[2]) for name in ALONE), *(("torque_guns", start_s) for start_s in STARTS_S[:2])],
+)
 def test_a_floor_alone_gives_the_rows_of_run_plan(name, start_s):
     plan = shipped(name)
     env = simpy.Environment(initial_time=start_s)
@@ -103,7 +105,7 @@ def test_other_processes_change_nothing(cell):
     assert rows(floor.ended.value) == rows(run_plan(cell))
 
 
-@pytest.mark.parametrize("name", [*ALONE, "two_shift_plant", "kanban_cell"])
+@pytest.mark.parametrize("name", [*ALONE, pytest.param("two_shift_plant", marks=pytest.mark.slow), "kanban_cell"])
 def test_the_log_may_be_asked_for_at_any_moment(name):
     plan = shipped(name)
     env = simpy.Environment(initial_time=100.3)

@@ -276,20 +276,31 @@ def rows(folder):
     return {path.name: path.read_bytes() for path in sorted(folder.rglob("replication_*"))}
 
 
-def test_rows_are_the_same_from_one_process_or_two_whole_or_resumed(cooling, tmp_path):
-    file = str(EXAMPLE / "glue_station.yaml")
-    said = {}
-    for name, more in {"one": ("1",), "two": ("2",), "on": ("1", "--replications", "2")}.items():
-        done = CliRunner().invoke(main, ["run", file, "-o", str(tmp_path / name), "--processes", *more])
-        assert done.exit_code == 0, done.output
-        said[name] = done.output
-    before = rows(tmp_path / "on" / "base")
-    assert len(before) == 2
-    assert CliRunner().invoke(main, ["run", file, "-o", str(tmp_path / "on")]).exit_code == 0
-    assert before.items() <= rows(tmp_path / "one" / "base").items()
-    assert rows(tmp_path / "on") == rows(tmp_path / "one") == rows(tmp_path / "two")
-    assert "Cool-downs of the station" in said["one"]
+def glued(folder, *words):
+    """What is said of a run of the example's scenario, two hours of its base, into a folder."""
+    shorter = (EXAMPLE / "glue_station.yaml").read_text().replace("8 h, replications: 4", "2 h, replications: 3")
+    file = folder.parent / "glue.yaml"
+    file.write_text(shorter.replace("slow_to_dry: [slow_to_dry]", ""))
+    done = CliRunner().invoke(main, ["run", str(file), "-o", str(folder), *words])
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+def test_rows_are_the_same_whole_or_resumed(cooling, tmp_path):
+    assert "Cool-downs of the station" in glued(tmp_path / "one", "--processes", "1")
     assert '<section id="cooling"' in (tmp_path / "one" / "base" / "report.html").read_text()
+    glued(tmp_path / "on", "--processes", "1", "--replications", "2")
+    before = rows(tmp_path / "on" / "base")
+    assert len(before) == 2 and before.items() <= rows(tmp_path / "one" / "base").items()
+    glued(tmp_path / "on")
+    assert rows(tmp_path / "on") == rows(tmp_path / "one")
+
+
+@pytest.mark.slow
+def test_rows_are_the_same_from_one_process_or_two(cooling, tmp_path):
+    for n in ("1", "2"):
+        glued(tmp_path / n, "--processes", n)
+    assert rows(tmp_path / "1") == rows(tmp_path / "2") and len(rows(tmp_path / "1")) == 3
 
 
 # ------------------------------------------------------------------------------------------------------ somebody else's

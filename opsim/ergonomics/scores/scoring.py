@@ -193,7 +193,7 @@ def _flags(name: str, flag: Any, n: int) -> np.ndarray:
     found = np.asarray(flag, bool)
     if found.shape not in ((), (n,)):
         raise ValueError(f"{name} must be ({n},) or one for all, found {found.shape}")
-    return np.ascontiguousarray(np.broadcast_to(found, n))
+    return np.broadcast_to(found, n).copy()  # no view: that is another type, and compiled for apart
 
 
 def edges_of(thresholds: Thresholds) -> np.ndarray:

@@ -24,7 +24,7 @@ from opsim.scenario.tree import Block
 
 
 def _known_output(value: object) -> object:
-    if value not in KPIS:
+    if isinstance(value, str) and value not in KPIS:
         raise plain_error(f"unknown output {shown(value)}", did_you_mean(value, KPIS))
     return value
 

@@ -310,7 +310,13 @@ def test_doctor_alone_is_as_it_was_and_knows_the_nearest_word():
     assert code == 2 and "did you mean 'engines'?" in complaint
 
 
-@pytest.mark.parametrize("template", shipped_scenarios())
+QUICK = ("press_shop", "starter", "two_shift_plant")
+"""Templates that ``make test`` writes; that all shipped scenarios are right is said in tests/test_shipped.py, too."""
+
+
+@pytest.mark.parametrize(
+    "template", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in shipped_scenarios()]
+)
 def test_what_init_writes_is_right(tmp_path, monkeypatch, template):
     monkeypatch.chdir(tmp_path)
     code, shown, _ = opsim("init", template)
@@ -343,7 +349,7 @@ def test_the_short_one_is_checked_and_runs_as_it_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     opsim("init", "-o", "my.yaml")
     assert opsim("check", "my.yaml")[0] == 0
-    assert opsim("run", "my.yaml", "-o", "out", "--replications", 2)[0] == 0
+    assert opsim("run", "my.yaml", "-o", "out", "--replications", 1, "--horizon", "3 h")[0] == 0
     assert {one.parent.name for one in tmp_path.glob("out/*/report.html")} == {"base", "busy", "busy_with_three"}
 
 

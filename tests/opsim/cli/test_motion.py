@@ -66,15 +66,17 @@ def test_an_unknown_person_is_refused(tmp_path):
 
 def test_fit_prints_what_it_found_and_writes_the_library(emulated, tmp_path):
     out = tmp_path / "lib.npz"
-    code, shown, progress = opsim("motion", "fit", emulated, "-o", out, "--where", "all")
+    code, shown, progress = opsim("motion", "fit", emulated, "-o", out, "--where", "all", "--n-times", 31)
     assert code == 0 and "12 of 1 workers" in shown and "ICC of log duration" in shown and "not estimable" in shown
     assert "fit reach: aligning" in progress
     library = MotionLibrary.load(out)
-    assert library.command == "opsim motion fit reach.npz -o lib.npz --where 'all'" and library.tasks == ("reach",)
+    assert library.command == "opsim motion fit reach.npz -o lib.npz --where 'all' --n-times 31" and library.tasks == (
+        "reach",
+    )
 
 
 def test_fit_as_json_is_json(emulated, tmp_path):
-    words = ("-o", tmp_path / "lib.npz", "--n-components", 3, "--json")
+    words = ("-o", tmp_path / "lib.npz", "--n-components", 3, "--n-times", 31, "--json")
     code, shown, _ = opsim("motion", "fit", emulated, *words)
     assert code == 0 and json.loads(shown)["tasks"]["reach"]["n_components"] == 3
 
@@ -90,8 +92,10 @@ def test_fit_takes_a_scheme_a_clock_and_landmarks_and_keeps_the_command(emulated
     assert model.report.command == f"opsim motion fit reach.npz -o lib.npz {said}"
 
 
+@pytest.mark.slow
 def test_a_recorded_task_is_fitted_with_its_six_people(tmp_path):
-    code, shown, _ = opsim("motion", "fit", recording("uiprmd_deep_squat"), "-o", tmp_path / "lib.npz", "--json")
+    words = ("-o", tmp_path / "lib.npz", "--n-components", 3, "--n-times", 31, "--json")
+    code, shown, _ = opsim("motion", "fit", recording("uiprmd_deep_squat"), *words)
     report = json.loads(shown)["tasks"]["deep_squat"]
     assert (code, report["n_sequences"], report["n_workers"]) == (0, 41, 6)
 

@@ -24,7 +24,7 @@ def fitted(tmp_path_factory):
     with np.load(folder / "made.npz") as file:
         people = np.repeat(["ana", "ben", "eva"], 4)
         np.savez(folder / "reach.npz", **{**file, "subject": people, "meta": json.dumps({"source": "a test"})})
-    words = ("-o", folder / "lib.npz", "--where", "trial not in (k3, k7, k11)")
+    words = ("-o", folder / "lib.npz", "--where", "trial not in (k3, k7, k11)", "--n-times", 31)
     assert opsim("motion", "fit", folder / "reach.npz", *words)[0] == 0
     return folder
 

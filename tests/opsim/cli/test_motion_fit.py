@@ -21,7 +21,7 @@ from opsim.shipped import shipped_folder
 from tests.opsim.cli.calls import one_person, opsim
 
 BENCH = shipped_folder() / "libraries" / "bench_work.npz"
-QUICK = ("--n-components", 2, "--n-times", 21)
+QUICK = ("--n-components", 2, "--n-times", 31)
 
 
 @pytest.fixture(scope="module")
@@ -308,6 +308,10 @@ NOTED = {
 }
 
 
+QUICKLY_NOTED = ("one foot", "no number in one", "one stands still")
+"""Cases that ``make test`` looks at; the others take long."""
+
+
 def fit(folder, arrays, *words):
     np.savez(folder / "bad.npz", **arrays)
     return opsim("motion", "fit", folder / "bad.npz", "-o", folder / "lib.npz", "--n-times", 31, *words)
@@ -321,7 +325,9 @@ def test_what_cannot_be_fitted_is_refused_with_code_2_and_no_library(lifts, tmp_
     assert not (tmp_path / "lib.npz").exists()
 
 
-@pytest.mark.parametrize("case", NOTED)
+@pytest.mark.parametrize(
+    "case", [case if case in QUICKLY_NOTED else pytest.param(case, marks=pytest.mark.slow) for case in NOTED]
+)
 def test_what_is_odd_is_fitted_with_a_note_on_the_screen_and_in_the_library(lifts, tmp_path, case):
     make, said = NOTED[case]
     code, shown, _ = fit(tmp_path, make(lifts))
@@ -364,10 +370,12 @@ def test_the_names_of_a_kinect_are_known_in_an_npz_too(lifts, tmp_path):
 
 
 @pytest.mark.parametrize("words", [("fit",), ("import",), ("fit", "--cyclic")], ids=" ".join)
-def test_names_that_are_not_known_are_given_by_a_mapping_file(lifts, tmp_path, words):
+def test_names_that_are_not_known_are_given_by_a_mapping_file(lifts, tmp_path, monkeypatch, words):
+    monkeypatch.setattr("opsim.report.motion.importing.draw_import", lambda *_: b"")
     np.savez(tmp_path / "bad.npz", **renamed(lifts, {"left_knee": "Gelenk 7"}))
     (tmp_path / "names.csv").write_text("Gelenk 7: left_knee\n")
-    call = ("motion", words[0], tmp_path / "bad.npz", *words[1:], "-o", tmp_path / "out.npz")
+    quick = QUICK if words == ("fit",) else words[1:]
+    call = ("motion", words[0], tmp_path / "bad.npz", *quick, "-o", tmp_path / "out.npz")
     code, _, complaint = opsim(*call)
     assert code == 2
     assert "joint 'Gelenk 7' is not known" in " ".join(complaint.split())

@@ -91,11 +91,24 @@ def reach(tmp_path_factory):
     return path
 
 
+@pytest.fixture(scope="module")
+def judged_once(reach):
+    """Exit code, screen, progress and page of one split."""
+    page = reach.parent / "new" / "judged.html"
+    with pytest.MonkeyPatch.context() as patch:
+        judge_little(patch)
+        return *opsim("motion", "judge", reach, "--splits", 1, "--page", page), page
+
+
+def judge_little(patch):
+    judge = partial(held_out_table.judge_held_out, n_times=31, n_drawn=40)
+    patch.setattr(held_out_table, "judge_held_out", judge)
+
+
 @pytest.fixture
 def small(monkeypatch):
     """Judging on fewer points and draws than a user's: what is printed is tested, not what is found."""
-    judge = partial(held_out_table.judge_held_out, n_times=31, n_drawn=40)
-    monkeypatch.setattr(held_out_table, "judge_held_out", judge)
+    judge_little(monkeypatch)
 
 
 @pytest.fixture
@@ -115,10 +128,10 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def test_the_table_has_a_row_for_each_and_a_line_on_each_column(reach, small):
-    code, shown, progress = opsim("motion", "judge", reach, "--splits", 2)
-    assert code == 0 and "judge: reach: 10 of 10" in progress
-    assert "reach: 16 repetitions of one person (all), halves dealt out 2 times" in shown
+def test_the_table_has_a_row_for_each_and_a_line_on_each_column(judged_once):
+    code, shown, progress, _ = judged_once
+    assert code == 0 and "judge: reach: 5 of 5" in progress
+    assert "reach: 16 repetitions of one person (all), halves dealt out once" in shown
     places = [shown.index(f"\n {name}" if f"\n {name}" in shown else name) for name in ROWS]
     assert places == sorted(places)
     assert "both controls fail novelty" in shown and "novelty   distance to the nearest" in shown
@@ -153,9 +166,8 @@ def test_a_folder_gets_the_csv_and_the_same_seed_the_same_bytes(reach, small, tm
     assert made.read_bytes() != first
 
 
-def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(reach, small, tmp_path):
-    page = tmp_path / "new" / "judged.html"
-    code, shown, progress = opsim("motion", "judge", reach, "--splits", 1, "--page", page)
+def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(judged_once):
+    code, shown, progress, page = judged_once
     assert code == 0 and f"page: {page}" in shown and "real time: reach" in progress
     assert "reach: movements in real time, against the unseen half" in shown and "slide cm   way of" in shown
     assert "draws are" in shown and "a classifier" in shown
@@ -164,6 +176,7 @@ def test_emulators_are_judged_in_real_time_with_a_page_that_fetches_nothing(reac
     assert "default-src 'none'" in written and "http://" not in written.replace("http://www.w3.org/", "")
 
 
+@pytest.mark.slow
 def test_json_has_the_figures_in_real_time(reach, small):
     code, shown, _ = opsim("motion", "judge", reach, "--splits", 1, "--json")
     (found,) = json.loads(shown)["tasks"]["reach"]["real_time"]

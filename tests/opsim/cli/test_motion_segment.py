@@ -1,6 +1,7 @@
 """``opsim motion segment``: pieces, cut times and picture; what a person corrects is never overwritten."""
 
 import json
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -23,13 +24,19 @@ def folder(tmp_path_factory):
     return folder
 
 
-@pytest.fixture
-def cut(folder, tmp_path):
-    """The reaches cut, in a folder of its own."""
-    out = tmp_path / "cut.npz"
+@pytest.fixture(scope="module")
+def cut_once(folder, tmp_path_factory):
+    """A folder with the reaches cut, which no test changes."""
+    out = tmp_path_factory.mktemp("cut") / "cut.npz"
     code, shown, _ = opsim("motion", "segment", folder / "reaches.npz", "-o", out)
     assert code == 0 and "5 pieces of 1 take" in shown
-    return out
+    return out.parent
+
+
+@pytest.fixture
+def cut(cut_once, tmp_path):
+    """The same in a folder of its own."""
+    return shutil.copytree(cut_once, tmp_path / "cut") / "cut.npz"
 
 
 def test_each_repetition_is_a_take_of_the_same_worker_with_numbered_trial(cut, folder):
@@ -142,7 +149,7 @@ def test_a_folder_is_no_file_of_cut_times(folder, tmp_path):
 
 
 def test_the_picture_and_the_terminal_say_how_many_takes_are_shown(tmp_path):
-    takes = tuple(walking(4.0, worker=f"w{number}") for number in range(5))
+    takes = tuple(walking(2.5, worker=f"w{number}") for number in range(5))
     write_recording(Recording(takes), tmp_path / "five.npz")
     code, _, said = opsim("motion", "segment", tmp_path / "five.npz", "-o", tmp_path / "w.npz")
     assert code == 0 and "the picture shows the first 4 of 5 takes" in said

@@ -163,7 +163,8 @@ def test_the_same_command_goes_on_from_what_is_there_and_says_the_same(once):
 
 def test_a_search_is_run_from_the_options(tmp_path):
     result = called("serial_line", *SHORT, "--vary", "stations.drilling.buffer=0..6", "--vary",
-                    "tasks.cut.mean=50 s..70 s", "--search", "--trials", "6", "-o", tmp_path / "found")  # fmt: skip
+                    "tasks.cut.mean=50 s..70 s", "--search", "--trials", "6", "--replications", "5",
+                    "-o", tmp_path / "found")  # fmt: skip
     assert result.exit_code == 0, result.output
     assert "The search tried 6 points on 3 replications each; the best 5 went on" in result.output
 
@@ -254,14 +255,12 @@ def test_one_factor_at_a_time_is_against_the_scenario_as_it_is(swept, tmp_path):
     assert [level["value"] for level in drill["levels"]] == ["20 s", "25 s"]  # the second is what the scenario has
 
 
-def test_which_factor_matters_by_salib(swept, tmp_path):
+@pytest.mark.parametrize("design", ["morris", pytest.param("sobol_indices", marks=pytest.mark.slow)])
+def test_which_factor_matters_by_salib(swept, tmp_path, design):
     asked = ("--vary", "tasks.drill.fixed=10 s..40 s", "--vary", "stations.saw.buffer=1..4", "--replications", 1)
-    for design in ("morris", "sobol_indices"):
-        code, shown, _ = opsim(
-            "sweep", swept[0], *asked, "--design", design, "--points", 4, "-o", tmp_path / design, "--json"
-        )
-        found = {one["path"]: one["total"] for one in json.loads(shown)["summary"]["figures"][0]["sensitivity"]}
-        assert code == 0 and found["tasks.drill.fixed"] > found["stations.saw.buffer"]
+    code, shown, _ = opsim("sweep", swept[0], *asked, "--design", design, "--points", 4, "-o", tmp_path, "--json")
+    found = {one["path"]: one["total"] for one in json.loads(shown)["summary"]["figures"][0]["sensitivity"]}
+    assert code == 0 and found["tasks.drill.fixed"] > found["stations.saw.buffer"]
 
 
 @pytest.mark.parametrize(
@@ -297,6 +296,7 @@ def test_a_file_that_asks_nothing_says_how_to_ask(tmp_path):
     assert code == 2 and "nothing says what is varied" in wrong
 
 
+@pytest.mark.slow
 def test_the_sweep_of_a_shipped_scenario_runs(tmp_path):
     code, shown, _ = opsim("sweep", "serial_line", "--horizon", "6 h", "--replications", 2, "-o", tmp_path, "--json")
     summary = json.loads(shown)["summary"]

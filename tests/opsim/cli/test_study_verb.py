@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import shutil
 from types import SimpleNamespace
 
 import pytest
@@ -20,10 +21,14 @@ BYTES = ("summary.json", "figures.parquet", "sweep.html", "study.json")
 
 @pytest.fixture(autouse=True)
 def in_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("opsim.cli.sweep.KIND", made_study.KIND, raising=False)
-    monkeypatch.setattr("opsim.cli.sweep.command", made_study.command)
-    line(tmp_path, STUDY)
+    stand_in_folder(tmp_path, monkeypatch)
+
+
+def stand_in_folder(folder, patch):
+    patch.chdir(folder)
+    patch.setattr("opsim.cli.sweep.KIND", made_study.KIND, raising=False)
+    patch.setattr("opsim.cli.sweep.command", made_study.command)
+    line(folder, STUDY)
 
 
 def hashes(folder):
@@ -36,10 +41,20 @@ def swept(*words):
     return out
 
 
+@pytest.fixture(scope="module")
+def whole_once(tmp_path_factory):
+    """The folder of the whole study, which no test changes."""
+    folder = tmp_path_factory.mktemp("study")
+    with pytest.MonkeyPatch.context() as patch:
+        stand_in_folder(folder, patch)
+        swept("-o", "whole", "--processes", 1)
+    return folder / "whole"
+
+
 @pytest.fixture
-def whole(tmp_path):
-    swept("-o", "whole", "--processes", 1)
-    return hashes(tmp_path / "whole")
+def whole(whole_once, tmp_path):
+    """Its hashes; a copy of it stands in the test's folder."""
+    return hashes(shutil.copytree(whole_once, tmp_path / "whole"))
 
 
 def test_a_study_is_told_on_a_screen_and_in_files_and_found_again(tmp_path, whole):

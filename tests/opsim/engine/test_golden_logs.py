@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from golden_logs import PARTS, Golden, log_of, made, moved, shipped, written
 
-EVERY = 50
+EVERY = 100
 FEW = [*made()[::EVERY], "shipped/pump_assembly/base"]
 
 

@@ -270,8 +270,7 @@ def test_every_block_is_told_of_by_25_of_500_random_scenarios():
 
 @pytest.mark.parametrize("block", list(BLOCKS))
 def test_each_block_alone_keeps_the_laws(block):
-    for seed in range(4):
-        told_by(seed, partial(lambda name, _pick: [name], block))
+    told_by(0, partial(lambda name, _pick: [name], block))
 
 
 SECTIONS = ("tasks", "stations", "products", "sources", "workers", "shifts", "tools")

@@ -127,8 +127,7 @@ def test_every_rule_is_contested_by_25_of_500_random_scenarios_with_two_interrup
 
 @pytest.mark.parametrize("block", [name for name in (*PEOPLE, *CREWS) if name not in ALWAYS])
 def test_each_block_alone_keeps_the_laws(block):
-    for seed in range(3):
-        shown_by(seed, partial(lambda name, _pick: [*ALWAYS, name], block))
+    shown_by(0, partial(lambda name, _pick: [*ALWAYS, name], block))
 
 
 KINDS = ("", "team: 2, ", "automatic: attended, ", "automatic: attended, team: 2, ", "automatic: true, ")

@@ -27,7 +27,7 @@ from tests.opsim.kpi.made_logs import made, work
 MOVES = """
 opsim: 1
 name: moves
-run: {horizon: 20 min, warm_up: 5 min, seed: 3, staffing: STAFFING}
+run: {horizon: 12 min, warm_up: 3 min, seed: 3, staffing: STAFFING}
 libraries: {moves: libraries/public_movements.npz}
 layout: {places: {a: [0 m, 0 m]}}
 tasks:

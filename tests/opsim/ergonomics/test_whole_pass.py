@@ -29,7 +29,7 @@ from opsim.tasks.variability import switched
 CELL = """
 opsim: 1
 name: cell
-run: {start: Mon 05:57, horizon: 6 min, warm_up: 1 min, seed: 3}
+run: {start: Mon 05:57, horizon: 4 min, warm_up: 1 min, seed: 3}
 layout: {places: {here: [0 m, 0 m]}}
 libraries: {bench: libraries/bench_work.npz}
 tasks:
@@ -71,7 +71,7 @@ def naive(log, plan):
 
 @pytest.mark.parametrize(("human", "within_s"), [("", 1e-3), (HUMAN, 2.0)], ids=["fresh", "tired"])
 def test_the_whole_pass_is_its_naive_twin(human, within_s):
-    """Of ten minutes of work to a millisecond. Where people tire a block is cut by its slowest of all rows, and one
+    """Of six minutes of work to a millisecond. Where people tire a block is cut by its slowest of all rows, and one
     performance again by its own time: frames begin elsewhere, and less than one of each performance scores otherwise.
     """
     log, plan = ran(CELL + human)

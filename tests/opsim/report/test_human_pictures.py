@@ -89,7 +89,7 @@ def test_a_slim_picture_is_as_high_and_less_wide():
     assert float(slim.split()[2]) < 0.5 * float(broad.split()[2]) and slim.split()[3] == broad.split()[3]
 
 
-@pytest.mark.parametrize("n", [1, 2, MOST_ROWS + 1])
+@pytest.mark.parametrize("n", [1, pytest.param(2, marks=pytest.mark.slow), MOST_ROWS + 1])
 def test_a_picture_of_one_movement_and_of_many(n):
     made = [movement(0.0, 70.0, float("nan"), name=f"take {k}") for k in range(n)]
     picture = course_svg(scored_movements(made, NOTHING_OPEN), {(0, 1): "A"})

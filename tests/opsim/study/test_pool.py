@@ -88,7 +88,7 @@ from functools import partial
 from opsim.pool import pooled
 
 if __name__ == "__main__":
-    results = pooled(partial(partial, bytes), [60_000_000] * 8, 2)
+    results = pooled(partial(partial, bytes), [20_000_000] * 8, 2)
     next(results)
     time.sleep(0.02)
     results.close()

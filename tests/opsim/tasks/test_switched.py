@@ -114,7 +114,7 @@ def test_shuffled_takes_the_bond_of_what_is_seen_of_one_worker_s_bodies_and_keep
     """The first mark's share and the pelvis's depth tell of a worker's duration (|r| above 0.2 for one of them), under
     shuffled they do not; means stay within four standard errors, spreads within a tenth.
     """
-    n, ana = 1200, LIFT.draw_worker(np.random.default_rng(2))
+    n, ana = 700, LIFT.draw_worker(np.random.default_rng(2))
     models = (LIFT, switched(LIFT, "shuffled"))
     bonded, loose = (model.sample(n, np.random.default_rng(4), worker=ana) for model in models)
     one, two = seen(bonded), seen(loose)

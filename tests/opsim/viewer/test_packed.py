@@ -48,12 +48,13 @@ def test_the_page_shows_what_the_emulators_say(name):
     assert len(errors_m) > 30 and max(errors_m) < 2e-3 and np.mean(np.array(errors_m) < 1e-3) > 0.95
 
 
-def test_a_second_of_movement_takes_less_than_a_kilobyte():
-    """Compressed as the page is: 800 bytes."""
-    meta, data = packed_scene("repack_cell")
+@pytest.mark.parametrize("name", quickly("repack_cell", "walking_cell"))
+def test_a_second_of_movement_takes_less_than_a_kilobyte(name):
+    """Compressed as the page is: 670 and 800 bytes."""
+    meta, data = packed_scene(name)
     columns = unpacked_columns(meta["columns"], data)
     moving_s = sum(columns[model["columns"]["duration_s"]].sum() for model in meta["models"])
-    assert moving_s > 600 and len(gzip.compress(data, LEVEL)) < 1000 * moving_s
+    assert moving_s > 400 and len(gzip.compress(data, LEVEL)) < 1000 * moving_s
 
 
 def test_the_same_run_gives_the_same_bytes():

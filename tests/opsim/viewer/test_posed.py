@@ -14,6 +14,12 @@ from opsim.viewer.scores import rula
 from opsim.viewer.segments import is_gone
 from opsim.viewer.skeletons import turned
 
+QUICK = ("walking_cell", "kitting", "two_shift_plant")
+SCENES = pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in SHOWN]
+)
+"""Those that ``make test`` looks at have walks, movements that lead away from the bench, and shifts."""
+
 
 def moments(shown, n, seed=0):
     """(worker, time) at random."""
@@ -22,7 +28,7 @@ def moments(shown, n, seed=0):
         yield int(rng.integers(len(shown.workers))), float(rng.uniform(shown.low_s, shown.high_s))
 
 
-@pytest.mark.parametrize("name", SHOWN)
+@SCENES
 def test_people_are_where_the_emulator_has_them(name):
     """Any row of work again by its name, and its joints turned and shifted: those of the scene."""
     run, shown = run_of(name), scene(name)
@@ -40,7 +46,7 @@ def test_people_are_where_the_emulator_has_them(name):
         assert found == pytest.approx(meant, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", SHOWN)
+@SCENES
 def test_nobody_is_under_the_floor_or_over_the_roof(name):
     for worker, time_s in moments(scene(name), 25):
         joints = joints_m(scene(name), worker, time_s)
@@ -83,7 +89,7 @@ def test_feet_that_bear_hold_still_on_straight_ways():
     assert len(slides) > 20 and max(slides) < 0.06
 
 
-@pytest.mark.parametrize("name", ["walking_cell", "two_shift_plant"])
+@pytest.mark.parametrize("name", ["walking_cell", pytest.param("two_shift_plant", marks=pytest.mark.slow)])
 def test_nobody_jumps(name):
     """From one segment to the next the root stays within a hand's breadth, though feet end a task where they end."""
     shown = scene(name)
@@ -166,7 +172,7 @@ class Kept:
 def test_scores_are_those_of_the_frame_there_is_at_each_moment():
     from dataclasses import replace
 
-    run, low_s, high_s = run_of("walking_cell"), 600.0, 660.0
+    run, low_s, high_s = run_of("walking_cell"), 360.0, 420.0
     found, kept = rula(run.log(), run.plan, low_s, high_s), Kept()
     options = replace(run.plan.ergonomics, rate_hz=4.0)
     fold(run.log(), replace(run.plan, warm_up_s=low_s, horizon_s=high_s, ergonomics=options), [kept])

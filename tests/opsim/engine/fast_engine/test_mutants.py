@@ -19,8 +19,12 @@ def wrong(fault, floors):
     return [one for one in found_by(fault, floors) if one.is_wrong]
 
 
-def test_without_a_fault_the_engine_is_right_also_where_its_own_words_are_planted():
+def test_every_fault_has_floors_that_show_it():
     assert set(SHOWN_BY) == set(MUTANTS)
+
+
+@pytest.mark.slow
+def test_without_a_fault_the_engine_is_right_also_where_its_own_words_are_planted():
     assert wrong("", [HELPED]) == wrong(CONTROL, [HELPED]) == []
 
 

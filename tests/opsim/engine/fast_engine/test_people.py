@@ -264,6 +264,7 @@ def test_zones_and_floaters_choose_members_too():
 N_WORKERS = 7
 SHORT, LONG = 9, 130
 """Stations: some, and more than two words of 64."""
+SLOWLY = pytest.param(LONG, marks=pytest.mark.slow)
 
 
 def hall(n_stations: int, *, rule: str, idle: str, priority: bool) -> str:
@@ -292,7 +293,7 @@ def hall(n_stations: int, *, rule: str, idle: str, priority: bool) -> str:
     )
 
 
-@pytest.mark.parametrize("n_stations", [SHORT, LONG])
+@pytest.mark.parametrize("n_stations", [SHORT, SLOWLY])
 @pytest.mark.parametrize("rule", ALLOCATION_RULES)
 def test_the_same_people_go_to_the_same_stations(rule, n_stations):
     log = twins(hall(n_stations, rule=rule, idle="stay", priority=False))

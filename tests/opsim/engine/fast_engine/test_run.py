@@ -60,7 +60,7 @@ def test_a_run_is_stopped_whenever_a_signal_comes_and_the_next_one_of_the_plan_i
 @pytest.fixture
 def counter():
     """A Plan, and the rows of its replication 0."""
-    made = plan(queue(horizon="30 h"))
+    made = plan(queue(horizon="3 h"))
     return made, simpy_run(made)
 
 
@@ -89,13 +89,13 @@ def none(*_words):
 
 @pytest.mark.parametrize("of", ["jobs", "rows"])
 def test_memory_that_is_not_there_is_an_error_and_the_next_run_is_right(monkeypatch, capfd, of):
-    made = plan(queue(horizon="15 h", every="0.9 s"))
+    made = plan(queue(horizon="3 h", every="0.9 s"))
     machine = run.machine_of(made)
     with monkeypatch.context() as full:
         if of == "jobs":
             full.setattr(machine.build.arena, "_open_chunk", none)
         else:
-            full.setattr(log_rows, "lent", lambda n_bytes: lent(n_bytes) if n_bytes < 3_000_000 else none())
+            full.setattr(log_rows, "lent", lambda n_bytes: lent(n_bytes) if n_bytes < 600_000 else none())
         with pytest.raises(MemoryError):
             run.run_plan(made)
     assert first_difference(simpy_run(made), run.run_plan(made)) == ""

@@ -23,7 +23,7 @@ HOUR_S = 3600.0
 SHIFT = """
 opsim: 1
 name: a shift
-run: {start: Mon 05:40, horizon: 90 min, warm_up: 7 min, seed: 6}
+run: {start: Mon 05:40, horizon: 50 min, warm_up: 7 min, seed: 6}
 layout: {places: {here: [0 m, 0 m], there: [6 m, 0 m]}}
 libraries: {bench: libraries/bench_work.npz}
 shifts: {day: {from: 05:40, to: 08:10, at_break: resume, breaks: {BREAKS}}}

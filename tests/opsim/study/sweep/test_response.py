@@ -171,7 +171,7 @@ def effects(truth, rng, points=12, replications=5, noise=0.1):
     return fit, effects_by_fit(FACTORS, fit)
 
 
-@pytest.mark.parametrize("truth", [plane, knee])
+@pytest.mark.parametrize("truth", [pytest.param(plane, marks=pytest.mark.slow), knee])
 def test_an_interval_by_the_fit_holds_the_true_difference_of_its_two_levels(truth):
     rng, held = np.random.default_rng(2), []
     for _ in range(150):

@@ -31,6 +31,8 @@ from opsim.tasks import TimePerformances
 N = 3
 ITEMS = N * BLOCK
 SCENARIOS = sorted(file.stem for file in shipped_folder().glob("*.yaml"))
+LONG = ("emptying_pallet", "rack_levels")
+"""Each draws movements to many heights; ``shelf_heights`` does so, too."""
 
 
 def planned(name, variants=None):
@@ -85,7 +87,9 @@ def assert_same(plan, replication, kinds=KINDS):
     return n_streams
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if name in LONG else name for name in SCENARIOS]
+)
 def test_all_streams_of_a_shipped_scenario_are_the_engines(name):
     (plan,) = planned(name, 1)
     assert assert_same(plan, 3) >= 5
