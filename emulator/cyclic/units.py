@@ -196,15 +196,6 @@ def starts_still(speed: np.ndarray, limit: float = STILL_LEGS_PER_S) -> bool:
     return bool(np.all(speed[:3] <= limit))
 
 
-def next_strike(contact: np.ndarray, foot: int, earliest: int) -> int | None:
-    """The first frame from ``earliest`` on in which ``foot`` has come down, after FEWEST_FRAMES in the air; or None."""
-    bears = np.asarray(contact[:, foot], bool)
-    for frame in np.flatnonzero(bears[1:] & ~bears[:-1]) + 1:
-        if frame >= earliest and not bears[max(frame - FEWEST_FRAMES, 0) : frame].any():
-            return int(frame)
-    return None
-
-
 @dataclass(frozen=True, eq=False)
 class CyclicWorker:
     """One worker, or n of them. z (..., d): where the worker's latents lie beside everybody's; log_step (...): own step

@@ -80,10 +80,6 @@ class Floor:
                 found |= dict.fromkeys(self.stations_at.get(place, ()), f"{one} is there")
         return found
 
-    def with_stations(self, at: Mapping[str, str]) -> Floor:
-        """The same floor with its stations elsewhere."""
-        return Floor(self.loaded, dict(sorted(at.items(), key=lambda item: natural_key(item[0]))), self.inherits)
-
 
 def floor_of(loaded: Loaded, own_places: Mapping[str, bool] | None = None) -> Floor:
     """The floor of a scenario. own_places : by station, whether the file says its place in the station's own block."""
@@ -122,11 +118,6 @@ def movable(floor: Floor, fixed: Sequence[str] = (), places: Sequence[str] | Non
     if wrong:
         raise NoLayout("\n".join(wrong))
     return Movable(_natural(things), _natural(allowed), places is not None)
-
-
-def known_place(floor: Floor, place: str) -> str | None:
-    """What is wrong with the name of a place, or None."""
-    return next(_unknown([place], floor.places, "place", ""), None)
 
 
 def _unknown(names: Sequence[str], known: Mapping[str, Any], what: str, key: str) -> Iterator[str]:
