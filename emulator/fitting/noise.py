@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -35,11 +36,12 @@ LEAST_SPEED = 0.93
 N_DRAWN = 200
 
 
-Stiff = tuple[float, MotionEmulator]
-"""How much smoother than what was recorded the noise is, and the model with it."""
+Noise = tuple[float, float]
+"""How much smoother than what was recorded noise is, and what share of a posture's variance it may be."""
+Tried = TypeVar("Tried", float, Noise)
 
 
-def naturally(models: Iterable[Stiff], motions: MotionSet) -> Stiff:
+def naturally(models: Iterable[tuple[Noise, MotionEmulator]], motions: MotionSet) -> tuple[Noise, MotionEmulator]:
     """Of models from the least stiff on the first whose draws of known people are smooth enough; else the last."""
     each = -(-N_DRAWN // len(motions))
 
@@ -51,7 +53,9 @@ def naturally(models: Iterable[Stiff], motions: MotionSet) -> Stiff:
     return _first(models, alike, motions, MOST_JERK, MOST_FAST)
 
 
-def with_population(model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet) -> Stiff:
+def with_population(
+    model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet
+) -> tuple[float, MotionEmulator]:
     """The model with the least stiff law of new people whose draws are as smooth and quick as asked; else the stiffest.
 
     Unstiff, all of a person's deviation takes the size that the t gives it, fine detail and all: the law is widest, and
@@ -74,12 +78,12 @@ def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: flo
 
 
 def _first(
-    models: Iterable[Stiff],
+    models: Iterable[tuple[Tried, MotionEmulator]],
     draw: Callable[[MotionEmulator], MotionPerformances],
     motions: MotionSet,
     most_jerk: float,
     most_fast: float,
-) -> Stiff:
+) -> tuple[Tried, MotionEmulator]:
     recorded, rate_hz, last = None, frame_rate_hz(motions), None
     for last in models:
         model = last[1]

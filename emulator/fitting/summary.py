@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from emulator.covariates.table import unused_columns
-from emulator.fitting.noise import MOST_JERK
+from emulator.fitting.noise import MOST_JERK, Noise
 from emulator.fitting.registration import Registered
 from emulator.fitting.report import FitReport, TimeFit
 from emulator.fitting.settings import FitSettings
@@ -32,6 +32,7 @@ from emulator.model.feet import fastest_m_per_s
 from emulator.model.joint_coordinates import Margin
 from emulator.model.performances import MotionPerformances
 from emulator.model.reduction import JointPCA
+from emulator.model.smoothed import BASE, MOST_NOISE_BESIDE
 from emulator.motion import MotionSet
 from emulator.people.variance_components import intraclass_correlation
 from emulator.people.workers import BETWEEN_METHOD, Workforce
@@ -82,13 +83,14 @@ ROOT = "a path of its own in leg lengths, and the heading; feet stand when and a
 SMOOTHED = (
     "recordings blurred by smooth low-rank noise that makes a posture at most as far from the nearest recording as a "
     "left-out recording is, other coordinates by Silverman's rule; slopes of the pace within a fifth of the recorded "
-    "ones; a known worker from the worker's own repetitions, and with the weight of one of them from everybody's "
-    "deviations about the worker's shrunk mean; a new worker near a recorded one, with smooth noise between people, of "
-    "the size that a t gives to the next of so few"
+    f"ones; a known worker from the worker's own repetitions, and with the weight of {BASE:g} repetitions from "
+    "everybody's deviations about the worker's shrunk mean; a new worker near a recorded one, with smooth noise "
+    "between people, of the size that a t gives to the next of so few"
 )
 STIFFNESS = (
-    "noise {:g} times as smooth as what recordings of one worker differ by{}: the least smooth tried at which draws "
-    "jerk no more than {:g} times as hard as the recordings and are as quick, or the smoothest"
+    "noise {:g} times as smooth as what recordings of one worker differ by, at most {:.0f} % of the variance of "
+    "postures and {:.0f} % of that of paths and paces{}: the least smooth tried at which draws jerk no more than {:g} times as "
+    "hard as the recordings and are as quick, or the smoothest"
 )
 STIFFNESS_PEOPLE = ", that between people {:g} times as smooth as what they differ by"
 POSTURE_SIZE = "all that say more than 0.1 degrees a bone"
@@ -156,9 +158,10 @@ def _margin_said(margin: Margin) -> str:
     return "lognormal" if len(margin.z) == 1 else f"lognormal, at least {np.exp(margin.value[1]):.3g} s"
 
 
-def stiffness_said(own: float, between: float) -> str:
-    """How smooth the noise is in which recordings are blurred, and that between people; 0 where there is none."""
-    return STIFFNESS.format(own, STIFFNESS_PEOPLE.format(between) if between else "", MOST_JERK)
+def stiffness_said(own: Noise, between: float) -> str:
+    """How smooth and large the noise is that blurs recordings, and how smooth that between people; 0: there is none."""
+    (stiffness, most), people = own, STIFFNESS_PEOPLE.format(between) if between else ""
+    return STIFFNESS.format(stiffness, 100 * most, 100 * MOST_NOISE_BESIDE, people, MOST_JERK)
 
 
 def _once(whole: MotionSet) -> tuple[str, ...]:

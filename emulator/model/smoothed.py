@@ -2,8 +2,8 @@
 
 One Gaussian fills the gaps between kinds of execution with movements nobody made: its draws lie twice as far from the
 nearest recording as unseen repetitions do. A smoothed bootstrap that keeps variances (Silverman & Young 1987) does not.
-A known worker is drawn from his own repetitions, and with the weight of ``BASE`` of one from what all others do,
-about his shrunk mean: the predictive of a Dirichlet process (Ferguson 1973, sec. 5) with the crew as base measure.
+A known worker is drawn from his own repetitions, and with the weight of half a one (``BASE``) from what all others
+do, about his shrunk mean: the predictive of a Dirichlet process (Ferguson 1973, sec. 5) with the crew as base measure.
 
 How much to blur: so much that a draw is as far from the nearest recording as a repetition that was left out.
 
@@ -246,7 +246,7 @@ def _blurred(
     """
     lacking = len(sharp.owner) / _n_free(sharp.owner)
     factor, left = sharp.factor.copy(), sharp.left.copy()
-    shares = most_noise, *(min(most_noise, MOST_NOISE_BESIDE) for _ in curves[1:])
+    shares = [most_noise] + [MOST_NOISE_BESIDE] * (len(curves) - 1)
     for curve, band, most in zip(curves, bands, shares):
         noise = band.noise(h, most)
         factor[:, curve.at] = band.times(factor[:, curve.at], np.sqrt(noise))

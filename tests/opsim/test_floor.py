@@ -37,7 +37,11 @@ def cell():
 
 @pytest.mark.parametrize(
     ("name", "start_s"),
-    [*((name, STARTS_S[2]) for name in ALONE), *(("torque_guns", start_s) for start_s in STARTS_S[:2])],
+    [
+        *((name, STARTS_S[2]) for name in ALONE),
+        *(("torque_guns", start_s) for start_s in STARTS_S[:2]),
+        *(pytest.param(name, start_s, marks=pytest.mark.slow) for name in ALONE[:2] for start_s in STARTS_S[:2]),
+    ],
 )
 def test_a_floor_alone_gives_the_rows_of_run_plan(name, start_s):
     plan = shipped(name)

@@ -48,8 +48,9 @@ def test_every_exchange_is_found_in_real_takes_and_no_true_one_is_accused(name, 
 
 @pytest.mark.parametrize("name", ["bandai2_walk", "hdm05_deposit_floor", "uiprmd_side_lunge"])
 @pytest.mark.parametrize("limb", LIMBS)
-def test_names_of_one_limb_alone_are_mended(name, limb):
-    for take in read_recording(recording(name)).takes[::10]:
+@pytest.mark.parametrize("each", [10, pytest.param(5, marks=pytest.mark.slow)], ids=["tenth", "fifth"])
+def test_names_of_one_limb_alone_are_mended(name, limb, each):
+    for take in read_recording(recording(name)).takes[::each]:
         mended, found = checked_sides(exchanged(take, LIMBS[limb]))
         assert (found.verdict, found.mended) == ("as named", (limb,)), take.name
         assert np.array_equal(mended.positions_m, take.positions_m)
