@@ -20,6 +20,7 @@ from emulator.model.joint_coordinates import CURVES
 from emulator.model.reduction import JointPCA
 from emulator.model.smoothed import Curves, smoothed
 from emulator.motion import MotionSet
+from emulator.people.kinds import Kinds, kinds_of
 from emulator.people.workers import Workforce, shrinkages
 
 FEWEST = 3
@@ -54,9 +55,11 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     """The emulator of registered recordings, its report without a judgement of draws."""
     motions = made.whole
     parts = parts_of(made, settings)
-    covariates = covariates_of(parts, made.moving, settings.covariates)
     curves = _curves(parts)
-    crew = _crew(parts, made.moving, settings, covariates)
+    kinds = _kinds(parts, made.moving, settings)
+    alike = replace(parts, z=parts.z - kinds.means[made.moving.worker_index])
+    covariates = covariates_of(alike, made.moving, settings.covariates)
+    crew = _crew(parts, made.moving, covariates, kinds)
     model = MotionEmulator(
         motions.task,
         motions.skeleton,
@@ -84,11 +87,23 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     return replace(model, report=replace(report, methods=report.methods | {"stiffness": stiffness_said(own, between)}))
 
 
-def _crew(parts: Parts, motions: MotionSet, settings: FitSettings, covariates: Covariates) -> Workforce:
+def _crew(parts: Parts, motions: MotionSet, covariates: Covariates, kinds: Kinds) -> Workforce:
     """Who performs, by plain Gaussians."""
     index, n_workers, z = motions.worker_index, len(motions.workers), parts.z - covariates.within
-    crew = Workforce.fit(z, index, motions.workers, *shrinkages(len(z), n_workers), covariates.told)
+    crew = Workforce.fit(z, index, motions.workers, *shrinkages(len(z), n_workers), covariates.told, kinds)
     return replace(crew, group=motions.source)
+
+
+def _kinds(parts: Parts, motions: MotionSet, settings: FitSettings) -> Kinds:
+    """Of the workers by their movements; curves depend on it, bones and times do not. A Gaussian knows one kind."""
+    index, n_workers = motions.worker_index, len(motions.workers)
+    means = np.stack([parts.z[index == w].mean(axis=0) for w in range(n_workers)])
+    if settings.scheme.endswith("/MVG"):
+        return Kinds(np.zeros(n_workers, int), np.zeros_like(means))
+    differ = np.zeros(means.shape[1], bool)
+    for name in CURVES:
+        differ[parts.scale.block(name)] = True
+    return Kinds.fit(kinds_of(motions), means, differ)
 
 
 def _is_gaussian(parts: Parts, crew: Workforce, settings: FitSettings) -> bool:

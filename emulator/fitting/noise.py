@@ -72,9 +72,9 @@ def with_population(
 def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float) -> Population:
     """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
     crew, scale = model.workforce, model.scale
-    between = crew.apart() / np.sqrt(len(crew.names))
+    between = crew.apart() / np.sqrt(crew.kinds.differing)
     bands = [(curve.at, Bands.of(between[:, curve.at], curve, stiffness)) for curve in curves]
-    return Population.fit(between, bands, scale.block("bones"))
+    return Population.fit(between, bands, scale.block("bones"), crew.kinds)
 
 
 def _first(

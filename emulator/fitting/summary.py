@@ -110,6 +110,10 @@ ALONE_NOTE = (
     "one person: how people differ is not known, so there is no law between people, and every worker drawn moves as "
     "this one does"
 )
+KINDS_NOTE = (
+    "the people do this on {} sides, as with the left or the right hand or foot: {}; a new worker does it on one of "
+    "them, as often as these do, and differs from them as people of one side differ"
+)
 UNUSED_NOTE = "columns that nothing here uses: {}; --covariate NAME explains by one how people differ"
 ALIKE_NOTE = (
     "all repetitions are one and the same movement: there is no variation to learn, and every draw is that movement; "
@@ -147,7 +151,13 @@ def summary(
         where=whole.selection,
         command=settings.command,
         methods=_methods(made, parts, workforce, settings) | _told(covariates),
-        notes=(*whole.notes, *said(parts.dwells, made.holds), *_once(whole), *_unused(whole, settings)),
+        notes=(
+            *whole.notes,
+            *said(parts.dwells, made.holds),
+            *_once(whole),
+            *_kinds(workforce),
+            *_unused(whole, settings),
+        ),
         fastest_m_per_s=float(fastest_m_per_s(made.moving.motions).max()),
     )
 
@@ -168,6 +178,14 @@ def _once(whole: MotionSet) -> tuple[str, ...]:
     if len(whole.workers) == 1:
         return (ALONE_NOTE,)
     return (ONCE_NOTE,) if len(whole) == len(whole.workers) else ()
+
+
+def _kinds(workforce: Workforce) -> tuple[str, ...]:
+    names, kinds = np.array(workforce.names), workforce.kinds.of
+    if not workforce.kinds.several:
+        return ()
+    sides = [" and ".join(names[kinds == kind]) for kind in range(kinds.max() + 1)]
+    return (KINDS_NOTE.format(len(sides), "; ".join(sides)),)
 
 
 def _unused(whole: MotionSet, settings: FitSettings) -> tuple[str, ...]:

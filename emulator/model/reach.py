@@ -179,17 +179,18 @@ class LocalRegression:
         good = [one for one, error in zip(tried, errors) if error <= as_good * min(errors)]
         return max(good, key=lambda one: float(np.trace(one._smoother(one.place))))
 
-    def shrunk(self, sure: float = 0.0) -> LocalRegression:
+    def shrunk(self, sure: float | None = None) -> LocalRegression:
         """Of which no more is believed than left-out recordings bear out: the slope of z on what is foretold, 0 to 1.
 
-        And nothing where places foretell them better than the mean does by less than ``sure`` standard errors.
+        And nothing where places do not foretell them better than the mean does, by ``sure`` standard errors whichever
+        one recording is put aside: what hangs on one of them is not believed.
         Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
         """
         n, apart, left_out = len(self.z), self.z - self.z.mean(axis=0), self._left_out()
         told = left_out - self.z.mean(axis=0)
         slope = np.sum(told * apart, axis=0) / np.maximum(np.sum(told**2, axis=0), 1e-12)
         gain = (apart * n / (n - 1)) ** 2 - (self.z - left_out) ** 2
-        believed = gain.mean(axis=0) > sure * gain.std(axis=0, ddof=1) / np.sqrt(n)
+        believed = gain.mean(axis=0) > 0.0 if sure is None else _least_sure(gain) > sure
         return replace(self, trust=np.where(believed, np.clip(slope, 0.0, 1.0), 0.0))
 
     def _left_out(self) -> np.ndarray:
@@ -197,6 +198,14 @@ class LocalRegression:
         smoother = self._smoother(self.place)
         own = np.minimum(np.diag(smoother), 0.95)[:, None]
         return np.asarray((smoother @ self.z - own * self.z) / (1.0 - own))
+
+
+def _least_sure(gain: np.ndarray) -> np.ndarray:
+    """(K,) means of gains (N, K) in their standard errors, the least with any one recording put aside."""
+    n = len(gain) - 1
+    mean = (gain.sum(axis=0) - gain) / n
+    square = np.maximum((np.sum(gain**2, axis=0) - gain**2) / n - mean**2, 0.0) * n / max(n - 1, 1)
+    return np.asarray(np.min(mean / np.maximum(np.sqrt(square / n), 1e-12), axis=0))
 
 
 def _bent(

@@ -23,6 +23,7 @@ from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_coordinates import BLOCKS, CURVES, JointScale, Margin, bits, decode, encode, within_worker
 from emulator.model.reduction import JointPCA
 from emulator.model.smoothed import SmoothedScores, less_told, room
+from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.workers import Told, Workforce
 from emulator.skeleton import Skeleton
@@ -33,6 +34,7 @@ CURVE = {"mean": ("C",), "basis": ("R", "C")}
 DWELLS = {"clock": ("S",), "zero_share": ("S",), "mark_share": ("E", "S")}
 NORMAL = {"mean": ("K",), "factor": ("R", "K"), "spread": ("K",)}
 POPULATION = {"rows": ("W", "K"), "drawn_in": ("K",), "fine": ("W", "K")}
+KINDS = {"of": ("W",), "means": ("W", "K")}
 SMOOTHED = {
     "scores": ("N", "K"), "owner": ("N",), "reach": ("N",), "factor": ("R", "K"), "spread": ("K",),
     "left": ("N", "K"), "tells": ("curves", "others"),
@@ -95,6 +97,8 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         arrays["told_fitted"] = model.workforce.told.fitted
     if model.workforce.population is not None:
         arrays |= packed(model.workforce.population, POPULATION, "population_")
+    if model.workforce.kinds.several:
+        arrays |= packed(model.workforce.kinds, KINDS, "kinds_")
     if model.footing is not None:
         prints = model.footing.prints
         plain["prints"] = PRINTS[: prints.shape[-1]].tolist()
@@ -284,17 +288,30 @@ class _Parts:
         effects = self.own.array("effects", "W", "K")
         known = "doubt" in self.own  # a library of before says nothing of it
         doubt = self.own.array("doubt", "W", "K", low=0.0) if known else np.zeros_like(effects)
+        kinds = self._kinds()
         return Workforce(
             self._normal("between"),
             self._normal("within"),
             tuple(str(name) for name in self.plain["workers"]),
             effects,
             doubt,
+            kinds,
             self._smoothed() if "smoothed_scores" in self.own else None,
             str(self.plain.get("group", self.plain["report"]["source"])),
             self._told() if "covariates" in self.plain else None,
-            self._population() if "population_rows" in self.own else None,
+            self._population(kinds) if "population_rows" in self.own else None,
         )
+
+    def _kinds(self) -> Kinds:
+        """All of one kind in a library that says nothing of kinds."""
+        if "kinds_of" not in self.own:
+            n_workers = self.own.letters["W"]
+            return Kinds(np.zeros(n_workers, int), np.zeros((n_workers, self.own.letters["K"])))
+        found = Kinds(**self.own.record(KINDS, "kinds_"))
+        if found.of.dtype.kind != "i" or set(found.of.tolist()) != set(range(int(found.of.max()) + 1)):
+            numbers = f"found {found.of.tolist()}, expected whole numbers from 0, none left out"
+            raise ValueError(f"{self.task}/kinds_of: {numbers}")
+        return found
 
     def _told(self) -> Told:
         head = "covariates_"
@@ -306,7 +323,7 @@ class _Parts:
             )
         return Told(model, self.own.array("told_fitted", "W", "K"))
 
-    def _population(self) -> Population:
+    def _population(self, kinds: Kinds) -> Population:
         curves, bones = (
             np.concatenate([np.full(n, block in names) for block, n in self.size.items()])
             for names in (CURVES, ("bones",))
@@ -314,7 +331,7 @@ class _Parts:
         table = {name: shape for name, shape in POPULATION.items() if name != "fine" or "population_fine" in self.own}
         found = self.own.record(table, "population_")
         fine = found.get("fine", np.zeros_like(found["rows"]))  # libraries of before have none
-        return Population(found["rows"], self.own.shares("population_drawn_in", "K"), fine, curves, bones)
+        return Population(found["rows"], self.own.shares("population_drawn_in", "K"), fine, curves, bones, kinds)
 
     def _normal(self, name: str) -> LowRankNormal:
         found, rho = self.own.record(NORMAL, f"{name}_"), self.own.number("rho", self.plain["rho"][name])

@@ -17,6 +17,7 @@ from functools import lru_cache
 import numpy as np
 
 from emulator.model.smoothed import Bands
+from emulator.people.kinds import Kinds
 
 N_SIZES, LARGEST_SIZE = 8, 3.0
 BODY_SHARE = 0.1
@@ -33,6 +34,7 @@ class Population:
     curves   : (K,) coordinates that say curves over time: only the smooth part of a deviation is of the size, since
                nobody's fine detail is to be made larger
     bones    : (K,) coordinates whose deviations are of size 1
+    kinds    : whose means people deviate from
     """
 
     rows: np.ndarray
@@ -40,14 +42,15 @@ class Population:
     fine: np.ndarray
     curves: np.ndarray
     bones: np.ndarray
+    kinds: Kinds
 
     @classmethod
-    def fit(cls, between: np.ndarray, curves: Sequence[tuple[slice, Bands]], bones: slice) -> Population:
-        """From rows (W, K) whose product is the covariance between people.
+    def fit(cls, between: np.ndarray, curves: Sequence[tuple[slice, Bands]], bones: slice, kinds: Kinds) -> Population:
+        """From rows (W, K) whose product is the covariance between people of one kind.
 
         curves : where these blocks lie, and how they are smoothed; bones : where this block lies
         """
-        share = noise_share(len(between))
+        share = noise_share(kinds.n_free)
         rows, fine = np.sqrt(share) * between, np.zeros_like(between)
         at_curves, at_bones = np.zeros((2, between.shape[1]), bool)
         drawn_in = np.full(between.shape[1], np.sqrt(1.0 - share))
@@ -58,21 +61,23 @@ class Population:
             fine[:, at] = bands.times(between[:, at], whole - np.sqrt(1.0 - share))
         at_bones[bones], drawn_in[bones] = True, np.sqrt(1.0 - BODY_SHARE)
         rows[:, bones] = np.sqrt(BODY_SHARE) * between[:, bones]
-        return cls(rows, drawn_in, fine, at_curves, at_bones)
+        return cls(rows, drawn_in, fine, at_curves, at_bones, kinds)
 
     @property
     def sizes(self) -> np.ndarray:
         """(A,) equally likely sizes."""
-        return predictive_sizes(len(self.rows))
+        return predictive_sizes(self.kinds.n_free)
 
     def deviations(self, own: np.ndarray, left: np.ndarray | float = 1.0) -> np.ndarray:
-        """(A, W, K) deviations of people like each of the recorded ones, from theirs, own (W, K), at each size.
+        """(A, W, K) deviations of people like each of the recorded ones from the mean of their kind, at each size.
 
+        own  : (W, K) those of the recorded ones
         left : (K,) what a known body leaves of spreads
         """
-        smooth = self.rows * left * np.sqrt(len(own) / noise_share(len(own)))
+        n = self.kinds.differing
+        smooth = self.rows * left * np.sqrt(n / noise_share(self.kinds.n_free))
         sized = np.where(self.curves, smooth, np.where(self.bones, 0.0, own))
-        fine = self.fine * left * np.sqrt(len(own))
+        fine = self.fine * left * np.sqrt(n)
         return np.asarray((own + (self.sizes[:, None, None] - 1.0) * sized) * self.drawn_in + fine)
 
 

@@ -15,6 +15,7 @@ from emulator.covariates.model import CovariateModel, level_shares, logged
 from emulator.model.gaussian import Law, LowRankNormal
 from emulator.model.joint_coordinates import within_worker
 from emulator.model.smoothed import SmoothedScores
+from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.variance_components import anova
 
@@ -52,9 +53,10 @@ class WorkerEffect:
 class Workforce:
     """Between-worker Gaussian of u, within-worker Gaussian of e, and the people seen in training.
 
-    between, within : LowRankNormal over K coordinates (within has mean 0). Every density keeps their covariances, by
-        which a pace, a duration or a place that is asked for moves z
+    between, within : LowRankNormal over K coordinates (within has mean 0), between of people of one kind. Every density
+        keeps their covariances, by which a pace, a duration or a place that is asked for moves z
     names : W worker names; effects : (W, K) their shrunk means; doubt : (W, K) standard deviations about these
+    kinds : on which sides they do it
     smoothed : the repetitions themselves, blurred, in place of the Gaussian ``within``; None for plain Gaussians
     group : whose names these are: two tasks of one group were done by the same people where names agree
     told : what bodies say of z, or None
@@ -66,6 +68,7 @@ class Workforce:
     names: tuple[str, ...]
     effects: np.ndarray
     doubt: np.ndarray
+    kinds: Kinds
     smoothed: SmoothedScores | None = None
     group: str = ""
     told: Told | None = None
@@ -80,12 +83,16 @@ class Workforce:
         rho_between: float,
         rho_within: float,
         told: Told | None = None,
+        kinds: Kinds | None = None,
     ) -> Workforce:
         """Moment (ANOVA) estimates from z (N, K) and worker_index (N,) into ``names`` (each with a repetition).
 
         told : what bodies say of the workers' means; a known worker is then drawn towards those of his body
+        kinds : of the workers: a known one is then drawn towards the mean of his kind; None: all are of one
         """
-        parts = anova(z, worker_index)
+        kinds = Kinds(np.zeros(len(names), int), np.zeros((len(names), z.shape[1]))) if kinds is None else kinds
+        z = z - kinds.means[worker_index]
+        parts = anova(z, worker_index, kinds.lost)
         means = np.stack([z[worker_index == w].mean(axis=0) for w in range(len(names))])
         centre = means.mean(axis=0)
         residual_df = max(len(z) - len(names), 1)
@@ -96,7 +103,8 @@ class Workforce:
         foretold, left = (centre, np.ones(z.shape[1])) if told is None else (centre + told.fitted, told.left)
         sure = parts.reliability(np.bincount(worker_index), left**2)
         doubt = np.sqrt(parts.between * left**2 * (1.0 - sure))
-        return cls(between, within, names, foretold + sure * (means - foretold), doubt, told=told)
+        effects = foretold + sure * (means - foretold) + kinds.means
+        return cls(between, within, names, effects, doubt, kinds, told=told)
 
     @property
     def has_worker_effect(self) -> bool:
@@ -126,17 +134,24 @@ class Workforce:
             return None
         rows, sizes = self.population.rows, self.population.sizes
         people = LowRankNormal(self.between.mean, rows, np.linalg.norm(rows, axis=0), 0.0)
-        return self.smoothed.population(people, self.population.deviations(self.apart()), sizes)
+        own = self.population.deviations(self.apart()) + self.kinds.means
+        return self.smoothed.population(people, own, sizes)
+
+    @cached_property
+    def own(self) -> np.ndarray:
+        """(W, K) how the known workers differ from the means of their kinds."""
+        return self.effects - self.effects.mean(axis=0) - self.kinds.means
 
     def apart(self, body: Body | None = None) -> np.ndarray:
-        """(W, K) how recorded people deviate, with the variance between people: less what a body tells, if heard of.
+        """(W, K) how recorded people deviate from the means of their kinds, with the variance between people.
 
-        Their means deviate by more, with repetitions' luck in them, and their shrunk means by less.
+        Less what a body tells, if it is heard of. Their means deviate by more, with repetitions' luck in them, and
+        their shrunk means by less; who is alone of a kind does not deviate.
         """
-        own, spread = self.effects - self.effects.mean(axis=0), self.between.spread
+        own, spread = self.own, self.between.spread
         if body is not None and self.told is not None and self.told.hears(body):
             own, spread = own - self.told.fitted, spread * self.told.left
-        return np.sqrt(len(own)) * _between_rows(own, spread**2)
+        return np.sqrt(self.kinds.differing) * _between_rows(own, spread**2)
 
     def somebody(
         self, law: LowRankNormal, body: Body, rng: np.random.Generator, numbers: np.ndarray | None
@@ -161,6 +176,7 @@ class Workforce:
             like = int(np.abs(numbers).argmax())
             xi[: len(numbers)] = numbers
         own = self.population.deviations(self.apart(body), left)[at, like]
+        own = own + self.kinds.means[like]
         return law.mean + own + self.population.sizes[at] * (xi @ rows), self.names[like]
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
@@ -177,8 +193,7 @@ class Workforce:
         So numbers (W,) of a new worker, one for each recorded person, draw the same law as numbers (R,) do. It is the
         polar factor that comes nearest to the people's own deviations (Schoenemann 1966).
         """
-        own = self.effects - self.effects.mean(axis=0)
-        u, _, vt = np.linalg.svd(own @ self.between.factor.T, full_matrices=False)
+        u, _, vt = np.linalg.svd(self.own @ self.between.factor.T, full_matrices=False)
         return np.asarray(u @ vt)
 
     @property
@@ -194,7 +209,7 @@ class Workforce:
         """
         if self.told is None or not self.told.hears(body):
             return self.between
-        own = self.effects - self.effects.mean(axis=0) - self.told.fitted
+        own = self.own - self.told.fitted
         people = _between_rows(own, (self.between.spread * self.told.left) ** 2)
         rows = np.concatenate([people, self.told.unsure_rows(body)])
         mean = self.between.mean + self.told.model.predict(body, outside)

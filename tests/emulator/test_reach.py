@@ -13,7 +13,7 @@ from emulator import MotionEmulator, Target
 from emulator.model import reach_emulator
 from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_law import JointLaw
-from emulator.model.reach import SURE, LocalRegression, derivative, held, reached_law
+from emulator.model.reach import SURE, LocalRegression, _least_sure, derivative, held, reached_law
 from emulator.model.targets import HandPlaces
 from emulator.synthetic.shelf import MARK, crew, make_shelf, median_duration_s
 from tests.emulator.fitted import made
@@ -343,9 +343,18 @@ def test_what_places_tell_by_luck_alone_is_seldom_believed():
     rng = np.random.default_rng(8)
     place = rng.normal(size=(20, 3))
     z = np.column_stack([place[:, 0] + 0.5 * rng.normal(size=20), rng.normal(size=(20, 200))])
-    lenient, strict = (LocalRegression(z, place).shrunk(sure).trust for sure in (0.0, SURE))
+    lenient, strict = (LocalRegression(z, place).shrunk(sure).trust for sure in (None, SURE))
     assert strict[0] > 0.7
     assert np.mean(strict[1:] > 0) <= 0.02 < 0.05 < np.mean(lenient[1:] > 0)
+
+
+def test_what_hangs_on_one_recording_is_not_believed():
+    """The least sure of all that is left when one is put aside, one by one."""
+    rng = np.random.default_rng(9)
+    gain = rng.normal(1.0, 2.0, size=(17, 5))
+    sure = [np.delete(gain, i, axis=0) for i in range(len(gain))]
+    each = [one.mean(axis=0) / (one.std(axis=0, ddof=1) / np.sqrt(len(one))) for one in sure]
+    np.testing.assert_allclose(_least_sure(gain), np.min(each, axis=0), rtol=1e-12)
 
 
 def with_step(motion):

@@ -114,7 +114,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m motion_evidence.reach", description=__doc__)
     parser.add_argument("classes", nargs="*", metavar="CLASS")
     parser.add_argument("--joint", default="right_wrist")
-    parser.add_argument("--most", type=int, default=12, help="recordings of a class that are left out")
+    parser.add_argument("--most", type=int, default=41, help="recordings of a class that are left out")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--family", action="store_true", help="the classes as one family, at heights from 0.3 to 1.7 m")
     options = parser.parse_args(arguments)
