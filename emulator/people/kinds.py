@@ -1,7 +1,7 @@
 """Kinds of people: who does a task with the other hand, or steps with the other foot, has no mean with the rest.
 
-Two people do it on different sides if the mirror image of one mean movement is much nearer to the other one than
-the movement itself is. New people then do it on one of the sides, as often as recorded ones do, and differ from those of
+Two people do it on different sides if the mirror image of one mean movement is much nearer to the other one than the
+movement itself is. New people then do it on one of the sides, as often as recorded ones do, and differ from those of
 that side as people of one side do.
 """
 
