@@ -245,7 +245,8 @@ class MotionSet:
     @property
     def worker_index(self) -> np.ndarray:
         """(N,) number of each motion's worker in ``workers``."""
-        return np.array([self.workers.index(motion.worker) for motion in self.motions])
+        number = {name: i for i, name in enumerate(self.workers)}
+        return np.array([number[motion.worker] for motion in self.motions])
 
     @property
     def duration_s(self) -> np.ndarray:

@@ -57,7 +57,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     parts = parts_of(made, settings)
     curves = _curves(parts)
     kinds = _kinds(parts, made.moving, settings)
-    alike = replace(parts, z=parts.z - kinds.means[made.moving.worker_index])
+    alike = replace(parts, z=parts.z - kinds.shift[made.moving.worker_index])
     covariates = covariates_of(alike, made.moving, settings.covariates)
     crew = _crew(parts, made.moving, covariates, kinds)
     model = MotionEmulator(
@@ -78,7 +78,7 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         parts.dwells,
         parts.footing,
     )
-    if _is_gaussian(parts, crew, settings):
+    if _is_gaussian(parts, len(crew.names), settings):
         return model
     crews = ((noise, _blurred(crew, parts, made.moving, covariates, curves, *noise)) for noise in NOISES)
     own, model = naturally(((noise, replace(model, workforce=blurred)) for noise, blurred in crews), motions)
@@ -95,20 +95,20 @@ def _crew(parts: Parts, motions: MotionSet, covariates: Covariates, kinds: Kinds
 
 
 def _kinds(parts: Parts, motions: MotionSet, settings: FitSettings) -> Kinds:
-    """Of the workers by their movements; curves depend on it, bones and times do not. A Gaussian knows one kind."""
+    """The kind of each worker; postures, paths and paces depend on it, bones and times do not. A Gaussian has one."""
     index, n_workers = motions.worker_index, len(motions.workers)
     means = np.stack([parts.z[index == w].mean(axis=0) for w in range(n_workers)])
-    if settings.scheme.endswith("/MVG"):
-        return Kinds(np.zeros(n_workers, int), np.zeros_like(means))
+    if _is_gaussian(parts, n_workers, settings):
+        return Kinds.one(*means.shape)
     differ = np.zeros(means.shape[1], bool)
     for name in CURVES:
         differ[parts.scale.block(name)] = True
     return Kinds.fit(kinds_of(motions), means, differ)
 
 
-def _is_gaussian(parts: Parts, crew: Workforce, settings: FitSettings) -> bool:
+def _is_gaussian(parts: Parts, n_workers: int, settings: FitSettings) -> bool:
     """Whether Gaussians were asked for, or nothing varies within workers."""
-    return settings.scheme.endswith("/MVG") or len(parts.z) == len(crew.names) or parts.posture.n_components == 0
+    return settings.scheme.endswith("/MVG") or len(parts.z) == n_workers or parts.posture.n_components == 0
 
 
 def _blurred(

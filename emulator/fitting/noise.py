@@ -72,7 +72,7 @@ def with_population(
 def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float) -> Population:
     """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
     crew, scale = model.workforce, model.scale
-    between = crew.apart() / np.sqrt(crew.kinds.differing)
+    between = crew.apart() / np.sqrt(crew.kinds.n_not_alone)
     bands = [(curve.at, Bands.of(between[:, curve.at], curve, stiffness)) for curve in curves]
     return Population.fit(between, bands, scale.block("bones"), crew.kinds)
 

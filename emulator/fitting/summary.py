@@ -111,8 +111,8 @@ ALONE_NOTE = (
     "this one does"
 )
 KINDS_NOTE = (
-    "the people do this on {} sides, as with the left or the right hand or foot: {}; a new worker does it on one of "
-    "them, as often as these do, and differs from them as people of one side differ"
+    "the people do this on {} sides, as with the left or the right hand or foot ({}): a new worker does it on one of "
+    "them, as often as these do"
 )
 UNUSED_NOTE = "columns that nothing here uses: {}; --covariate NAME explains by one how people differ"
 ALIKE_NOTE = (
@@ -184,8 +184,8 @@ def _kinds(workforce: Workforce) -> tuple[str, ...]:
     names, kinds = np.array(workforce.names), workforce.kinds.of
     if not workforce.kinds.several:
         return ()
-    sides = [" and ".join(names[kinds == kind]) for kind in range(kinds.max() + 1)]
-    return (KINDS_NOTE.format(len(sides), "; ".join(sides)),)
+    sides = [", ".join(names[kinds == kind]) for kind in range(kinds.max() + 1)]
+    return (KINDS_NOTE.format(len(sides), " | ".join(sides)),)
 
 
 def _unused(whole: MotionSet, settings: FitSettings) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ def mean_performance(model: Any, worker: str | WorkerEffect | None = None) -> An
 def mean_of(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> MeanPerformance:
     """Mean posture, path, pace, marks and bones after registration, at the mean duration.
 
-    worker : as for ``MotionEmulator.sample``: whose mean; None: over the population
+    worker : as for ``MotionEmulator.sample``: whose mean; None: over the population, of the kind of most people
     A mean of sequences that are not registered would be blunt: one person's lowest point meets another's way up. At a
     site of pauses it holds for the mean of all dwells, also of those who do not pause: 1.2 s in 40 % are 0.48 s.
     Raises ValueError for an unknown worker.
@@ -73,6 +73,8 @@ def mean_of(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> 
     effect = model.known_worker(worker) if isinstance(worker, str) else worker
     law = model.law(effect)
     z = law.weight @ law.mean + (law.centre if law.people is None else law.people.mean)
+    if effect is None:
+        z = z + model.workforce.kinds.most_frequent_shift
     dwell_s = _mean_dwell_s(model, law)
     _put(z, model, "dwells", _NO_PAUSE)
     moving_s = model.mean_duration_s(effect) - dwell_s.sum()

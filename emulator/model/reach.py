@@ -182,8 +182,8 @@ class LocalRegression:
     def shrunk(self, sure: float | None = None) -> LocalRegression:
         """Of which no more is believed than left-out recordings bear out: the slope of z on what is foretold, 0 to 1.
 
-        And nothing where places do not foretell them better than the mean does, by ``sure`` standard errors whichever
-        one recording is put aside: what hangs on one of them is not believed.
+        And nothing where places do not foretell them better than the mean does: by ``sure`` standard errors, also
+        without the gain of any single recording, since what hangs on one is not believed; None: at all.
         Source: van Houwelingen & le Cessie (1990), shrinkage by cross-validation.
         """
         n, apart, left_out = len(self.z), self.z - self.z.mean(axis=0), self._left_out()
@@ -203,8 +203,10 @@ class LocalRegression:
 def _least_sure(gain: np.ndarray) -> np.ndarray:
     """(K,) means of gains (N, K) in their standard errors, the least with any one recording put aside."""
     n = len(gain) - 1
+    if n < 3:  # of so few nothing is sure
+        return np.full(gain.shape[1], -np.inf)
     mean = (gain.sum(axis=0) - gain) / n
-    square = np.maximum((np.sum(gain**2, axis=0) - gain**2) / n - mean**2, 0.0) * n / max(n - 1, 1)
+    square = np.maximum((np.sum(gain**2, axis=0) - gain**2) / n - mean**2, 0.0) * n / (n - 1)
     return np.asarray(np.min(mean / np.maximum(np.sqrt(square / n), 1e-12), axis=0))
 
 

@@ -5,7 +5,7 @@ On the way back every value and array is doubted.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -34,7 +34,7 @@ CURVE = {"mean": ("C",), "basis": ("R", "C")}
 DWELLS = {"clock": ("S",), "zero_share": ("S",), "mark_share": ("E", "S")}
 NORMAL = {"mean": ("K",), "factor": ("R", "K"), "spread": ("K",)}
 POPULATION = {"rows": ("W", "K"), "drawn_in": ("K",), "fine": ("W", "K")}
-KINDS = {"of": ("W",), "means": ("W", "K")}
+KINDS = {"of": ("W",), "shift": ("W", "K")}
 SMOOTHED = {
     "scores": ("N", "K"), "owner": ("N",), "reach": ("N",), "factor": ("R", "K"), "spread": ("K",),
     "left": ("N", "K"), "tells": ("curves", "others"),
@@ -305,12 +305,12 @@ class _Parts:
     def _kinds(self) -> Kinds:
         """All of one kind in a library that says nothing of kinds."""
         if "kinds_of" not in self.own:
-            n_workers = self.own.letters["W"]
-            return Kinds(np.zeros(n_workers, int), np.zeros((n_workers, self.own.letters["K"])))
-        found = Kinds(**self.own.record(KINDS, "kinds_"))
-        if found.of.dtype.kind != "i" or set(found.of.tolist()) != set(range(int(found.of.max()) + 1)):
-            numbers = f"found {found.of.tolist()}, expected whole numbers from 0, none left out"
-            raise ValueError(f"{self.task}/kinds_of: {numbers}")
+            return Kinds.one(self.own.letters["W"], self.own.letters["K"])
+        found = Kinds(**self.own.record(KINDS, "kinds_"), differ=self._among(CURVES))
+        numbers = found.of.tolist()
+        if found.of.dtype.kind != "i" or set(numbers) != set(range(max(numbers) + 1)) or found.alone.all():
+            wrong = f"found {numbers}, expected whole numbers from 0, none left out and one of them twice"
+            raise ValueError(f"{self.task}/kinds_of: {wrong}")
         return found
 
     def _told(self) -> Told:
@@ -324,14 +324,15 @@ class _Parts:
         return Told(model, self.own.array("told_fitted", "W", "K"))
 
     def _population(self, kinds: Kinds) -> Population:
-        curves, bones = (
-            np.concatenate([np.full(n, block in names) for block, n in self.size.items()])
-            for names in (CURVES, ("bones",))
-        )
+        curves, bones = self._among(CURVES), self._among(("bones",))
         table = {name: shape for name, shape in POPULATION.items() if name != "fine" or "population_fine" in self.own}
         found = self.own.record(table, "population_")
         fine = found.get("fine", np.zeros_like(found["rows"]))  # libraries of before have none
         return Population(found["rows"], self.own.shares("population_drawn_in", "K"), fine, curves, bones, kinds)
+
+    def _among(self, blocks: Sequence[str]) -> np.ndarray:
+        """(K,) which coordinates are of these blocks."""
+        return np.concatenate([np.full(n, block in blocks) for block, n in self.size.items()])
 
     def _normal(self, name: str) -> LowRankNormal:
         found, rho = self.own.record(NORMAL, f"{name}_"), self.own.number("rho", self.plain["rho"][name])

@@ -52,7 +52,7 @@ def new_worker(
     if rng is not None:
         return _drawn(model, rng, known, people, None, outside)
     law = model.workforce.about(known, outside)
-    return _as_asked(model, law.mean, law, known, outside)
+    return _as_asked(model, law.mean + model.workforce.kinds.most_frequent_shift, law, known, outside)
 
 
 def body_keys(model: MotionEmulator) -> tuple[str, ...]:

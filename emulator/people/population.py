@@ -74,7 +74,7 @@ class Population:
         own  : (W, K) those of the recorded ones
         left : (K,) what a known body leaves of spreads
         """
-        n = self.kinds.differing
+        n = self.kinds.n_not_alone
         smooth = self.rows * left * np.sqrt(n / noise_share(self.kinds.n_free))
         sized = np.where(self.curves, smooth, np.where(self.bones, 0.0, own))
         fine = self.fine * left * np.sqrt(n)

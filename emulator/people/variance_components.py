@@ -37,10 +37,10 @@ class Anova:
         return np.where(between > 0, between / np.maximum(between + noise, 1e-300), 0.0)
 
 
-def anova(values: np.ndarray, worker_index: np.ndarray, lost: np.ndarray | int = 0) -> Anova:
+def anova(values: np.ndarray, worker_index: np.ndarray, df_lost: np.ndarray | int = 0) -> Anova:
     """Mean squares of values (N, K) between and within workers; all zero between where there is one worker.
 
-    lost : (K,) degrees of freedom between workers that are gone, as means of kinds of workers were taken off the values
+    df_lost : (K,) degrees of freedom between workers that went with the means of kinds of workers
     Source: Searle, Casella & McCulloch, Variance Components, sec. 3.6 (unbalanced one-way, moment estimator).
     """
     counts = np.bincount(worker_index)
@@ -50,7 +50,7 @@ def anova(values: np.ndarray, worker_index: np.ndarray, lost: np.ndarray | int =
     explained = values - residual - values.mean(axis=0)
     size = (n - np.sum(counts**2) / n) / (w - 1) if w > 1 else 1.0
     within = np.sum(residual**2, axis=0) / max(n - w, 1)
-    between = np.sum(explained**2, axis=0) / (w - 1 - lost) if w > 1 else np.zeros(values.shape[1])
+    between = np.sum(explained**2, axis=0) / (w - 1 - df_lost) if w > 1 else np.zeros(values.shape[1])
     return Anova(between, within, float(size), w - 1, n - w)
 
 

@@ -87,12 +87,14 @@ class Workforce:
     ) -> Workforce:
         """Moment (ANOVA) estimates from z (N, K) and worker_index (N,) into ``names`` (each with a repetition).
 
-        told : what bodies say of the workers' means; a known worker is then drawn towards those of his body
-        kinds : of the workers: a known one is then drawn towards the mean of his kind; None: all are of one
+        told : what bodies say of the workers' means; a known worker is then drawn towards those of such a body
+        kinds : of the workers: a known one is then drawn towards the mean of that kind; None: all are of one
         """
-        kinds = Kinds(np.zeros(len(names), int), np.zeros((len(names), z.shape[1]))) if kinds is None else kinds
-        z = z - kinds.means[worker_index]
-        parts = anova(z, worker_index, kinds.lost)
+        kinds = Kinds.one(len(names), z.shape[1]) if kinds is None else kinds
+        z = z - kinds.shift[worker_index]
+        if told is not None:
+            told = replace(told, fitted=told.fitted - kinds.shifts(told.fitted))
+        parts = anova(z, worker_index, kinds.df_lost)
         means = np.stack([z[worker_index == w].mean(axis=0) for w in range(len(names))])
         centre = means.mean(axis=0)
         residual_df = max(len(z) - len(names), 1)
@@ -103,7 +105,9 @@ class Workforce:
         foretold, left = (centre, np.ones(z.shape[1])) if told is None else (centre + told.fitted, told.left)
         sure = parts.reliability(np.bincount(worker_index), left**2)
         doubt = np.sqrt(parts.between * left**2 * (1.0 - sure))
-        effects = foretold + sure * (means - foretold) + kinds.means
+        luck = np.sqrt(parts.within_square / np.bincount(worker_index)[:, None])
+        doubt = np.where(kinds.alone[:, None] & kinds.differ, luck, doubt)
+        effects = foretold + sure * (means - foretold) + kinds.shift
         return cls(between, within, names, effects, doubt, kinds, told=told)
 
     @property
@@ -134,13 +138,13 @@ class Workforce:
             return None
         rows, sizes = self.population.rows, self.population.sizes
         people = LowRankNormal(self.between.mean, rows, np.linalg.norm(rows, axis=0), 0.0)
-        own = self.population.deviations(self.apart()) + self.kinds.means
+        own = self.population.deviations(self.apart()) + self.kinds.shift
         return self.smoothed.population(people, own, sizes)
 
     @cached_property
-    def own(self) -> np.ndarray:
+    def from_kind(self) -> np.ndarray:
         """(W, K) how the known workers differ from the means of their kinds."""
-        return self.effects - self.effects.mean(axis=0) - self.kinds.means
+        return self.effects - self.effects.mean(axis=0) - self.kinds.shift
 
     def apart(self, body: Body | None = None) -> np.ndarray:
         """(W, K) how recorded people deviate from the means of their kinds, with the variance between people.
@@ -148,10 +152,10 @@ class Workforce:
         Less what a body tells, if it is heard of. Their means deviate by more, with repetitions' luck in them, and
         their shrunk means by less; who is alone of a kind does not deviate.
         """
-        own, spread = self.own, self.between.spread
+        own, spread = self.from_kind, self.between.spread
         if body is not None and self.told is not None and self.told.hears(body):
             own, spread = own - self.told.fitted, spread * self.told.left
-        return np.sqrt(self.kinds.differing) * _between_rows(own, spread**2)
+        return np.sqrt(self.kinds.n_not_alone) * _between_rows(own, spread**2)
 
     def somebody(
         self, law: LowRankNormal, body: Body, rng: np.random.Generator, numbers: np.ndarray | None
@@ -176,7 +180,7 @@ class Workforce:
             like = int(np.abs(numbers).argmax())
             xi[: len(numbers)] = numbers
         own = self.population.deviations(self.apart(body), left)[at, like]
-        own = own + self.kinds.means[like]
+        own = own + self.kinds.shift[like]
         return law.mean + own + self.population.sizes[at] * (xi @ rows), self.names[like]
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
@@ -193,7 +197,7 @@ class Workforce:
         So numbers (W,) of a new worker, one for each recorded person, draw the same law as numbers (R,) do. It is the
         polar factor that comes nearest to the people's own deviations (Schoenemann 1966).
         """
-        u, _, vt = np.linalg.svd(self.own @ self.between.factor.T, full_matrices=False)
+        u, _, vt = np.linalg.svd(self.from_kind @ self.between.factor.T, full_matrices=False)
         return np.asarray(u @ vt)
 
     @property
@@ -209,7 +213,7 @@ class Workforce:
         """
         if self.told is None or not self.told.hears(body):
             return self.between
-        own = self.own - self.told.fitted
+        own = self.from_kind - self.told.fitted
         people = _between_rows(own, (self.between.spread * self.told.left) ** 2)
         rows = np.concatenate([people, self.told.unsure_rows(body)])
         mean = self.between.mean + self.told.model.predict(body, outside)

@@ -91,7 +91,7 @@ def test_noise_and_what_is_left_of_recordings_add_up_in_each_band_and_fine_detai
 def test_people_keep_their_fine_detail_and_all_their_variance():
     rng = np.random.default_rng(2)
     curve, between = Curves(slice(0, 3), np.ones(3), np.diag([0.01, 1.0, 1e6])), rng.normal(size=(4, 5))
-    one = Kinds(np.zeros(4, int), np.zeros_like(between))
+    one = Kinds.one(*between.shape)
     law = Population.fit(between, [(curve.at, Bands.of(between[:, :3], curve, 4.0))], slice(4, 5), one)
     alike = law.drawn_in * between + law.fine
     assert np.allclose(np.sum(alike**2 + law.rows**2, axis=0), np.sum(between**2, axis=0))
