@@ -1,4 +1,4 @@
-"""Whoever does a task with the other hand has no mean with the rest: known answers, and a made task."""
+"""People who do a task with the other hand are of a kind of their own: known answers, and a made task."""
 
 from dataclasses import replace
 
