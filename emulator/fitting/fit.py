@@ -80,8 +80,8 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     )
     if _is_gaussian(parts, len(crew.names), settings):
         return model
-    crews = ((noise, _blurred(crew, parts, made.moving, covariates, curves, *noise)) for noise in NOISES)
-    own, model = naturally(((noise, replace(model, workforce=blurred)) for noise, blurred in crews), motions)
+    crews = [(noise, _blurred(crew, parts, made.moving, covariates, curves, *noise)) for noise in NOISES]
+    own, model = naturally([(noise, replace(model, workforce=blurred)) for noise, blurred in crews], motions)
     between, model = with_population(model, curves, motions)
     report = summary(made, parts, model.workforce, settings, covariates.lines)
     return replace(model, report=replace(report, methods=report.methods | {"stiffness": stiffness_said(own, between)}))

@@ -1,13 +1,13 @@
 """How far draws go from what was recorded: as far as their movements stay ones that a body makes.
 
-The less stiff the noise, the farther a draw lies from every recording, and the rougher and slower it moves; where
-these meet differs from task to task. So both laws, of a worker's repetitions and of new people, are tried from the
+The farther a draw lies from every recording, the rougher and slower it moves; how far it may go differs from task to
+task. So the laws of a worker's repetitions are tried from the one that goes farthest on, those of new people from the
 least stiff on, and the first is taken whose draws are about as smooth and as quick as the recordings.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -17,14 +17,14 @@ from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.joint_speeds import median_speed_ratio, peak_ratio, share_too_fast
 from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
-from emulator.model.smoothed import MOST_NOISE, Bands, Curves
+from emulator.model.smoothed import MOST_NOISE, Bands, Curves, distance_to_recordings
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
 STIFFNESSES = (4.0, 16.0, 64.0, 256.0)
 """How much smoother than the recordings the noise about them may be, to choose from."""
 NOISES = tuple((stiffness, most) for stiffness in STIFFNESSES for most in MOST_NOISE)
-"""With how much of a curve's variance it may be: much of stiff noise is farther from recordings than little is."""
+"""With how much of a curve's variance it may be: much of stiff noise is often farther off than little that is not."""
 PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
@@ -41,8 +41,8 @@ Noise = tuple[float, float]
 Tried = TypeVar("Tried", float, Noise)
 
 
-def naturally(models: Iterable[tuple[Noise, MotionEmulator]], motions: MotionSet) -> tuple[Noise, MotionEmulator]:
-    """Of models from the least stiff on the first whose draws of known people are smooth enough; else the last."""
+def naturally(models: Sequence[tuple[Noise, MotionEmulator]], motions: MotionSet) -> tuple[Noise, MotionEmulator]:
+    """Of models whose draws of known people are smooth enough what goes farthest; where none are, what goes least."""
     each = -(-N_DRAWN // len(motions))
 
     def alike(model: MotionEmulator) -> MotionPerformances:
@@ -50,7 +50,13 @@ def naturally(models: Iterable[tuple[Noise, MotionEmulator]], motions: MotionSet
         scores = [model.sample(each, rng, worker=motion.worker).scores for motion in motions.motions]
         return model.performances(np.concatenate(scores))
 
-    return _first(models, alike, motions, MOST_JERK, MOST_FAST)
+    return _first(sorted(models, key=lambda tried: -_far(tried[1])), alike, motions, MOST_JERK, MOST_FAST)
+
+
+def _far(model: MotionEmulator) -> float:
+    """Median distance of postures drawn about the recordings to the nearest of them; 0 where nothing is blurred."""
+    smoothed, at = model.workforce.smoothed, model.scale.block("posture")
+    return 0.0 if smoothed is None else distance_to_recordings(smoothed, at, model.scale.spread[at])
 
 
 def with_population(

@@ -89,8 +89,8 @@ SMOOTHED = (
 )
 STIFFNESS = (
     "noise {:g} times as smooth as what recordings of one worker differ by, at most {:.0f} % of the variance of "
-    "postures and {:.0f} % of that of paths and paces{}: the least smooth tried at which draws jerk no "
-    "more than {:g} times as hard as the recordings and are as quick, or the smoothest"
+    "postures and {:.0f} % of that of paths and paces{}: of those tried what goes farthest from the "
+    "recordings while draws jerk no more than {:g} times as hard as they do and are as quick, or else the least far"
 )
 STIFFNESS_PEOPLE = ", that between people {:g} times as smooth as what they differ by"
 POSTURE_SIZE = "all that say more than 0.1 degrees a bone"

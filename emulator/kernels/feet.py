@@ -12,8 +12,13 @@ from emulator.kernels.bodies import stand
 from emulator.kernels.compiled import compiled
 from emulator.kernels.legs import bend_of, hip_to_ankle, left_over, turned_height
 
-SETTLING = 3
-"""So often the root follows what its legs are too straight or too short to do."""
+SETTLING, BALANCING = 3, 2
+"""So often the root follows what its legs are too straight or too short to do, and moves over the feet."""
+ROOT_S, FEET_S = 0.15, 0.06
+"""Standard deviations of the Gaussians that smooth what the root does for planted feet, and what lifts or balances.
+A root that follows feet more closely shakes all above it wherever a drawn foot comes to stand or leaves."""
+CARRY_S = 0.08
+"""And of the one by which a foot takes over what it carries."""
 FRAME_S = (1.0 - 1e-9) / 30.0
 """Speeds are those between frames of a camera; a hair less, so that points which come at that rate are taken."""
 MOST = {"nnan", "nsz", "contract"}
@@ -176,13 +181,13 @@ def fastest_joint(bodies, shift, time_s):
 
 
 @compiled(error_model="numpy", nogil=True)
-def mean_move(moves, weight, narrow, raw, out):
+def mean_move(moves, weight, slow, raw, out):
     """Writes the smooth mean out (3, T) of the moves (2, 3 or more, T) of two feet by their weights (2, T)."""
     for c in range(3):
         for t in range(raw.size):
             mean = weight[0, t] * moves[0, c, t] + weight[1, t] * moves[1, c, t]
             raw[t] = mean / (weight[0, t] + weight[1, t])
-        smooth(raw, narrow, out[c])
+        smooth(raw, slow, out[c])
 
 
 @compiled(error_model="numpy", nogil=True)
@@ -196,7 +201,7 @@ def add(out, by, more):
 @compiled(error_model="numpy", nogil=True)
 def carrying(standing, point_s, raw, weight):
     """How much each foot carries, weight (2, T), that stands where standing (2, T) says; points point_s apart."""
-    wide = bell(max(0.08 / point_s, 0.3))
+    wide = bell(max(CARRY_S / point_s, 0.3))
     for f in range(2):
         ever, always = False, True
         for t in range(standing.shape[1]):
@@ -326,7 +331,7 @@ def footed(
     for i in range(n):
         hung(directions[i], length_m[i], chain, path[i], cosine, sine, bodies, lowest)
         point_s = time_s[i, n_times - 1] / (n_times - 1)
-        narrow = bell(max(0.06 / point_s, 0.3))
+        narrow, slow = bell(max(FEET_S / point_s, 0.3)), bell(max(ROOT_S / point_s, 0.3))
         carrying(standing[i], point_s, raw, weight)
         n_standing = 0
         for f in range(2):
@@ -341,7 +346,7 @@ def footed(
                     moves[f, 2, t] += lift[t]
         shift[:] = 0.0
         if n_standing > 0:
-            mean_move(moves, weight, narrow, raw, shift)
+            mean_move(moves, weight, slow, raw, shift)
             for f in range(2):
                 add(moves[f], -1.0, shift)
         if n_standing > 0 and bend:
@@ -350,23 +355,24 @@ def footed(
             for _ in range(SETTLING):
                 for f in range(2):
                     left_over(moves[f], legs_m[f], follow[f], legs[f], length_m[i], left[f])
-                mean_move(left, weight, narrow, raw, more)
+                mean_move(left, weight, slow, raw, more)
                 add(shift, 1.0, more)
                 for f in range(2):
                     add(moves[f], -1.0, more)
-            if mass.size > 0:
+            for _ in range(BALANCING if mass.size > 0 else 0):
                 for f in range(2):
                     for c in range(2):
                         for t in range(n_times):
                             half = 0.5 * foot_m[f, t] * (toward[f, c, t] + moves[f, 3 + c, t])
                             places[f, c, t] = bodies[t, feet[f, 0], c] + moves[f, c, t] + half
-                if held_up(bodies, mass, places, weight, stray_m[i], more):
-                    for c in range(2):
-                        smooth(more[c], narrow, raw)
-                        more[c] = raw
-                    add(shift, 1.0, more[:2])
-                    for f in range(2):
-                        add(moves[f], -1.0, more[:2])
+                if not held_up(bodies, mass, places, weight, stray_m[i], more):
+                    break
+                for c in range(2):
+                    smooth(more[c], narrow, raw)
+                    more[c] = raw
+                add(shift, 1.0, more[:2])
+                for f in range(2):
+                    add(moves[f], -1.0, more[:2])
             for f in range(2):
                 left_over(moves[f], legs_m[f], follow[f], legs[f], length_m[i], left[f])
         for t in range(n_times):

@@ -322,9 +322,10 @@ class Footing:
     def _pointed(self) -> np.ndarray:
         return pointed(self.prints)
 
-    def nearest(self, postures: np.ndarray) -> np.ndarray:
-        """(n,) numbers of the recordings whose coefficients are nearest to postures (n, P)."""
-        square = np.sum(self.postures**2, axis=1) - 2 * postures @ self.postures.T
+    def nearest(self, postures: np.ndarray, whitening: np.ndarray | None = None) -> np.ndarray:
+        """(n,) the recordings whose coefficients are nearest to postures (n, P), both times ``whitening`` (P, P)."""
+        own, known = (rows if whitening is None else rows @ whitening for rows in (postures, self.postures))
+        square = np.sum(known**2, axis=1) - 2 * own @ known.T
         return np.asarray(square.argmin(axis=1))
 
     def stance(self, near: np.ndarray, leg_m: np.ndarray) -> Stance:

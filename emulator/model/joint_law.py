@@ -25,6 +25,8 @@ from emulator.skeleton import Skeleton
 SLOPE_ROOM = np.log(1.2)
 FASTER = 1.07
 _N_HERMITE = 20
+LEAST_NOISE = 0.01
+"""Share of its mean variance that noise of postures is taken to have along each axis, where it is asked whose it is."""
 AT_ONCE = 64
 """Components of a law whose moments are made at a time."""
 
@@ -105,6 +107,24 @@ class JointLaw:
         return np.minimum(
             np.maximum(self.pace.inverse(self.scale.raw(scores, "pace")), self.slope_limits[0]), self.slope_limits[1]
         )
+
+    @cached_property
+    def whitening(self) -> np.ndarray | None:
+        """(P, P) to coefficients of posture in which noise moves a draw as far in all directions; None without noise.
+
+        There a draw is nearest to the recording that it took its fine detail from (Mahalanobis 1936). As they are, most
+        are nearest to recordings in the middle, since noise takes the place of much of a deviation.
+        """
+        smoothed = self.workforce.smoothed
+        if smoothed is None:
+            return None
+        block = self.scale.block("posture")
+        rows = smoothed.factor[:, block] * self.scale.spread[block]
+        variance = rows.T @ rows
+        least = LEAST_NOISE * np.trace(variance) / max(len(variance), 1)
+        if not least > 0.0:
+            return None
+        return np.asarray(np.linalg.cholesky(np.linalg.inv(variance + least * np.eye(len(variance)))))
 
     @cached_property
     def slope_limits(self) -> np.ndarray:

@@ -224,7 +224,8 @@ class MotionPerformances(Performances):
 
     def _stands_as(self, posture: np.ndarray, root: np.ndarray) -> np.ndarray:
         """(n,) the recordings as which bodies stand that have coefficients of posture (n, P) and of root (n, R)."""
-        return np.zeros(len(self), int) if self.model.footing is None else self.model.footing.nearest(posture)
+        footing = self.model.footing
+        return np.zeros(len(self), int) if footing is None else footing.nearest(posture, self.model.whitening)
 
     def _blocks(self) -> Iterator[tuple[slice, MotionPerformances]]:
         """A few performances at a time: what is computed on the way is several times larger than the answer.

@@ -129,7 +129,7 @@ def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
 
 QUARTILES = (0.25, 0.5, 0.75)
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
-MOST_NOISE = (0.85, 0.7, 0.5)
+MOST_NOISE = (0.85, 0.7, 0.6, 0.5)
 """Shares of a posture's variance that noise may be, to choose from: beyond, hardly anything of recordings is left."""
 MOST_NOISE_BESIDE = 0.3
 """And of the variance of paths and paces: with more, movements have speeds where nobody has recorded any."""
@@ -336,6 +336,12 @@ def _drawn(blurred: SmoothedScores) -> np.ndarray:
     at = rng.permutation(np.arange(max(N_TRIED, n)) % n)[:N_TRIED]
     centre = blurred.means[blurred.owner[at]] + blurred.deviations[at]
     return np.asarray(centre + blurred.reach[at, None] * blurred.noise.sample(N_TRIED, rng))
+
+
+def distance_to_recordings(blurred: SmoothedScores, at: slice, size: np.ndarray) -> float:
+    """Median distance of draws about recordings to the nearest of these, in coordinates ``at`` (P,) times size (P,)."""
+    recorded = blurred.scores[:, at] * size
+    return float(np.median(_nearest(_drawn(blurred)[:, at] * size, recorded, np.zeros(len(recorded)))))
 
 
 def _nearest(drawn: np.ndarray, recorded: np.ndarray, cut_off: np.ndarray) -> np.ndarray:

@@ -96,10 +96,10 @@ def test_larger_bodies_move_alike_and_everything_they_reach_is_as_much_larger(si
 @pytest.mark.parametrize("times", [pytest.param(0.9, marks=pytest.mark.slow), 1.25])
 def test_slower_recordings_give_the_same_postures_slower(times):
     """Up to where a rest becomes a pause: lifts 1.25 times slower rest for less than a quarter of a second. Legs to a
-    few milliradians: what is slow enough to stand is said in metres a second, and twice as fast, feet that lag in the
-    longest draws make the search for new people's noise end elsewhere."""
+    few milliradians: what is slow enough to stand is said in metres a second, the root follows feet within .15 s, and
+    twice as fast, feet that lag in the longest draws make the search for new people's noise end elsewhere."""
     slower = [replace(m, time_s=times * m.time_s, mark_s=times * m.mark_s) for m in MADE.motions]
-    assert_same(fitted(), refitted(replace(MADE, motions=tuple(slower))), seconds=times, turn_rad=0.01, feet_m=0.003)
+    assert_same(fitted(), refitted(replace(MADE, motions=tuple(slower))), seconds=times, turn_rad=0.015, feet_m=0.006)
 
 
 @pytest.mark.parametrize("scheme", [SCHEMES[0], pytest.param(SCHEMES[1], marks=pytest.mark.slow), SCHEMES[2]])
@@ -155,7 +155,7 @@ def test_a_floor_that_was_taken_too_low_lifts_the_body_and_changes_nothing_else(
     assert np.allclose(two.duration_s, one.duration_s, rtol=0.01)
     assert np.degrees(sphere.angle(one.directions(n_times=9), two.directions(n_times=9))).max() < 1.0
     assert np.allclose(two.root_m(n_times=9) - one.root_m(n_times=9), [0, 0, 0.1], atol=0.02)
-    assert other.mean_duration_s() == pytest.approx(fitted().mean_duration_s(), rel=1e-5)
+    assert other.mean_duration_s() == pytest.approx(fitted().mean_duration_s(), rel=1e-4)
 
 
 def fields(seed, n_cells, dimension):

@@ -117,9 +117,8 @@ class TestOfNineCrews:
             learned = anova(np.log(motions.duration_s)[:, None], motions.worker_index)
             many, worker = truths.people(emulator)
             drawn = anova(np.log(many.duration_s)[:, None], worker)
-            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.1), (
-                crew
-            )  # 4 % of error: of 20 kinds
+            # A new person repeats what few recordings say, .89-.95 of the variance, and 4 % is chance.
+            assert drawn.within_square[0] == pytest.approx(learned.within_square[0], rel=0.15), crew
             of_new = learned.between[0] * of_twenty(emulator)
             assert drawn.between[0] == pytest.approx(of_new, rel=0.35), crew  # 300 people: 8 % of error
             assert emulator.mean_duration_s() == pytest.approx(motions.duration_s.mean(), rel=0.02)

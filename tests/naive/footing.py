@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from emulator.kernels.feet import SETTLING
+from emulator.kernels.feet import BALANCING, CARRY_S, FEET_S, ROOT_S, SETTLING
 from emulator.kernels.legs import AHEAD, FOLDED, MOST_BEND_M, SIDEWAYS, STIFF_KNEE, STRAIGHT
 from emulator.motion import stretches, turn
 
@@ -75,7 +75,7 @@ def stood(skeleton, legs, directions, length_m, path, time_s, stance, number):
     floor_m, foot_floor_m = stance.floor_m[number], stance.foot_floor_m[number]
     joints = skeleton.positions(turn(directions, path[:, 3:]), length_m, path[:, :3])
     step, yaw = time_s[-1] / (len(time_s) - 1), path[:, 3]
-    wide, narrow = 0.08 / step, 0.06 / step
+    wide, narrow, slow = CARRY_S / step, FEET_S / step, ROOT_S / step
     moves, weight, turns, feet = [], [], [], []
     for f, (ankle, toe) in enumerate(legs.feet):
         foot_m = np.linalg.norm(joints[:, toe] - joints[:, ankle], axis=1)[:, None]
@@ -97,15 +97,12 @@ def stood(skeleton, legs, directions, length_m, path, time_s, stance, number):
             left = [move - followed(directions, length_m, bones, move, yaw) for bones, move in zip(legs.bones, left)]
         total = np.maximum(sum(weight), 1e-300)[:, None]
         mean = sum(w[:, None] * move for w, move in zip(weight, left)) / total
-        shift = shift + np.stack([blurred(column, narrow) for column in mean.T], axis=1)
+        shift = shift + np.stack([blurred(column, slow) for column in mean.T], axis=1)
     ankles = joints[:, legs.feet[:, 0]].swapaxes(0, 1) + np.array(moves)
-    over = held_up(
-        (legs.mass @ joints + shift)[:, :2],
-        (ankles + np.array(feet) / 2)[..., :2],
-        np.array(weight),
-        stance.stray_m[number],
-    )
-    shift[:, :2] += np.stack([blurred(column, narrow) for column in over.T], axis=1)
+    places = (ankles + np.array(feet) / 2)[..., :2]
+    for _ in range(BALANCING):
+        over = held_up((legs.mass @ joints + shift)[:, :2], places, np.array(weight), stance.stray_m[number])
+        shift[:, :2] += np.stack([blurred(column, narrow) for column in over.T], axis=1)
     lacking = [floor_m - joints[..., 2].min(axis=1) - shift[:, 2]]
     for f, (ankle, _) in enumerate(legs.feet):
         there_m = (
