@@ -34,6 +34,7 @@ MOST_FAST, MOST_FAST_NEW = 0.01, 0.05
 LEAST_SPEED = 0.93
 """And the median of their peak speed is at least so much of the recorded: peaks blurred together are slow."""
 N_DRAWN = 200
+"""Draws by which a law is told smooth and quick; of known people for each recording, or for so many of them."""
 
 
 Noise = tuple[float, float]
@@ -44,10 +45,11 @@ Tried = TypeVar("Tried", float, Noise)
 def naturally(models: Sequence[tuple[Noise, MotionEmulator]], motions: MotionSet) -> tuple[Noise, MotionEmulator]:
     """Of models whose draws of known people are smooth enough what goes farthest; where none are, what goes least."""
     each = -(-N_DRAWN // len(motions))
+    workers = [motions.motions[i].worker for i in np.unique(np.linspace(0, len(motions) - 1, N_DRAWN).astype(int))]
 
     def alike(model: MotionEmulator) -> MotionPerformances:
         rng = np.random.default_rng(0)
-        scores = [model.sample(each, rng, worker=motion.worker).scores for motion in motions.motions]
+        scores = [model.sample(each, rng, worker=worker).scores for worker in workers]
         return model.performances(np.concatenate(scores))
 
     return _first(sorted(models, key=lambda tried: -_far(tried[1])), alike, motions, MOST_JERK, MOST_FAST)
