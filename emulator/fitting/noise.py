@@ -21,7 +21,7 @@ from emulator.model.smoothed import MOST_NOISE, Bands, Curves, distance_to_recor
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
-STIFFNESSES = (4.0, 16.0, 64.0, 256.0)
+STIFFNESSES = (4.0, 16.0, 64.0)
 """How much smoother than the recordings the noise about them may be, to choose from."""
 NOISES = tuple((stiffness, most) for stiffness in STIFFNESSES for most in MOST_NOISE)
 """With how much of a curve's variance it may be: much of stiff noise is often farther off than little that is not."""

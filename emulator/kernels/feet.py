@@ -12,11 +12,11 @@ from emulator.kernels.bodies import stand
 from emulator.kernels.compiled import compiled
 from emulator.kernels.legs import bend_of, hip_to_ankle, left_over, turned_height
 
-SETTLING, BALANCING = 3, 2
+SETTLING = BALANCING = 3
 """So often the root follows what its legs are too straight or too short to do, and moves over the feet."""
 ROOT_S, FEET_S = 0.15, 0.06
-"""Standard deviations of the Gaussians that smooth what the root does for planted feet, and what lifts or balances.
-A root that follows feet more closely shakes all above it wherever a drawn foot comes to stand or leaves."""
+"""Standard deviations of the Gaussians that smooth what the root does for feet and balance, and what lifts a foot or a
+body. A root that follows more closely shakes all above it wherever a drawn foot comes to stand or leaves."""
 CARRY_S = 0.08
 """And of the one by which a foot takes over what it carries."""
 FRAME_S = (1.0 - 1e-9) / 30.0
@@ -368,7 +368,7 @@ def footed(
                 if not held_up(bodies, mass, places, weight, stray_m[i], more):
                     break
                 for c in range(2):
-                    smooth(more[c], narrow, raw)
+                    smooth(more[c], slow, raw)
                     more[c] = raw
                 add(shift, 1.0, more[:2])
                 for f in range(2):

@@ -34,7 +34,7 @@ def main() -> int:
         return 2
     with TemporaryDirectory() as folder:
         print("fitting made motions of 300 people at three shares ...", file=sys.stderr, flush=True)
-        emulated, mean_s = emulated_staffing.written(Path(folder))
+        emulated, mean_s = emulated_staffing.written(Path(folder), processes=os.cpu_count() or 1)
         asked = (*CASES, *staffing.CASES, *emulated)
         how = {"processes": os.cpu_count() or 1, "engine": engine, "audited": audited}
         runs = simulate(asked, done=_progress, **how)

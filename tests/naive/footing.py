@@ -102,7 +102,7 @@ def stood(skeleton, legs, directions, length_m, path, time_s, stance, number):
     places = (ankles + np.array(feet) / 2)[..., :2]
     for _ in range(BALANCING):
         over = held_up((legs.mass @ joints + shift)[:, :2], places, np.array(weight), stance.stray_m[number])
-        shift[:, :2] += np.stack([blurred(column, narrow) for column in over.T], axis=1)
+        shift[:, :2] += np.stack([blurred(column, slow) for column in over.T], axis=1)
     lacking = [floor_m - joints[..., 2].min(axis=1) - shift[:, 2]]
     for f, (ankle, _) in enumerate(legs.feet):
         there_m = (
