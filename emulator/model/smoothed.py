@@ -129,7 +129,7 @@ def room(left: np.ndarray, variance: np.ndarray) -> np.ndarray:
 
 QUARTILES = (0.25, 0.5, 0.75)
 N_TRIED, N_HALVINGS, LARGEST, N_NEAREST, MOST_REACH = 400, 16, 40.0, 3, 2.0
-MOST_NOISE = (0.85, 0.7, 0.6, 0.5)
+MOST_NOISE = (0.7, 0.6, 0.5)
 """Shares of a posture's variance that noise may be, to choose from: beyond, hardly anything of recordings is left."""
 MOST_NOISE_BESIDE = 0.3
 """And of the variance of paths and paces: with more, movements have speeds where nobody has recorded any."""
