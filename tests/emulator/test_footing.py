@@ -9,7 +9,7 @@ from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import Footing, Legs, Stance, bend, on_its_feet, prints, standing, stood, strays
 from emulator.motion import turn
 from emulator.skeleton import Skeleton
-from tests.emulator.fitted import made, motions_of, recorded
+from tests.emulator.fitted import made, motions_of, recorded, shipped
 from tests.naive import footing as naive_footing
 
 RATE_HZ = 60.0
@@ -238,3 +238,16 @@ def test_a_draw_that_nothing_slows_down_stays_where_it_was_least_fast():
     assert np.all(ground.fastest_m_per_s <= np.minimum(free.fastest_m_per_s, mean.fastest_m_per_s))
     again = drawn._grounded(ground.kept)
     assert np.abs(again.flat - ground.flat).max() < 1e-12 and np.abs(again.control - ground.control).max() < 1e-12
+
+
+def test_a_draw_stands_like_the_recording_that_it_was_drawn_about_and_a_recording_like_itself():
+    """By postures as they are, draws stand like recordings in the middle: noise takes the place of most deviations."""
+    model = shipped("walk")
+    known, footing, n = model.workforce.smoothed, model.footing, len(model.footing.postures)
+    centre, rng = known.means[known.owner] + known.deviations, np.random.default_rng(0)
+    draws = np.concatenate([centre + known.reach[:, None] * known.noise.sample(n, rng) for _ in range(10)])
+    own, postures = np.tile(np.arange(n), 10), model.scale.raw(draws, "posture")
+    assert np.array_equal(footing.nearest(footing.postures, model.whitening), np.arange(n))
+    assert np.mean(footing.nearest(postures, model.whitening) == own) > 0.95
+    assert np.mean(footing.nearest(postures) == own) < 0.8
+    assert np.array_equal(model.performances(draws[:n])._drawn.near, footing.nearest(postures[:n], model.whitening))
