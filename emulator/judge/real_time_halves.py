@@ -54,14 +54,11 @@ class RealTimeHalves:
         if not n_fitted:
             return ""
         held = {name: pooled_coverage(self.covered, name) for name in QUANTITIES}
-        parts = [
-            f"{100 * half:.0f} / {100 * most:.0f} % of {'durations' if name == 'duration' else 'postures'}"
-            for name, (half, most) in held.items()
-        ]
+        parts = [f"{100 * half:.0f} / {100 * most:.0f} % of {QUANTITIES[name]}" for name, (half, most) in held.items()]
         refused = len(self.covered) - n_fitted
         without = f"; {refused} fits without a person were refused" if refused else ""
         levels = " / ".join(f"{100 * level:.0f}" for level in LEVELS)
-        return f"new people's {levels} % intervals hold {' and '.join(parts)} of {n_fitted} people left out{without}"
+        return f"new people's {levels} % intervals hold {', '.join(parts)} of {n_fitted} people left out{without}"
 
     def as_plain(self) -> dict[str, Any]:
         """For JSON."""

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from emulator.judge.clips import Clips, frame_rate_hz
-from emulator.judge.coverage import coverage, pooled_coverage
 from emulator.judge.real_time import RealTime, beyond_range, bone_change, real_time, sentence
 from emulator.motion import MotionSet
 from emulator.synthetic.tasks import make
@@ -93,20 +92,3 @@ def test_recorded_clips_are_the_recordings_at_even_times():
     few = replace(motions.motions[0], time_s=motions.motions[0].time_s ** 1.5)
     uneven = Clips.recorded(MotionSet("reach", (few,), motions.mark_names))
     assert np.allclose(uneven.positions_m[0][[0, -1]], few.positions_m()[[0, -1]])
-
-
-@pytest.mark.slow
-def test_left_out_people_are_looked_for_among_new_ones():
-    motions = make("reach", 3, 4, seed=2)[0]
-    rows = coverage(motions, n_drawn=60)
-    assert [row.name for row in rows] == list(motions.workers) and not any(row.refused for row in rows)
-    for quantity in ("duration", "posture"):
-        half, most = pooled_coverage(rows, quantity)
-        assert 0 <= half <= most <= 1
-    told = []
-    few = motions.subset([0, 1, 4, 5])
-    refused = coverage(few, n_drawn=20, progress=lambda *step: told.append(step))
-    assert all("at least 3 repetitions" in row.refused for row in refused) and len(told) == 2
-    assert np.isnan(pooled_coverage(refused, "duration")).all()
-    with pytest.raises(ValueError, match="found one person"):
-        coverage(motions.subset([0, 1, 2, 3]))
