@@ -5,6 +5,7 @@ The start posture is part of the vector. Kernel is a smoothed bootstrap that kee
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import floor, log10
 from typing import Protocol
@@ -230,6 +231,14 @@ class Density(Protocol):
     def log_likelihood(self, scores: np.ndarray) -> np.ndarray: ...
 
 
+DENSITIES: dict[str, Callable[[np.ndarray, float], Density]] = {
+    "MVG": LowRankNormal.fit,
+    "IG": lambda rows, _: LowRankNormal.fit(rows, 1.0),
+    "Kernel": lambda rows, _: KernelDensity.fit(rows),
+}
+"""Name -> the density fitted to rows (N, K), of which a share of the correlations is given up (by the MVG alone)."""
+
+
 @dataclass(frozen=True)
 class VectorModel:
     """One density of scores (n, K) and start scores (n, S) side by side.
@@ -243,12 +252,8 @@ class VectorModel:
 
     @classmethod
     def fit(cls, name: str, scores: np.ndarray, start: np.ndarray, rho: float = 0.0) -> VectorModel:
-        """The density MVG, IG or Kernel of scores (N, K) and start (N, S). ``rho`` shrinks the correlations of MVG."""
-        rows = np.concatenate([scores, start], axis=-1)
-        density: Density = (
-            KernelDensity.fit(rows) if name == "Kernel" else LowRankNormal.fit(rows, 1.0 if name == "IG" else rho)
-        )
-        return cls(density, scores.shape[-1])
+        """The density of this name in ``DENSITIES`` of scores (N, K) and start (N, S); ``rho`` as there."""
+        return cls(DENSITIES[name](np.concatenate([scores, start], axis=-1), rho), scores.shape[-1])
 
     def sample(
         self, n: int, rng: np.random.Generator, *, allow_unstable: bool = False

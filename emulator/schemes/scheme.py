@@ -15,7 +15,7 @@ import numpy as np
 from emulator.judge.posture_tests import disco, reconstruction_error
 from emulator.judge.sequence_distances import distances
 from emulator.model.reduction import JointPCA, SequentialPCA
-from emulator.schemes.densities import VAR, VectorModel
+from emulator.schemes.densities import DENSITIES, VAR, VectorModel
 from emulator.schemes.flattening import ISTVF, MTVF, SIEM, STVF, Pointwise
 from emulator.schemes.reductions import Reduction, fitted, spanned
 
@@ -83,7 +83,7 @@ def _upto(tried: tuple[int, ...], largest: int) -> tuple[int, ...]:
 
 
 REPRESENTATIONS = ("SIEM", "SIEM-first", "SIEM-moving", "IS-TVF", "S-TVF", "M-TVF")
-VECTOR_REDUCTIONS, VECTOR_MODELS = ("SequentialPCA", "MPCA", "JointPCA"), ("MVG", "IG", "Kernel")
+VECTOR_REDUCTIONS, VECTOR_MODELS = ("SequentialPCA", "MPCA", "JointPCA"), tuple(DENSITIES)
 SERIES_REDUCTION, SERIES_MODELS = "SpatialPCA", ("VAR", "VAR-pooled")
 POINTWISE = ("PWI", "PWI/shared")
 

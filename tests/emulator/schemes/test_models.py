@@ -8,7 +8,7 @@ import pytest
 
 from emulator.judge import temporal_roughness
 from emulator.schemes import Scheme
-from emulator.schemes.densities import VAR, KernelDensity, VectorModel
+from emulator.schemes.densities import DENSITIES, VAR, KernelDensity, VectorModel
 from emulator.schemes.flattening import Pointwise
 from tests.emulator.schemes.cases import grid_case, series_case, walks
 
@@ -34,13 +34,13 @@ def paths(n=30, n_times=6, d=2):
 def models():
     """name -> (model, training scores, training starts)."""
     x, start, series, none = rows(), rows(30, 2)[:, :2], paths(), np.zeros((30, 0))
-    made = {name: (VectorModel.fit(name, x, start), x, start) for name in ("MVG", "IG", "Kernel")}
+    made = {name: (VectorModel.fit(name, x, start), x, start) for name in DENSITIES}
     made |= {name: (Pointwise.fit(series, name != "PWI"), series, none) for name in ("PWI", "PWI/shared")}
     rng = np.random.default_rng(0)
     return made | {"VAR-pooled": (VAR.fit(series, start, rng, pooled=True, order=1), series, start)}
 
 
-@pytest.mark.parametrize("name", ["MVG", "IG", "Kernel", "PWI", "PWI/shared", "VAR-pooled"])
+@pytest.mark.parametrize("name", [*DENSITIES, "PWI", "PWI/shared", "VAR-pooled"])
 def test_draws_have_the_mean_and_spread_of_the_training_and_the_same_seed_gives_the_same_bytes(name):
     model, x, start = models()[name]
     drawn, of_start = model.sample(N, np.random.default_rng(3))
@@ -55,7 +55,7 @@ def test_draws_have_the_mean_and_spread_of_the_training_and_the_same_seed_gives_
     assert [part.tobytes() for part in again] == [part.tobytes() for part in model.sample(50, np.random.default_rng(3))]
 
 
-@pytest.mark.parametrize("name", ["MVG", "IG", "Kernel", "PWI", "PWI/shared", "VAR-pooled"])
+@pytest.mark.parametrize("name", [*DENSITIES, "PWI", "PWI/shared", "VAR-pooled"])
 def test_own_draws_are_likelier_than_draws_moved_apart_and_one_by_one_as_in_a_batch(name):
     model = models()[name][0]
     drawn, start = model.sample(400, np.random.default_rng(4))
@@ -66,7 +66,7 @@ def test_own_draws_are_likelier_than_draws_moved_apart_and_one_by_one_as_in_a_ba
     assert one.shape == () and np.isclose(one, together[7])
 
 
-@pytest.mark.parametrize("name", ["MVG", "IG", "Kernel"])
+@pytest.mark.parametrize("name", DENSITIES)
 def test_densities_of_vectors_integrate_to_one(name):
     x = rows(40, 2)
     model = VectorModel.fit(name, x, np.zeros((40, 0)))

@@ -18,6 +18,7 @@ from emulator.schemes import (
     parallel_analysis,
     search_dimensions,
 )
+from emulator.schemes.densities import DENSITIES
 from emulator.schemes.reductions import fitted
 from emulator.schemes.scheme import FITTERS, parsed
 from tests.emulator.fitted import recorded
@@ -39,7 +40,7 @@ def test_every_scheme_fits_draws_rebuilds_and_judges(name):
 
 
 def test_the_schemes_are_the_valid_combinations():
-    assert len(set(SCHEMES)) == 6 * (3 * 3 + 2) + 2
+    assert len(set(SCHEMES)) == 6 * (3 * len(DENSITIES) + 2) + 2
     for name in SCHEMES:
         assert name.startswith("PWI") or "/".join(parsed(name)) == name
 
