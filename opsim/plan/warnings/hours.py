@@ -18,6 +18,7 @@ from opsim.plan.calendar import Duty, Spans, both, together, total_s, without
 from opsim.plan.hours import Hours, runs_on_s
 from opsim.plan.loads.bottleneck import Loads
 from opsim.plan.loads.utilisation import StationLoad, hand_and_alone_s
+from opsim.plan.loads.work_times import WorkTimes
 from opsim.plan.plan import Plan, TaskPlan
 from opsim.plan.warnings.staffing import SHORT_S, lasting, station_names, worker_names
 from opsim.plan.workers import RotationPlan
@@ -44,7 +45,8 @@ def starving_breaks(plan: Plan, hours: Hours, loads: Loads, by_hand: set[int]) -
 
 def _all_at_once(plan: Plan, hours: Hours, loads: Loads, rank: int, pauses: Spans) -> Iterator[str]:
     """Breaks of all who can work at the bottleneck; what it does by itself goes on meanwhile."""
-    hand_s, alone_s = hand_and_alone_s(plan, rank, [flow for flow in loads.flows.steps if flow.station == rank])
+    here = [flow for flow in loads.flows.steps if flow.station == rank]
+    hand_s, alone_s = hand_and_alone_s(WorkTimes(plan, hours), rank, here)
     if hand_s <= 0:
         return
     on_s = alone_s / (hand_s + alone_s) * sum(runs_on_s(end_s - start_s, alone_s) for start_s, end_s in pauses)

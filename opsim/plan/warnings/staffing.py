@@ -14,7 +14,8 @@ from collections.abc import Collection, Iterable, Iterator
 from opsim.plan.calendar import Spans, at_least, both, total_s, without
 from opsim.plan.hours import Hours
 from opsim.plan.lines import LinePlan
-from opsim.plan.loads.flows import Flows, task_s
+from opsim.plan.loads.flows import Flows
+from opsim.plan.loads.work_times import task_s
 from opsim.plan.plan import Plan
 from opsim.problems import enumerated, natural_key
 from opsim.tasks.distributions import Fixed
