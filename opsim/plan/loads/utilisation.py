@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import inf
 
 from opsim.plan.loads.flows import Flow, Flows, flows_of
-from opsim.plan.loads.work_times import WorkTimes, batch_size, tasks_at
+from opsim.plan.loads.work_times import WorkTimes, batch_size
 from opsim.plan.plan import Plan
 from opsim.plan.resources import BUSY, CLOCK, BreakdownPlan
 from opsim.plan.stations import CONVEYOR, STORE
@@ -94,9 +94,9 @@ def hand_and_alone_s(times: WorkTimes, station: int, here: list[Flow]) -> tuple[
     """Seconds of a mean visit in which people are needed, and of what a station does without them."""
     total, hand_s, alone_s = sum(flow.per_h or flow.per_job for flow in here), 0.0, 0.0
     for flow in here if total else ():
-        for task, part in tasks_at(times.plan, station):
-            seconds = (flow.per_h or flow.per_job) / total * part * times.least_task_s(station, task, flow.product)
-            if times.plan.tasks[task].automatic:
+        for task, n in times.tasks(station, flow.product):
+            seconds = (flow.per_h or flow.per_job) / total * n * times.least_s(station, task)
+            if task.automatic:
                 alone_s += seconds
             else:
                 hand_s += seconds
@@ -161,9 +161,9 @@ def _tools(times: WorkTimes, flows: Flows) -> Iterator[SharedLoad]:
         n = _n(flow, flows) / 3600 / batch_size(plan, flow.station)
         for tool, pieces in plan.stations[flow.station].needs:
             wanted[tool] += n * pieces * times.least_visit_s(flow.station, flow.product)
-        for task in plan.stations[flow.station].tasks:
-            for tool, pieces in plan.tasks[task].needs:
-                wanted[tool] += n * pieces * times.least_task_s(flow.station, task, flow.product)
+        for task, times_done in times.tasks(flow.station, flow.product):
+            for tool, pieces in task.needs:
+                wanted[tool] += n * pieces * times_done * times.least_s(flow.station, task)
     for rank, kind in enumerate(plan.tools):
         yield _shared_load(kind.name, "tool", kind.n, wanted[rank], flows)
 

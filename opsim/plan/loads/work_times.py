@@ -36,8 +36,8 @@ class WorkTimes:
         self._least_s: dict[tuple[str, int], float] = {}
 
     def worker_s(self, worker: int, station: int, task: TaskPlan) -> float:
-        """Of one unit of a task, by a worker at a station."""
-        if worker == ANYBODY:
+        """Of one unit of a task, by a worker at a station; a machine keeps its own time, whoever stands by."""
+        if worker == ANYBODY or task.automatic or task.attended:
             return self._at_rating_1_s(ANYBODY, task)
         person = self.plan.workers[worker]
         known = not set(keys_read(task.model)).isdisjoint(person.body.said)
@@ -59,24 +59,28 @@ class WorkTimes:
         """Of one unit of a task at a station, at least: by the fastest who can do it, or by the station itself."""
         key = (task.name, station)
         if key not in self._least_s:
-            by_hand = not (task.automatic or task.attended)
-            times_s = sorted(self.worker_s(worker, station, task) for worker in self._able(station) if by_hand)
-            slowest_of_team = min(task.team, len(times_s)) - 1
-            self._least_s[key] = times_s[slowest_of_team] if times_s else self._at_rating_1_s(ANYBODY, task)
+            times_s = sorted(self.worker_s(worker, station, task) for worker in self.able(station) or [ANYBODY])
+            self._least_s[key] = times_s[min(task.team, len(times_s)) - 1]
         return self._least_s[key]
 
-    def _able(self, station: int) -> set[int]:
+    def able(self, station: int) -> set[int]:
         """Who may be sent to a station, or be called to it."""
         on_call = {worker for line in self.plan.lines if station in line.stations for worker in line.floaters}
         return {*self.hours.able(station), *(w for w in on_call if self.plan.workers[w].rating[station] > 0)}
 
-    def least_task_s(self, station: int, task: int, product: int) -> float:
-        """Of a task for a job, all units of its lot, at least."""
-        return self.least_s(station, for_product(self.plan.tasks, task, product)) * _units(self.plan, task, product)
+    def tasks(self, station: int, product: int) -> list[tuple[TaskPlan, float]]:
+        """What is done with a job at a station, and how often: for each unit of its lot, or once."""
+        done = [(for_product(self.plan.tasks, task, product), part) for task, part in tasks_at(self.plan, station)]
+        lot = self.plan.products[product].lot
+        return [(task, part * (1 if task.per_lot else lot)) for task, part in done]
 
     def least_visit_s(self, station: int, product: int) -> float:
         """Of a job on a server, at least."""
-        return sum(part * self.least_task_s(station, task, product) for task, part in tasks_at(self.plan, station))
+        return sum(n * self.least_s(station, task) for task, n in self.tasks(station, product))
+
+    def visit_s(self, worker: int, station: int, product: int) -> float:
+        """Of a job on a server, by a worker alone."""
+        return sum(n * self.worker_s(worker, station, task) for task, n in self.tasks(station, product))
 
     def by_hand_s(self, worker: int, station: int, product: int) -> float:
         """Time of people that a visit takes: of each member of a team, and of who stands by a machine.
@@ -84,17 +88,18 @@ class WorkTimes:
         In a team a worker is at work for as long as a team of the fastest at least: its slowest member ends the task.
         """
         total_s = 0.0
-        for rank, part in tasks_at(self.plan, station):
-            task = for_product(self.plan.tasks, rank, product)
+        for task, n in self.tasks(station, product):
             if task.attended or not task.automatic:
-                own_s = self.least_s(station, task) if task.attended else self.worker_s(worker, station, task)
-                member_s = max(own_s, self.least_s(station, task)) if task.team > 1 else own_s
-                total_s += part * task.team * member_s * _units(self.plan, rank, product)
+                own_s = self.worker_s(worker, station, task)
+                total_s += n * task.team * (max(own_s, self.least_s(station, task)) if task.team > 1 else own_s)
         return total_s
 
     def least_setup_s(self, station: int, flows: Iterable[Flow]) -> float:
         """Mean set-up before a visit, at least: see ``setup_s``."""
-        return setup_s(self.plan, station, flows, lambda task: self.least_s(station, task))
+        by_hand = any(setup.station == station and setup.attended for setup in self.plan.setups)
+        return setup_s(
+            self.plan, station, flows, lambda task: self.least_s(station, task) if by_hand else task.mean_s()
+        )
 
     def setup_by_hand_s(self, worker: int, station: int, flows: Iterable[Flow]) -> float:
         """Mean set-up before a visit, by a worker; 0 where nobody is needed for it."""
@@ -102,16 +107,6 @@ class WorkTimes:
         if setup is None or not setup.attended:
             return 0.0
         return setup_s(self.plan, station, flows, lambda task: self.worker_s(worker, station, task))
-
-
-def _units(plan: Plan, task: int, product: int) -> int:
-    """How often a task is done for a job: once, or for each unit of its lot."""
-    return 1 if for_product(plan.tasks, task, product).per_lot else plan.products[product].lot
-
-
-def task_s(plan: Plan, task: int, product: int) -> float:
-    """Mean time of a task for a job, all units of its lot, at rating 1."""
-    return for_product(plan.tasks, task, product).mean_s() * _units(plan, task, product)
 
 
 def tasks_at(plan: Plan, station: int) -> list[tuple[int, float]]:

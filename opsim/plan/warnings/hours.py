@@ -184,10 +184,12 @@ def _not_relieved(
 ) -> Iterator[str]:
     """Stations where a shift is to hand over long work, and nobody comes before it is done."""
     longest: dict[int, float] = {}
+    times = WorkTimes(plan, hours)
     for worker, duty, _ in ends:
         for station in by_hand:
             if _leaves_by(plan, hours, shift, station, worker, HAND_OVER):
-                seconds = _longest_s(plan, shift, station) / plan.workers[worker].rating[station]
+                left = _left(plan, shift, station, HAND_OVER)
+                seconds = max(times.worker_s(worker, station, task) for task in left)
                 alone = not _there(plan, hours, station, worker, (duty.end_s, duty.end_s + seconds))
                 if alone and seconds >= LONG * (duty.end_s - duty.start_s):
                     longest[station] = max(seconds, longest.get(station, 0.0))
@@ -207,10 +209,6 @@ def _left(plan: Plan, shift: int, station: int, rule: str) -> list[TaskPlan]:
     """The tasks of a station that one person at a time does, and leaves at the end of a shift by some rule."""
     by_hand = [task for number in plan.stations[station].tasks if not (task := plan.tasks[number]).automatic]
     return [task for task in by_hand if task.team == 1 and (task.interruption or plan.shifts[shift].at_end) == rule]
-
-
-def _longest_s(plan: Plan, shift: int, station: int) -> float:
-    return max(task.mean_s() for task in _left(plan, shift, station, HAND_OVER))
 
 
 def _there(plan: Plan, hours: Hours, station: int, worker: int, when: tuple[float, float]) -> set[int]:

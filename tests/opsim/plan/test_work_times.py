@@ -43,9 +43,10 @@ def floor(workers, *edits):
         (MIXED, [], 60, [120, 60], 60),  # the fastest bounds the station; both share the skill
         (HALF, [ALONE], 60, [60, 60], 0),  # a machine keeps its own time
         (HALF, [SET_UP], 180, [180, 180], 120),
+        (HALF, [SET_UP, ("otherwise: 0 s", "otherwise: 0 s, attended: false")], 150, [120, 120], 120),
         (MIXED, [TEAM], 80, [160, 160], 0),  # the slowest of two ends it, and both are there
     ],
-    ids=["as rated", "both slow", "mixed", "beside a machine", "set-up", "team"],
+    ids=["as rated", "both slow", "mixed", "beside a machine", "set-up", "set-up by itself", "team"],
 )
 def test_loads_go_by_the_speed_of_those_who_can(workers, edits, visit_s, each_visit_s, tool_s):
     made = floor(workers, *edits)
