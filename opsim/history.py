@@ -29,7 +29,6 @@ from opsim.log import ABSENT, OFF, REPAIR, SETUP, WALK, WORK, WORKER_KINDS, Even
 from opsim.plan import Plan
 from opsim.streams import BLOCK, stream
 from opsim.threads import one_blas_thread
-from opsim.worker_effects import worker_effect
 
 
 @dataclass(frozen=True, slots=True)
@@ -361,10 +360,9 @@ def drawn_s(plan: Plan, replication: int, worker: int, task: int, k: np.ndarray)
     model: Any = named.model
     if getattr(model, "by_index", False):
         return np.asarray(model.at(k), dtype=np.float64)
-    who = (person.name, plan.seed, plan.workforce_of(replication), person.body, plan.across_tasks)
     numbers, which = np.unique(k // BLOCK, return_inverse=True)
     with one_blas_thread():
-        effect = worker_effect(named.model, named.stream_name, *who)
+        effect = plan.worker_effect(worker, named, replication)
         blocks = [_block(plan, replication, person.name, named, effect, number) for number in numbers.tolist()]
     return np.array(blocks).reshape(-1, BLOCK)[which, k % BLOCK]
 

@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 def command(file: str, names: tuple[str, ...], as_json: bool) -> None:
     """Check a scenario FILE: schema, references, what may lock, and the load of stations, skills and all that is
     shared; and its studies: each value that is varied is laid over the scenario once. Exit code 2 where something is
-    wrong."""
+    wrong.
+
+    Loads are from mean times, with everybody's skill rating and pace. Stations and tools count the fastest who can do
+    the work, so that their loads are at least what is shown; skills count each worker at his own speed."""
     from opsim.cli.app import print_json
     from opsim.threads import lean, without_collecting
 
@@ -161,7 +164,8 @@ def _print_stations(variant: str, loads: list[Any], scheduled_share: float | Non
     columns = ("station", "servers", "work a visit", *more, "visits a job", "most per h", "arrivals per h", "load")
     shown = loads if len(loads) <= MOST_ROWS else sorted(loads, key=_spare)[:MOST_STATIONS]
     rows = [_cells(load, setups, stops, hours) for load in shown]
-    print_table(f"{variant}: load of the stations, from mean times{_of_hours(scheduled_share)}", columns, rows)
+    title = f"{variant}: load of the stations at least, from mean times of the fastest who can"
+    print_table(f"{title}{_of_hours(scheduled_share)}", columns, rows)
     if len(loads) > MOST_ROWS:
         click.echo(f"{variant}: the {MOST_STATIONS} busiest of {len(loads)} stations are shown; --json has them all\n")
 
@@ -205,7 +209,7 @@ def _print_people(variant: str, skills: Any, crew: Any) -> None:
     there = ("at work",) if hours else ()
     columns = ("skill", "workers", *there, "work a visit", *(("wanted", "load") if rated else ()))
     rows = [_skill_cells(load, rated, hours) for load in shown]
-    print_table(f"{variant}: load of the skills, from mean times, walks not counted", columns, rows)
+    print_table(f"{variant}: load of the skills, from everybody's own mean times, walks not counted", columns, rows)
     if crew is not None and rated:
         who = f"{len(crew.workers)} workers" if len(crew.workers) > 1 else crew.workers[0]
         more = "" if crew.with_overtime is None else f", {crew.with_overtime:.0%} with all overtime"

@@ -25,7 +25,6 @@ from opsim.plan.tasks import TaskPlan
 from opsim.plan.workers import WorkerPlan
 from opsim.problems import listed
 from opsim.task_model import keys_read
-from opsim.worker_effects import worker_effect
 
 
 def wide_joins(plan: Plan) -> list[str]:
@@ -136,8 +135,7 @@ def _measured(plan: Plan, task: TaskPlan) -> list[WorkerPlan]:
 
 
 def _effect(plan: Plan, task: TaskPlan, worker: WorkerPlan) -> Any:
-    number = plan.workforce_of(0)
-    effect = worker_effect(task.model, task.stream_name, worker.name, plan.seed, number, worker.body, plan.across_tasks)
+    effect = plan.worker_effect(plan.workers.index(worker), task)
     return getattr(effect, "effect", effect)
 
 

@@ -6,6 +6,7 @@ A Plan as far as its run has come.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from opsim.ergonomics.options import USUAL, Options
 from opsim.plan.calendar import OPEN, Duty, ShiftPlan
@@ -118,6 +119,14 @@ class Plan:
         if self.workforce is not None:
             return self.workforce
         return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
+
+    def worker_effect(self, worker: int, task: TaskPlan, replication: int = 0) -> Any:
+        """A worker's own effect in a task: see ``opsim.worker_effects``."""
+        from opsim.worker_effects import worker_effect
+
+        who = self.workers[worker]
+        workforce = self.workforce_of(replication)
+        return worker_effect(task.model, task.stream_name, who.name, self.seed, workforce, who.body, self.across_tasks)
 
     def _repr_html_(self) -> str:
         from opsim.notebook import plan_html

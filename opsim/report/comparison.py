@@ -27,7 +27,7 @@ from opsim.report.comparison_sentences import (
     spoken_of,
     way_of,
 )
-from opsim.report.numbers import ABSENT, kpi_name, quantity, scale_of
+from opsim.report.numbers import ABSENT, POINTS, difference_unit, kpi_name, scale_of
 from opsim.report.plot.svg_chart import intervals_svg
 from opsim.report.sections.pareto import frontier_section
 
@@ -75,12 +75,14 @@ def _group(differences: Sequence[Any], hours: bool) -> dict[str, Any]:
         (d.variant, d.interval.low * factor, d.interval.mean * factor, d.interval.high * factor, d.verdict)
         for d in shown
     ]
+    rows = [{"variant": d.variant, **comparison_cells(d, largest, differences)} for d in shown]
     return {
         "name": " · ".join(filter(None, (kpi_name(kpi, hours), subject, part_name(kpi, part)))),
-        "base": quantity(differences[0].base, unit),
-        "rows": [{"variant": d.variant, **comparison_cells(d, largest)} for d in shown],
+        "base": f"{rows[0]['base']} {word}".strip(),
+        "sign": " %" if word == "%" else "",
+        "rows": rows,
         "others": len(differences) - len(shown),
-        "picture": intervals_svg(bars, word),
+        "picture": intervals_svg(bars, difference_unit(word)),
     }
 
 
@@ -142,7 +144,7 @@ def _variants_down(comparison: Comparison, variants: Sequence[str], room: int) -
     hours = bool(comparison.hours)
     names = [_with_unit(spoken_name(d, hours), scale_of(d.key[3], largest[d.key])[1]) for d in bases]
     columns = ("variant", *names)
-    first = (comparison.base, *(comparison_cells(d, largest[d.key])["base"] for d in bases))
+    first = (comparison.base, *(_base(d, [o for o in spoken if o.key == d.key], largest[d.key]) for d in bases))
     rows = [(name, *(_cell(by.get((name, key)), largest[key]) for key in keys)) for name in shown]
     others = len(variants) - len(shown)
     out = [f"The best {len(shown)} of {len(variants):,} variants in {spoken_name(bases[0], hours)}."] if others else []
@@ -168,7 +170,11 @@ def _figure_row(
     name = f"{name}: {own}" if own and not below else name
     by = {d.variant: d for d in of}
     cells = [_cell(by.get(variant), largest) for variant in variants]
-    return (name, comparison_cells(of[0], largest)["base"], *cells)
+    return (name, _base(of[0], of, largest), *cells)
+
+
+def _base(difference: Difference, beside: Sequence[Any], largest: float | None) -> str:
+    return comparison_cells(difference, largest, beside)["base"]
 
 
 def _with_unit(name: str, unit: str) -> str:
@@ -179,7 +185,8 @@ def _with_unit(name: str, unit: str) -> str:
 def _cell(difference: Difference | None, largest: float | None) -> str:
     if difference is None or math.isnan(difference.interval.mean):
         return ABSENT
-    text = signed(comparison_cells(difference, largest)["difference"])
+    cells = comparison_cells(difference, largest)
+    text = signed(cells["difference"]) + (" points" if cells["unit"] == POINTS else "")
     return text + (STAR if difference.verdict in CLEAR else ALONE if difference.verdict == NOT_PROVEN else "")
 
 

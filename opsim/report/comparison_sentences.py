@@ -11,14 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 from opsim.kpi.catalogue import LESS, MORE, better_of
 from opsim.kpi.parts import part_name
-from opsim.report.numbers import digits, half_digits, is_number, kpi_name, listing, scale_of
+from opsim.report.numbers import difference_unit, digits, half_digits, is_number, kpi_name, listing, scale_of
 
 if TYPE_CHECKING:
     from opsim.study.compare import Comparison, Difference
 
 
-def comparison_cells(difference: Difference, largest: float | None = None) -> dict[str, str]:
-    """The cells of one difference: base, variant, difference ± half-width, per cent of the base, pairing, verdict."""
+def comparison_cells(
+    difference: Difference, largest: float | None = None, beside: Sequence[Difference] = ()
+) -> dict[str, str]:
+    """The cells of one difference: base, variant, difference ± half-width, per cent of the base, pairing, verdict.
+
+    largest : the mean that chooses the unit; beside : the differences of this figure in all variants, of which the most
+    exact says how exactly the base is shown: the same in all rows. A share differs by points, and by no per cent.
+    """
     interval, unit = difference.interval, difference.key[3]
     factor, word = scale_of(unit, difference.base if largest is None else largest)
     half = interval.half_width * factor if is_number(interval.half_width) and interval.half_width else None
@@ -26,15 +32,17 @@ def comparison_cells(difference: Difference, largest: float | None = None) -> di
     by = digits(interval.mean * factor, half, of)
     relative = 100 * interval.mean / abs(difference.base) if difference.base else None
     share = None if relative is None or half is None else 100 * interval.half_width / abs(difference.base)
-    ratio = difference.variance_ratio
+    ratio, points = difference.variance_ratio, difference_unit(word)
+    halves = [d.interval.half_width for d in beside or (difference,)]
+    finest = min((half * factor for half in halves if is_number(half) and half), default=None)
     by = by if half is None else f"{by} ± {half_digits(interval.mean * factor, half, of)}"
-    percent = f"{digits(relative, share, 100.0)} %" if is_number(relative) else ""
+    percent = f"{digits(relative, share, 100.0)} %" if is_number(relative) and points == word else ""
     return {
-        "base": quantity_in(difference.base, factor, half),
+        "base": quantity_in(difference.base, factor, finest),
         "mean": quantity_in(difference.mean, factor, half),
         "difference": "0" if difference.identical else by,
-        "unit": word,
-        "relative": "0 %" if difference.identical else percent,
+        "unit": points,
+        "relative": "0 %" if percent and difference.identical else percent,
         "pairing": f"{ratio:.3g}" if is_number(ratio) else "",
         "verdict": difference.verdict,
         "n": str(interval.n),
@@ -109,8 +117,6 @@ def spoken_name(difference: Difference, hours: bool = False) -> str:
 def amount(difference: Difference, spoken: Sequence[Any]) -> str:
     """``+13 ± 4 per hour, +2.9 %``; spoken : all that choose the common unit of this figure."""
     cells = comparison_cells(difference, largest_of([d for d in spoken if d.key[0] == difference.key[0]]))
-    if cells["unit"] == "%":
-        return f"{signed(cells['difference'])} percentage points"
     by = f"{signed(cells['difference'])} {cells['unit']}".strip()
     return f"{by}, {signed(cells['relative'])}" if cells["relative"] else by
 

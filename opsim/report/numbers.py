@@ -94,6 +94,14 @@ def scale_of(unit: str, value: float | None) -> tuple[float, str]:
     return 1.0, {"1/h": "per hour", "1/min": "a minute", "deg": "°", "1": ""}.get(unit, unit)
 
 
+POINTS = "percentage points"
+
+
+def difference_unit(unit: str) -> str:
+    """The unit of a difference, by that for people of what differs: shares in per cent differ by percentage points."""
+    return POINTS if unit == "%" else unit
+
+
 def quantity(value: float | None, unit: str, half_width: float | None = None) -> str:
     """A value with its unit: ``quantity(1384, 's', 60)`` is ``23.1 min``."""
     if not is_number(value):

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from math import inf
 
 from opsim.plan.calendar import total_s
-from opsim.plan.hours import Hours, floor_has_hours, scheduled
-from opsim.plan.loads.flows import Flows, flows_of, visit_s, visits_of
+from opsim.plan.hours import floor_has_hours, scheduled
+from opsim.plan.loads.flows import Flows, flows_of, visits_of
 from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
 from opsim.plan.loads.utilisation import REPAIR_TEAM, SharedLoad, StationLoad, shared_loads, station_loads
+from opsim.plan.loads.work_times import WorkTimes
 from opsim.plan.plan import Plan
 
 
@@ -75,11 +76,11 @@ class Loads:
 
 def loads_of(plan: Plan) -> Loads:
     """All loads of a Plan."""
-    flows, hours = flows_of(plan), Hours(plan)
-    stations, skills = station_loads(plan, flows, hours), skill_loads(plan, flows, hours)
-    shared = shared_loads(plan, flows, stations)
-    share = total_s(scheduled(plan, hours)) / plan.horizon_s if floor_has_hours(plan) else None
-    return Loads(flows, tuple(stations), tuple(skills), crew_load(plan, flows, hours), tuple(shared), share)
+    flows, times = flows_of(plan), WorkTimes(plan)
+    stations, skills = station_loads(plan, flows, times), skill_loads(plan, flows, times)
+    shared = shared_loads(plan, flows, stations, times)
+    share = total_s(scheduled(plan, times.hours)) / plan.horizon_s if floor_has_hours(plan) else None
+    return Loads(flows, tuple(stations), tuple(skills), crew_load(plan, flows, times), tuple(shared), share)
 
 
 def _people(workers: tuple[str, ...]) -> str:
@@ -143,16 +144,17 @@ def _shared(loads: Loads) -> Iterator[str]:
 
 def _too_long(plan: Plan) -> Iterator[str]:
     """Products whose work alone takes longer than the run, or than they have until they are due."""
+    times = WorkTimes(plan)
     for rank, product in enumerate(plan.products):
         steps = zip(product.route, visits_of(plan, rank))
-        alone_s = sum(n * _least_s(plan, step.stations, rank) for step, n in steps)
+        alone_s = sum(n * _least_s(times, step.stations, rank) for step, n in steps)
         if alone_s >= plan.horizon_s:
             yield f"no {product.name} is finished: its work takes {alone_s:.0f} s, the run {plan.horizon_s:g} s"
         elif inf > product.due_s < alone_s:
             yield f"{product.name} is late: due after {product.due_s:g} s, and its work alone takes {alone_s:.0f} s"
 
 
-def _least_s(plan: Plan, stations: tuple[int, ...], product: int) -> float:
+def _least_s(times: WorkTimes, stations: tuple[int, ...], product: int) -> float:
     """The shortest mean work at one of the stations of a step; rides on conveyors count."""
-    rides = {belt.station: belt.travel_s for belt in plan.conveyors}
-    return min(rides.get(station, visit_s(plan, station, product)) for station in stations)
+    rides = {belt.station: belt.travel_s for belt in times.plan.conveyors}
+    return min(rides.get(station, times.least_visit_s(station, product)) for station in stations)

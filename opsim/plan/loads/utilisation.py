@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf
 
-from opsim.plan.hours import Hours
-from opsim.plan.loads.flows import Flow, Flows, batch_size, flows_of, setup_s, task_s, tasks_at, visit_s
+from opsim.plan.loads.flows import Flow, Flows, flows_of
+from opsim.plan.loads.work_times import WorkTimes, batch_size
 from opsim.plan.plan import Plan
 from opsim.plan.resources import BUSY, CLOCK, BreakdownPlan
 from opsim.plan.stations import CONVEYOR, STORE
@@ -40,7 +40,9 @@ def up_share(plan: Plan, station: int, visit_s: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class StationLoad:
-    """work_s : mean work a visit at rating 1, a batch shared by its jobs; visits : for each job released (stations of
+    """At least: everything is done by the fastest who can do it, so that no load is said to be above the true one.
+
+    work_s : mean work a visit, a batch shared by its jobs; visits : for each job released (stations of
     one step share evenly); arrivals_per_h : None where the floor decides; setup_s : mean set-up a visit; up : share of
     its hours that it can work, stops taken out; hours : share of the run in which it is open, and its people are at
     work; most_per_h : visits that it can do on the mean of the run; load : share of that wanted, None as above;
@@ -60,24 +62,25 @@ class StationLoad:
     with_overtime: float | None = None
 
 
-def station_loads(plan: Plan, flows: Flows | None = None, hours: Hours | None = None) -> list[StationLoad]:
+def station_loads(plan: Plan, flows: Flows | None = None, times: WorkTimes | None = None) -> list[StationLoad]:
     """Load of each station and conveyor in natural order; a load above 1 cannot be worked off."""
-    flows, hours = flows_of(plan) if flows is None else flows, Hours(plan) if hours is None else hours
+    flows, times = flows_of(plan) if flows is None else flows, WorkTimes(plan) if times is None else times
     by_station: defaultdict[int, list[Flow]] = defaultdict(list)
     for flow in flows.steps:
         by_station[flow.station].append(flow)
     ranks = [rank for rank, station in enumerate(plan.stations) if station.kind != STORE]
-    return [_load(plan, rank, by_station[rank], flows, hours) for rank in ranks]
+    return [_load(times, rank, by_station[rank], flows) for rank in ranks]
 
 
-def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows, hours: Hours) -> StationLoad:
+def _load(times: WorkTimes, rank: int, here: list[Flow], flows: Flows) -> StationLoad:
+    plan, hours = times.plan, times.hours
     station = plan.stations[rank]
     per_h, per_job = sum(flow.per_h for flow in here), sum(flow.per_job for flow in here)
     visits = per_job if flows.saturated else per_h / flows.per_h if flows.per_h else 0.0
     known = None if per_job > 0 or (flows.saturated and not per_h) else per_h
-    work_s, change_s = _work_s(plan, rank, here), setup_s(plan, rank, here)
+    work_s, change_s = _work_s(times, rank, here), times.least_setup_s(rank, here)
     up = up_share(plan, rank, work_s + change_s)
-    on_server_s, parts = work_s + change_s, hand_and_alone_s(plan, rank, here)
+    on_server_s, parts = work_s + change_s, hand_and_alone_s(times, rank, here)
     share = hours.working_share(rank, *parts)
     more = share if hours.with_overtime is hours.at_work else hours.working_share(rank, *parts, overtime=True)
     most = max(1, station.servers) * 3600 * up * share / on_server_s if on_server_s > 0 else inf
@@ -87,28 +90,29 @@ def _load(plan: Plan, rank: int, here: list[Flow], flows: Flows, hours: Hours) -
     return StationLoad(station.name, station.servers, work_s, visits, known, load, most, change_s, up, share, late)
 
 
-def hand_and_alone_s(plan: Plan, station: int, here: list[Flow]) -> tuple[float, float]:
+def hand_and_alone_s(times: WorkTimes, station: int, here: list[Flow]) -> tuple[float, float]:
     """Seconds of a mean visit in which people are needed, and of what a station does without them."""
     total, hand_s, alone_s = sum(flow.per_h or flow.per_job for flow in here), 0.0, 0.0
     for flow in here if total else ():
-        for task, part in tasks_at(plan, station):
-            seconds = (flow.per_h or flow.per_job) / total * part * task_s(plan, task, flow.product)
-            if plan.tasks[task].automatic:
+        for task, n in times.tasks(station, flow.product):
+            seconds = (flow.per_h or flow.per_job) / total * n * times.least_s(station, task)
+            if task.automatic:
                 alone_s += seconds
             else:
                 hand_s += seconds
     return hand_s, alone_s
 
 
-def _work_s(plan: Plan, rank: int, here: list[Flow]) -> float:
+def _work_s(times: WorkTimes, rank: int, here: list[Flow]) -> float:
     """Mean work of a visit, by what comes; of all products alike where nothing comes."""
+    plan = times.plan
     if plan.stations[rank].kind == CONVEYOR:
         return next(belt.headway_s for belt in plan.conveyors if belt.station == rank)
     weights = [flow.per_h or flow.per_job for flow in here]
     if sum(weights) <= 0:
-        return sum(plan.tasks[task].mean_s() for task in plan.stations[rank].tasks)
-    times = [visit_s(plan, rank, flow.product) for flow in here]
-    mean_s = times[0] if len(set(times)) == 1 else sum(w * t for w, t in zip(weights, times)) / sum(weights)
+        return sum(times.least_s(rank, plan.tasks[task]) for task in plan.stations[rank].tasks)
+    seconds = [times.least_visit_s(rank, flow.product) for flow in here]
+    mean_s = seconds[0] if len(set(seconds)) == 1 else sum(w * t for w, t in zip(weights, seconds)) / sum(weights)
     return mean_s / batch_size(plan, rank)
 
 
@@ -129,12 +133,16 @@ class SharedLoad:
 
 
 def shared_loads(
-    plan: Plan, flows: Flows | None = None, stations: Iterable[StationLoad] | None = None
+    plan: Plan,
+    flows: Flows | None = None,
+    stations: Iterable[StationLoad] | None = None,
+    times: WorkTimes | None = None,
 ) -> list[SharedLoad]:
-    """Load of everything that stations share, at least: nothing waits for anything else."""
-    flows = flows_of(plan) if flows is None else flows
-    loads = {load.station: load for load in (station_loads(plan, flows) if stations is None else stations)}
-    return [*_tools(plan, flows), *_repair_teams(plan, loads, flows), *_transporters(plan, flows), *_cards(plan, flows)]
+    """Load of everything that stations share, at least: nothing waits, and the fastest do the work."""
+    flows, times = flows_of(plan) if flows is None else flows, WorkTimes(plan) if times is None else times
+    loads = {load.station: load for load in (station_loads(plan, flows, times) if stations is None else stations)}
+    others = (*_repair_teams(plan, loads, flows), *_transporters(plan, flows))
+    return [*_tools(times, flows), *others, *_cards(times, flows)]
 
 
 def _n(flow: Flow, flows: Flows) -> float:
@@ -145,16 +153,17 @@ def _shared_load(name: str, what: str, n: int, wanted: float, flows: Flows) -> S
     return SharedLoad(name, what, n, wanted, None if flows.saturated else wanted / n)
 
 
-def _tools(plan: Plan, flows: Flows) -> Iterator[SharedLoad]:
+def _tools(times: WorkTimes, flows: Flows) -> Iterator[SharedLoad]:
     """Tools of a station are held for a visit at least, those of a task for the task."""
+    plan = times.plan
     wanted: defaultdict[int, float] = defaultdict(float)
     for flow in flows.steps:
         n = _n(flow, flows) / 3600 / batch_size(plan, flow.station)
         for tool, pieces in plan.stations[flow.station].needs:
-            wanted[tool] += n * pieces * visit_s(plan, flow.station, flow.product)
-        for task in plan.stations[flow.station].tasks:
-            for tool, pieces in plan.tasks[task].needs:
-                wanted[tool] += n * pieces * task_s(plan, task, flow.product)
+            wanted[tool] += n * pieces * times.least_visit_s(flow.station, flow.product)
+        for task, times_done in times.tasks(flow.station, flow.product):
+            for tool, pieces in task.needs:
+                wanted[tool] += n * pieces * times_done * times.least_s(flow.station, task)
     for rank, kind in enumerate(plan.tools):
         yield _shared_load(kind.name, "tool", kind.n, wanted[rank], flows)
 
@@ -206,13 +215,14 @@ def _legs(plan: Plan) -> Iterator[tuple[int, int, float]]:
         yield from ((station, after, share / total) for after, share in shares.items() if after >= 0 and total > 0)
 
 
-def _cards(plan: Plan, flows: Flows) -> Iterator[SharedLoad]:
+def _cards(times: WorkTimes, flows: Flows) -> Iterator[SharedLoad]:
     """A card is out at least as long as the work between its two points takes (Little's law)."""
+    plan = times.plan
     for card in plan.cards:
         seconds = 0.0
         for flow in flows.steps:
             if flow.station in _held_at(plan, card.steps[flow.product], set(card.back), flow.product):
-                seconds += _n(flow, flows) * visit_s(plan, flow.station, flow.product)
+                seconds += _n(flow, flows) * times.least_visit_s(flow.station, flow.product)
         if seconds < inf:
             yield _shared_load(card.name, "cards", card.n, seconds / 3600, flows)
 

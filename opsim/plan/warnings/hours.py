@@ -18,6 +18,7 @@ from opsim.plan.calendar import Duty, Spans, both, together, total_s, without
 from opsim.plan.hours import Hours, runs_on_s
 from opsim.plan.loads.bottleneck import Loads
 from opsim.plan.loads.utilisation import StationLoad, hand_and_alone_s
+from opsim.plan.loads.work_times import WorkTimes
 from opsim.plan.plan import Plan, TaskPlan
 from opsim.plan.warnings.staffing import SHORT_S, lasting, station_names, worker_names
 from opsim.plan.workers import RotationPlan
@@ -44,7 +45,8 @@ def starving_breaks(plan: Plan, hours: Hours, loads: Loads, by_hand: set[int]) -
 
 def _all_at_once(plan: Plan, hours: Hours, loads: Loads, rank: int, pauses: Spans) -> Iterator[str]:
     """Breaks of all who can work at the bottleneck; what it does by itself goes on meanwhile."""
-    hand_s, alone_s = hand_and_alone_s(plan, rank, [flow for flow in loads.flows.steps if flow.station == rank])
+    here = [flow for flow in loads.flows.steps if flow.station == rank]
+    hand_s, alone_s = hand_and_alone_s(WorkTimes(plan, hours), rank, here)
     if hand_s <= 0:
         return
     on_s = alone_s / (hand_s + alone_s) * sum(runs_on_s(end_s - start_s, alone_s) for start_s, end_s in pauses)
@@ -182,10 +184,12 @@ def _not_relieved(
 ) -> Iterator[str]:
     """Stations where a shift is to hand over long work, and nobody comes before it is done."""
     longest: dict[int, float] = {}
+    times = WorkTimes(plan, hours)
     for worker, duty, _ in ends:
         for station in by_hand:
             if _leaves_by(plan, hours, shift, station, worker, HAND_OVER):
-                seconds = _longest_s(plan, shift, station) / plan.workers[worker].rating[station]
+                left = _left(plan, shift, station, HAND_OVER)
+                seconds = max(times.worker_s(worker, station, task) for task in left)
                 alone = not _there(plan, hours, station, worker, (duty.end_s, duty.end_s + seconds))
                 if alone and seconds >= LONG * (duty.end_s - duty.start_s):
                     longest[station] = max(seconds, longest.get(station, 0.0))
@@ -205,10 +209,6 @@ def _left(plan: Plan, shift: int, station: int, rule: str) -> list[TaskPlan]:
     """The tasks of a station that one person at a time does, and leaves at the end of a shift by some rule."""
     by_hand = [task for number in plan.stations[station].tasks if not (task := plan.tasks[number]).automatic]
     return [task for task in by_hand if task.team == 1 and (task.interruption or plan.shifts[shift].at_end) == rule]
-
-
-def _longest_s(plan: Plan, shift: int, station: int) -> float:
-    return max(task.mean_s() for task in _left(plan, shift, station, HAND_OVER))
 
 
 def _there(plan: Plan, hours: Hours, station: int, worker: int, when: tuple[float, float]) -> set[int]:

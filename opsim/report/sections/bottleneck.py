@@ -19,20 +19,19 @@ from opsim.report.numbers import is_number, listing, percent, quantity, rough
 from opsim.report.page import Block, Bullets, Chart, Section, Words
 from opsim.report.plot.plotly import FONT, at_ms, clock_axis, label, layout_of, shaded
 from opsim.report.sections.common import along, of_open, open_share, worked_on
-from opsim.report.sections.summary import find, keeps_up, with_interval
+from opsim.report.sections.summary import busiest_worker, find, keeps_up, with_interval
 from opsim.report.sections.yamazumi import Bar, Look, bar_traces, fitting
 
-CLEARLY, MUCH = 0.5, 0.25
-"""Shares of the time: alone the bottleneck for so long that it is called the one; or that a second is named."""
-IDLE, NOBODY = 0.1, 0.4
-"""Shares of the time without any station that is active: beyond the first none is said to set the pace, beyond the
-second none is what holds up the floor."""
+MUCH = 0.25
+"""Share of the time as the bottleneck from which on a station is named beside the first."""
+IDLE = 0.1
+"""Share of the time without any station that is active that is worth a word."""
 NOTABLE = 0.03
 """A share of blocking or starving that is worth a word."""
 
 
 def bottleneck_sentences(material: Material, order: Sequence[str]) -> list[str]:
-    """Which station, for how long, what to do about it, and the pattern of blocking and starving about it.
+    """Which station, for how long, blocking and starving about it, the busiest people and tools, how to find out more.
 
     order : stations along the flow
     """
@@ -42,7 +41,27 @@ def bottleneck_sentences(material: Material, order: Sequence[str]) -> list[str]:
     }
     momentary = {name: share.get((name, "momentary"), 0.0) for name in order}
     ranked = sorted(order, key=lambda name: -momentary[name])
-    return [*_which(material, rows, ranked, momentary), *_pattern(material, ranked[0], order)]
+    which = _which(material, rows, ranked, momentary)
+    return [*which, *_pattern(material, ranked[0], order), *_busiest(material), FIND_OUT]
+
+
+FIND_OUT = (
+    "What a faster station, more people or tools, or more room would change does not show in one run: vary that value "
+    "with opsim sweep, or make it a variant for opsim compare."
+)
+
+
+def _busiest(material: Material) -> Iterator[str]:
+    """The worker and the tool with the least time to spare."""
+    if worker := busiest_worker(material.summary["kpis"]):
+        yield worker
+    known = [of_open(row, time_open(material)) for row in material.rows("tool_use") if is_number(row["mean"])]
+    if known:
+        top = max(known, key=lambda row: row["mean"])
+        yield (
+            f"The busiest tool is {top['subject']}: in use, or kept for a job, for {with_interval(top)} of the "
+            f"{'open time' if time_open(material) < 1 else 'time'}."
+        )
 
 
 def time_open(material: Material) -> float:
@@ -67,39 +86,20 @@ def bottleneck_rows(material: Material) -> list[dict[str, Any]]:
 def _which(
     material: Material, rows: Sequence[Mapping[str, Any]], ranked: Sequence[str], momentary: Mapping[str, float]
 ) -> Iterator[str]:
-    first, second, time = ranked[0], ranked[1], "open time" if time_open(material) < 1 else "time"
+    first, time = ranked[0], "open time" if time_open(material) < 1 else "time"
     top, sole = find(rows, "bottleneck", first, "momentary"), find(rows, "bottleneck", first, "sole")
     if top is None:
         return
     alone = f"; for {with_interval(sole)} it is so alone" if sole is not None else ""
-    yield f"{first} is the bottleneck for {with_interval(top)} of the {time}, longer than any other station{alone}."
+    next_to_it = [f"{name} ({percent(momentary[name])})" for name in ranked[1:] if momentary[name] >= MUCH]
+    others = f"; next {'is' if len(next_to_it) == 1 else 'are'} {listing(next_to_it)}" if next_to_it else ""
+    of_all = f"of the {time}, the longest of all stations"
+    yield f"{first} is the bottleneck for {with_interval(top)} {of_all}{alone}{others}."
     none = find(rows, "bottleneck", "", "none")
-    idle, clearly = 0.0 if none is None else none["mean"], sole is not None and sole["mean"] >= CLEARLY
-    if (clearly or idle > NOBODY) and keeps_up(material):
-        yield (
-            f"Yet demand sets the pace: as much leaves as comes in, and for {percent(idle)} of the {time} no station "
-            f"is busy on all its servers. Time saved at {first} shortens how long jobs stay, and adds no output."
-        )
-        return
-    if clearly and idle <= IDLE:
-        yield (
-            f"So it sets the pace: time saved at {first}, or a stop avoided there, comes out as output; "
-            "elsewhere it mostly becomes waiting."
-        )
-        return
-    if clearly or idle > NOBODY:
-        yield (
-            f"For {percent(idle)} of the {time} no station is busy on all its servers: what is missing then is "
-            "not a faster station but jobs, or people who are elsewhere; see what stations and workers were doing."
-        )
-        return
-    near = [name for name in ranked if momentary[name] >= MUCH] or [first, second]
-    near = near if len(near) > 1 else [first, second]
-    shares = listing([f"{name} ({percent(momentary[name])})" for name in near])
-    yield (
-        f"No station holds up the floor by itself: it moves between {shares}. Making one of them faster gains "
-        "little while the others stay as they are; room between them, or evener times, helps all."
-    )
+    if none is not None and none["mean"] > IDLE:
+        yield f"For {percent(none['mean'])} of the {time} no station is busy on all its servers."
+    if keeps_up(material):
+        yield "As much leaves as comes in: the output is what is asked for."
 
 
 def _pattern(material: Material, first: str, order: Sequence[str]) -> Iterator[str]:
@@ -133,10 +133,7 @@ def _pattern(material: Material, first: str, order: Sequence[str]) -> Iterator[s
     yield text[:1].upper() + text[1:] + "."
     least = min(known, key=lambda name: blocked[name] + starved[name])
     if least != first and blocked[first] + starved[first] - blocked[least] - starved[least] >= NOTABLE:
-        yield (
-            f"{least} waits least of all ({percent(blocked[least] + starved[least])} blocked or without a "
-            "job): by that sign it may be the narrower one; look at both."
-        )
+        yield (f"{least} waits least of all ({percent(blocked[least] + starved[least])} blocked or without a job).")
 
 
 def _on_its_way(plan: Plan, station: str, order: Sequence[str]) -> list[str]:

@@ -23,7 +23,7 @@ from opsim.report.comparison_sentences import (
     way_of,
 )
 from opsim.report.material import Material, Same
-from opsim.report.numbers import kpi_name, largest_mean, plus_minus, scale_of
+from opsim.report.numbers import POINTS, difference_unit, kpi_name, largest_mean, plus_minus, scale_of
 from opsim.report.page import Block, Bullets, Chart, Folded, Grid, Panels, Section, Words
 from opsim.report.plot.plotly import ACCENT, FONT, INK, MUTED, label, layout_of
 from opsim.study.compare import Comparison, Difference, NotComparable, compare
@@ -262,11 +262,11 @@ def _means(key: Key, rows: Rows, variants: Sequence[str], base: str, here: str, 
 def _differences(of: Sequence[Difference], here: str) -> Forest:
     largest = largest_of(of)
     factor, unit = scale_of(of[0].key[3], largest)
-    unit = "percentage points" if unit == "%" else unit
+    unit = difference_unit(unit)
     dots = []
     for d in of:
         cells = comparison_cells(d, largest)
-        relative = f", {signed(cells['relative'])}" if cells["relative"] and unit != "percentage points" else ""
+        relative = f", {signed(cells['relative'])}" if cells["relative"] else ""
         number = f"{signed(cells['difference'])}{relative}: {_verdict(d)}"
         if d.verdict == TOO_FEW:
             number = f"{signed(f'{d.interval.mean * factor:.3g}')} in each of {d.interval.n} pairs: too few to say"
@@ -291,10 +291,12 @@ def _table(compared: Comparison) -> Folded:
     """Every difference in words: what the charts draw, for who reads rather than looks."""
     hours, rows = bool(compared.hours), []
     for d in compared.differences[:MOST_ROWS]:
-        cells = comparison_cells(d, largest_of([o for o in compared.differences if o.key[0] == d.key[0]]))
+        alike = [other for other in compared.differences if other.key[0] == d.key[0]]
+        cells = comparison_cells(d, largest_of(alike), [other for other in alike if other.key == d.key])
         name = " · ".join(filter(None, (kpi_name(d.key[0], hours), d.key[1], part_name(d.key[0], d.key[2]))))
         by = " ".join(filter(None, (signed(cells["difference"]), cells["unit"])))
-        rows.append([d.variant, name, cells["base"], cells["mean"], by, cells["relative"], _verdict(d)])
+        base, mean = (cells[key] + (" %" if cells["unit"] == POINTS else "") for key in ("base", "mean"))
+        rows.append([d.variant, name, base, mean, by, cells["relative"], _verdict(d)])
     columns = ("Variant", "Figure", compared.base, "Variant's", "Difference", "in %", "Verdict")
     return Folded("Every difference as a table", [Grid(columns, rows, "", words=2, left=(6,))])
 

@@ -59,10 +59,9 @@ def with_interval(row: Row) -> str:
 def sentences(summary: Mapping[str, Any]) -> list[str]:
     """What came out, how long it stayed, who and what was busiest, and how surely this is known."""
     rows = summary["kpis"]
-    worker = _busiest_on_duty(rows) or _busiest(rows, "worker_states", "worker")
     said = [
         _output(rows, "scheduled_h" in summary),
-        worker,
+        busiest_worker(rows),
         _busiest(rows, "station_states", "station"),
         _overtime(rows),
     ]
@@ -83,6 +82,11 @@ def _output(rows: Sequence[Row], hours: bool) -> str:
     ]
     text = listing(parts)
     return text[:1].upper() + text[1:] + "." if text else ""
+
+
+def busiest_worker(rows: Sequence[Row]) -> str:
+    """Who has the least time to spare; nothing where nobody works."""
+    return _busiest_on_duty(rows) or _busiest(rows, "worker_states", "worker")
 
 
 def _busiest(rows: Sequence[Row], kpi: str, noun: str) -> str:

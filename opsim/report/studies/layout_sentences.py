@@ -172,10 +172,7 @@ def _caution(found: LayoutFound) -> Iterator[str]:
     if one is None or found.asked.best.kpi != "throughput_per_h":
         return
     if found.fresh[WALKED].less and not one.clear and one.within(SAME):
-        yield (
-            f"What is saved is walking: the output stays the same within {100 * SAME:.0f} %, so it is limited by "
-            "something else, such as what comes in."
-        )
+        yield f"What is saved is walking: the output stays the same within {100 * SAME:.0f} %."
 
 
 def _percent(one: Against, *, plain: bool = False) -> str:

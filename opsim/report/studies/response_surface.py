@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from opsim.report.numbers import digits, half_digits, is_number, largest_of, scale_of
+from opsim.report.numbers import difference_unit, digits, half_digits, is_number, largest_of, scale_of
 from opsim.report.page import StudySection, Table
 from opsim.report.plot.plotly import INK, MUTED
 from opsim.report.sections.pareto import Axis, axis_name
@@ -215,6 +215,7 @@ def sensitivity_section(found: Any, design: str, on_screen: bool) -> StudySectio
 
 def _morris(title: str, found: Any, pairs: Sequence[tuple[Any, Any]], on_screen: bool) -> StudySection:
     factor, word = scale_of(found.key[3], largest_of(found))
+    unit = difference_unit(word)
     rows = [
         (
             f.path,
@@ -229,8 +230,8 @@ def _morris(title: str, found: Any, pairs: Sequence[tuple[Any, Any]], on_screen:
         "another). A size above the change with its sign, or a large spread, says that the effect is "
         "bent or depends on other factors."
     )
-    picture = sensitivity_svg(found.factors, found.sensitivity, factor, f"change over the whole range, {word}")
-    table = Table(("factor", f"size of the change, {word}", f"with its sign, {word}", "spread"), rows)
+    picture = sensitivity_svg(found.factors, found.sensitivity, factor, f"change over the whole range, {unit}")
+    table = Table(("factor", f"size of the change, {unit}", f"with its sign, {unit}", "spread"), rows)
     return StudySection(title, [said], table, picture, MORRIS_LEGEND, on_screen)
 
 

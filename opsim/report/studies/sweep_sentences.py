@@ -9,7 +9,16 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from opsim.kpi.catalogue import LESS, MORE
-from opsim.report.numbers import digits, half_digits, is_number, largest_of, listing, plus_minus, scale_of
+from opsim.report.numbers import (
+    difference_unit,
+    digits,
+    half_digits,
+    is_number,
+    largest_of,
+    listing,
+    plus_minus,
+    scale_of,
+)
 from opsim.report.sections.pareto import axis_name
 
 LITTLE = 0.1
@@ -137,7 +146,8 @@ def _sensitivity(found: Any, design: str) -> Iterator[str]:
     ranked = sorted(zip(found.factors, found.sensitivity), key=lambda pair: -pair[1].total)
     if design == "morris":
         factor, word = scale_of(found.key[3], largest_of(found))
-        said = [f"{f.path}: {_about(one.total * factor, one.total_half * factor)} {word}".strip() for f, one in ranked]
+        unit = difference_unit(word)
+        said = [f"{f.path}: {_about(one.total * factor, one.total_half * factor)} {unit}".strip() for f, one in ranked]
         yield f"{name} moves most with {said[0]} from one end to the other, on average{_then(said[1:])}."
     else:
         said = [f"{f.path}: {_about(100 * one.total, 100 * one.total_half)} %" for f, one in ranked]

@@ -7,7 +7,7 @@ from plans import plan, ran
 from opsim.engine.rules import keeps_shared
 from opsim.kpi.cycle_times import visits
 from opsim.log import FINISH, WORK
-from opsim.plan.loads.flows import tasks_at, visit_s
+from opsim.plan.loads.work_times import WorkTimes, tasks_at
 
 LINE = """
 opsim: 1
@@ -161,8 +161,8 @@ def test_visits_hold_all_that_was_done_in_one_coming():
 
 def test_loads_deal_the_shared_work_out_evenly():
     p = plan(LINE)
-    back, front = (visit_s(p, rank, 0) for rank in range(2))
+    back, front = (WorkTimes(p).least_visit_s(rank, 0) for rank in range(2))
     assert (front, back) == pytest.approx((9, 9))  # 4 + 5 / 6 of 6, and 8 + 1 / 6 of 6
     assert sum(part for rank in range(2) for task, part in tasks_at(p, rank) if p.tasks[task].name == "lid") == 1
     p = plan(LINE.replace("close: {fixed: 8 s}", "close: {fixed: 30 s}"))
-    assert [visit_s(p, rank, 0) for rank in range(2)] == pytest.approx([30, 10])
+    assert [WorkTimes(p).least_visit_s(rank, 0) for rank in range(2)] == pytest.approx([30, 10])

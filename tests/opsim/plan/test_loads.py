@@ -5,7 +5,7 @@ from plans import plan
 
 from opsim.plan.loads import bottleneck, crew_load, overloads, shared_loads, skill_loads, station_loads
 from opsim.plan.loads.flows import visits_of
-from opsim.plan.loads.people import best_share
+from opsim.plan.loads.work_sharing import best_share
 
 BASE = """
 opsim: 1
@@ -158,25 +158,34 @@ def test_a_team_wants_everybody_of_it_and_an_attended_machine_its_worker():
 
 
 def test_work_is_shared_as_well_as_it_can_be():
-    assert best_share({0: 1.0, 1: 0.2}, {0: [0], 1: [0, 1]}) == (1.0, (0,))
-    share, kinds = best_share({0: 1.0, 1: 1.0, 2: 1.0}, {0: [0, 1], 1: [1, 2], 2: [2, 0]})
+    assert best_share({0: 1.0, 1: 0.2}, {0: {0: 1.0}, 1: {0: 1.0, 1: 1.0}}) == (1.0, (0,))
+    ring = {kind: {kind: 1.0, (kind + 1) % 3: 1.0} for kind in range(3)}
+    share, kinds = best_share({0: 1.0, 1: 1.0, 2: 1.0}, ring)
     assert share == pytest.approx(1) and kinds == (0, 1, 2)
 
 
-def test_best_shares_are_those_of_linear_programming():
+@pytest.mark.parametrize("alike", [True, False], ids=["each as fast in all he does", "faster in some work"])
+def test_no_way_of_sharing_work_asks_for_less(alike):
     import numpy as np
-    from scipy.optimize import linprog
 
     rng = np.random.default_rng(5)
-    for _ in range(40):
+    for _ in range(20):
         n_kinds, n_people = rng.integers(1, 6, 2)
         able = {k: sorted(rng.choice(n_people, rng.integers(1, n_people + 1), replace=False)) for k in range(n_kinds)}
         work = {k: float(rng.random()) for k in range(n_kinds)}
-        pairs = [(k, person) for k in able for person in able[k]]
-        done = [[float(k == kind) for k, _ in pairs] + [0.0] for kind in range(n_kinds)]
-        spent = [[float(p == person) for _, p in pairs] + [-1.0] for person in range(n_people)]
-        least = linprog([0.0] * len(pairs) + [1.0], spent, [0.0] * n_people, done, list(work.values())).fun
-        assert best_share(work, able)[0] == pytest.approx(least, abs=1e-7)
+        speed, own = rng.uniform(0.5, 2, n_people), rng.uniform(0.5, 2, (n_kinds, n_people))
+        seconds = {k: {p: 1 / (speed[p] if alike else own[k, p]) for p in able[k]} for k in able}
+        assert best_share(work, seconds)[0] == pytest.approx(naive_share(work, seconds, n_people), abs=1e-7)
+
+
+def naive_share(work, seconds, n_people):
+    """The linear programme as it stands in a textbook."""
+    from scipy.optimize import linprog
+
+    pairs = [(k, person) for k in seconds for person in seconds[k]]
+    done = [[float(k == kind) for k, _ in pairs] + [0.0] for kind in seconds]
+    spent = [[(p == person) * seconds[k][p] for k, p in pairs] + [-1.0] for person in range(n_people)]
+    return linprog([0.0] * len(pairs) + [1.0], spent, [0.0] * n_people, done, list(work.values())).fun
 
 
 def test_tools_transporters_cards_and_repair_teams():

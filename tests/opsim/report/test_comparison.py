@@ -114,10 +114,21 @@ def test_figures_of_one_worker_are_spoken_of_only_where_nothing_else_is_asked():
 def test_a_share_differs_by_percentage_points_and_hours_are_named():
     share = comparison_words_difference(key=("lost_share", "", "", "share"), by=0.02, half=0.005, base=0.1)
     assert amount(share, [share]) == "+2.0 ± 0.5 percentage points"
+    page = comparison_html(Comparison("base", 1, 10, (share,)), "Shares")
+    assert '10.0 %</td><td class="number">12.0 %</td><td class="number mean">2.0 ± 0.5</td>' in page
+    assert '<td class="unit">percentage points</td><td class="number"></td>' in page
+    assert screen_table(Comparison("base", 1, 10, (share,)), 140).rows[0][1:] == ("10.0", "+2.0 ± 0.5 points *")
     assert spoken_name(comparison_words_difference(), hours=True) == "throughput per scheduled hour"
     assert [signed(text) for text in ("0", "0.00 ± 0.15", "0.03 ± 0.04", "\N{MINUS SIGN}4")] == [
         *("0", "0.00 ± 0.15", "+0.03 ± 0.04", "\N{MINUS SIGN}4"),
     ]
+
+
+def test_the_base_is_rounded_once_for_all_variants():
+    rough, exact = (comparison_words_difference(name, half=half, base=28.85) for name, half in (("a", 2.0), ("b", 0.2)))
+    page = comparison_html(Comparison("base", 1, 10, (rough, exact)), "Bases")
+    assert page.count('<td class="number">28.85</td>') == 2 and "base: 28.85 per hour" in page
+    assert screen_table(Comparison("base", 1, 10, (rough, exact)), 140).rows[0][1] == "28.85"
 
 
 def many(n):
