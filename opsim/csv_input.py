@@ -43,7 +43,9 @@ class WrongRows(RecordedError):
     """Rows that cannot be used: ``mistakes`` says what is wrong with each."""
 
     def __init__(self, file: str, mistakes: list[Mistake]):
-        said = [f"{shown(file)} line {one.line}: {'; '.join(filter(None, (one.message, one.hint)))}" for one in mistakes]
+        said = [
+            f"{shown(file)} line {one.line}: {'; '.join(filter(None, (one.message, one.hint)))}" for one in mistakes
+        ]
         more = len(said) - MOST_SHOWN
         super().__init__("\n".join([*said[:MOST_SHOWN], *([f"and {more} more"] if more > 0 else [])]))
         self.mistakes = mistakes
@@ -56,7 +58,7 @@ def resolve_times(name: str, folder: Path) -> Path:
     except NotInside as error:
         raise RecordedError(f"cannot use {shown(name)}: {error}", "copy the file there") from None
     if found is None:
-        hint = did_you_mean(name, [path.name for path in folder.glob("*.csv")], otherwise="files there")
+        hint = did_you_mean(name, [path.name for path in folder.glob("*.csv")], otherwise="files there", files=True)
         raise RecordedError(f"no file {shown(name)} in the scenario's folder", hint)
     return found
 

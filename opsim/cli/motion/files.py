@@ -32,7 +32,7 @@ def found(library: str) -> Path:
     if name in shipped:
         return shipped[name]
     beside = [] if "\0" in library else [str(path) for path in file.parent.glob("*.npz") if path.is_file()]
-    hint = did_you_mean(library, [*beside, *shipped], otherwise="libraries here and shipped ones")
+    hint = did_you_mean(library, [*beside, *shipped], otherwise="libraries here and shipped ones", files=True)
     raise ValueError(f"no library {shown(library)}; {hint}")
 
 
