@@ -186,7 +186,7 @@ class Points:
     bases: Mapping[str, str] = field(default_factory=dict)
 
     def points(self, variant: str | None) -> list[Point]:
-        """To be run, in order; two rows with the same values are the same point."""
+        """To be run, in order; two rows with the same values are the same point, the scenario's own are the base."""
         width = len(str(len(self.values)))
         return [
             Point(f"point {row + 1:0{width}d}", self._changes(values), variant)
@@ -200,8 +200,8 @@ class Points:
         ).reshape(len(self.values), len(self.factors))
 
     def _changes(self, values: Sequence[Any]) -> dict[str, Any]:
-        pairs = zip(self.factors, values)
-        return {factor.path: value for factor, value in pairs if value is not UNCHANGED}
+        said = [(factor, value) for factor, value in zip(self.factors, values) if value is not UNCHANGED]
+        return {factor.path: value for factor, value in said if factor.words(value) != self.bases.get(factor.path)}
 
 
 def points_of(asked: Sweep, seed: int) -> Points:
