@@ -54,13 +54,17 @@ def command(
     person: str | None,
     as_json: bool,
 ) -> None:
-    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz or .bvh file, the movements."""
+    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz or .bvh file, the movements.
+
+    Both may be said in one word, as in a scenario: public_movements/deep_squat.
+    """
     import numpy as np
 
     from opsim.cli.app import print_json
-    from opsim.cli.motion.files import chosen
+    from opsim.cli.motion.files import chosen, library_and_task
 
     replaced: list[str] = []
+    library, task = library_and_task(library, task)
     with mistakes():
         model = chosen(library, task)
         _refuse(out, library)
