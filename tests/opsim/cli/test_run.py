@@ -168,6 +168,7 @@ def test_a_state_that_takes_little_everywhere_is_left_to_the_report(capsys):
     print_results("made", {"base": result(*states("station_states", "press", work=0.9, setup=0.05, down=0.01))})
     shown = capsys.readouterr().out
     assert "press work" in shown and "setup" not in shown and "down" not in shown
+    assert "State of station: 2 rows are not shown here" in shown
 
 
 @pytest.mark.parametrize("part", ["setup", "walk", "held", "team", "tool"])
@@ -176,8 +177,9 @@ def test_of_workers_too(part):
     assert not matters("worker_states", part, {"base": {"mean": 0.01}, "wide": {"mean": None}})
 
 
-def test_idle_workers_are_what_the_shown_states_leave():
-    assert not matters("worker_states", "wait", {"base": {"mean": 0.9}})
+def test_idle_workers_are_what_the_shown_states_leave_and_are_said_to_be_left_out(capsys):
+    print_results("made", {"base": result(*states("worker_states", "ana", work=0.1, wait=0.9, walk=0.0))})
+    assert "State of worker: 1 row is not shown here (waiting, breaks, and" in capsys.readouterr().out
 
 
 def test_of_work_broken_off_the_parts_there_are_in_any_variant_are_shown_in_plain_words(capsys):
