@@ -161,9 +161,9 @@ def mistakes(recording: Recording, settings: CleaningSettings) -> list[str]:
     if settings.plausible == "off":
         return []
     limits_m = settings.shortest_m, settings.tallest_m
-    wrong = [said for take in recording.takes if (said := wrong_size(take.name, take.positions_m, *limits_m))]
-    said = first_of(wrong, len(recording.takes))
-    return [*said, *_never_seen(recording), *([] if wrong else _wrong_way_up(recording))]
+    sizes = (wrong_size(take.name, take.positions_m, *limits_m) for take in recording.takes)
+    wrong = first_of(list(filter(None, sizes)), len(recording.takes))
+    return [*wrong, *_never_seen(recording), *([] if wrong else _wrong_way_up(recording))]
 
 
 def _never_seen(recording: Recording) -> list[str]:

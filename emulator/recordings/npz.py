@@ -81,7 +81,8 @@ def read_npz(
         except ValueError as error:
             raise RecordingError(f"{path}: repetition {name}: {error}") from None
     if not motions:
-        _refuse(path, first_of([said for name in glitched if (said := wrong_size(name, glitched[name]))], len(keep)))
+        sizes = [wrong_size(name, positions) for name, positions in glitched.items()]
+        _refuse(path, first_of(list(filter(None, sizes)), len(keep)))
         raise RecordingError(_none_left(path, selection, notes))
     notes += _breathing(motions) + unread
     return MotionSet(
