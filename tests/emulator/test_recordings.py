@@ -144,6 +144,13 @@ def test_a_broken_recording_is_refused_by_name(tmp_path, changes, word):
     assert str(path) in str(error.value)
 
 
+@pytest.mark.parametrize("read", [read_motions, read_recording])
+def test_a_file_of_another_form_is_sent_to_import(tmp_path, read):
+    (tmp_path / "take.bvh").write_text("HIERARCHY")
+    with pytest.raises(RecordingError, match=r"'opsim motion import take\.bvh -o take\.npz' makes one of it"):
+        read(tmp_path / "take.bvh")
+
+
 def test_all_mistakes_of_a_file_are_said_at_once(tmp_path):
     path = write(tmp_path / "wave.npz", fps=0.0, trial=None, names=np.array("x"), ann_turn_frame=np.array(1))
     with pytest.raises(RecordingError) as error:

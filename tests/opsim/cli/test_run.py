@@ -358,6 +358,18 @@ def test_each_variant_gets_its_suggestion(results):
     assert code == 0 and "base" in shown and "wider" in shown and "Jobs inside" in shown and "MSER-5" in shown
 
 
+def test_where_no_warm_up_is_found_none_is_to_be_taken(tmp_path):
+    file = line(tmp_path, LINE)
+    opsim("run", file, "-o", tmp_path / "out", "--horizon", "2 min")
+    _, shown, _ = opsim("warm-up", tmp_path / "out")
+    assert "No warm-up is found in any series" in shown and "Take the longest" not in shown
+
+
+def test_a_folder_that_is_a_file_is_named_with_what_was_expected(tmp_path):
+    file = line(tmp_path, LINE)
+    assert opsim("run", file, "-o", file)[::2] == (2, f"{file}: found a file, expected a folder to write into\n")
+
+
 def test_one_variant_as_json(results):
     code, shown, _ = opsim("warm-up", results / "base", "--json")
     (found,) = json.loads(shown)["variants"]
