@@ -186,7 +186,7 @@ class Points:
     bases: Mapping[str, str] = field(default_factory=dict)
 
     def points(self, variant: str | None) -> list[Point]:
-        """To be run, in order; two rows with the same values are the same point, the scenario's own are the base."""
+        """To be run, in order; two rows with the same values are the same point, one at a time the base among them."""
         width = len(str(len(self.values)))
         return [
             Point(f"point {row + 1:0{width}d}", self._changes(values), variant)
@@ -201,7 +201,9 @@ class Points:
 
     def _changes(self, values: Sequence[Any]) -> dict[str, Any]:
         said = [(factor, value) for factor, value in zip(self.factors, values) if value is not UNCHANGED]
-        return {factor.path: value for factor, value in said if factor.words(value) != self.bases.get(factor.path)}
+        if self.design == "one_at_a_time" and all(f.words(value) == self.bases.get(f.path) for f, value in said):
+            return {}
+        return {factor.path: value for factor, value in said}
 
 
 def points_of(asked: Sweep, seed: int) -> Points:

@@ -231,6 +231,8 @@ def test_defaults_and_likes_hold_for_shifts():
      "17: rotations.r.after: expected a whole number, found 2.5 | write 2 or 3"),
     ("shift: night}", "shift: night}\nrotations: {r: {workers: [ana, ben], posts: [s, s], after: 1e3}}",
      "17: rotations.r.after: expected a whole number, found 1000.0 | write 1000"),
+    ("{fixed: 10 min}", "{dist: lognormal, mean: 10 min, cv: 0.3, between_share: 40%}",
+     "10: tasks.t.between_share: expected a number, found '40%' | write 0.4"),
     ("workers:\n", "wrkers:\n", "14: wrkers: unknown key 'wrkers' | did you mean 'workers'?"),
     ("stations: {s: {at: a, tasks: [t], shift: [early, late]}}", "stations: [{at: a, tasks: [t]}]",
      "11: stations: expected a block of names, found a list of 1 | such as {pack: {at: bench, tasks: [label]}}"),
