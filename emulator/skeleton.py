@@ -122,8 +122,13 @@ class Skeleton:
         double = sorted({name for name in self.names if self.names.count(name) > 1})
         if double:
             raise ValueError(f"skeleton: joint {double[0]!r} is named twice")
-        if self.parents.count(-1) != 1 or not all(-1 <= p < self.n_joints for p in self.parents):
-            raise ValueError("skeleton: parents must be joint numbers, and exactly one joint must have none (-1)")
+        for name, parent in zip(self.names, self.parents):
+            if not -1 <= parent < self.n_joints:
+                numbers = f"a joint number from 0 to {self.n_joints - 1}, or -1 for none"
+                raise ValueError(f"skeleton: joint {name!r}: found parent {parent}, expected {numbers}")
+        roots = [name for name, parent in zip(self.names, self.parents) if parent == -1]
+        if len(roots) > 1:
+            raise ValueError(f"skeleton: joints {', '.join(roots)} have no parent (-1), expected one such joint")
         for joint in range(self.n_joints):
             self._path(joint)
 
@@ -132,7 +137,8 @@ class Skeleton:
         path: list[int] = []
         while self.parents[joint] >= 0:
             if joint in path:
-                raise ValueError(f"skeleton: joint {self.names[joint]!r} is its own ancestor")
+                circle = "is its own ancestor, expected a tree below one joint without parent (-1)"
+                raise ValueError(f"skeleton: joint {self.names[joint]!r} {circle}")
             path.append(joint)
             joint = self.parents[joint]
         return path

@@ -15,9 +15,10 @@ from typing import Any
 
 from opsim.clock import LONGEST_S, TICKS_PER_S
 from opsim.files import NotInside, inside
-from opsim.problems import did_you_mean, shown
+from opsim.problems import MOST_SHOWN, did_you_mean, shown
 
 MOST_BYTES = 50_000_000
+_ONE_EACH = "write decimals with a point, and text that holds a comma in quotes"
 
 
 class RecordedError(ValueError):
@@ -28,6 +29,28 @@ class RecordedError(ValueError):
         self.message, self.hint = message, hint
 
 
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """What is wrong with a row. line : counted from 1; cell : which one of the row, counted from 0"""
+
+    line: int
+    cell: int
+    message: str
+    hint: str = ""
+
+
+class WrongRows(RecordedError):
+    """Rows that cannot be used: ``mistakes`` says what is wrong with each."""
+
+    def __init__(self, file: str, mistakes: list[Mistake]):
+        said = [
+            f"{shown(file)} line {one.line}: {'; '.join(filter(None, (one.message, one.hint)))}" for one in mistakes
+        ]
+        more = len(said) - MOST_SHOWN
+        super().__init__("\n".join([*said[:MOST_SHOWN], *([f"and {more} more"] if more > 0 else [])]))
+        self.mistakes = mistakes
+
+
 def resolve_times(name: str, folder: Path) -> Path:
     """The CSV file in the scenario's folder. Raises RecordedError."""
     try:
@@ -35,23 +58,30 @@ def resolve_times(name: str, folder: Path) -> Path:
     except NotInside as error:
         raise RecordedError(f"cannot use {shown(name)}: {error}", "copy the file there") from None
     if found is None:
-        hint = did_you_mean(name, [path.name for path in folder.glob("*.csv")], otherwise="files there")
+        hint = did_you_mean(name, [path.name for path in folder.glob("*.csv")], otherwise="files there", files=True)
         raise RecordedError(f"no file {shown(name)} in the scenario's folder", hint)
     return found
 
 
-def read_times(path: Path, column: str | None = None) -> list[float]:
+def read_times(path: Path, column: str | None = None, key: str = "column:") -> list[float]:
     """The positive durations in seconds of a column, in the file's order.
 
-    The first row is a heading unless all of it is numbers. ``column`` may be left out where there is one only.
-    Raises RecordedError with the line of the first bad number.
+    The first row is a heading unless all of it is numbers. ``column`` may be left out where there is one only;
+    ``key`` is where the user says it.
+    Raises RecordedError, WrongRows where it is the rows that are wrong.
     """
     names, rows = _table(path)
-    index = _column(names, column, path.name)
-    times = [_positive(cells, index, line, path.name) for line, cells in rows]
-    if not times:
+    if column is None and len(names) > 1:
+        found = f"{shown(path.name)} has {len(names)} columns"
+        raise RecordedError(found, f"add '{key}' with one of: {', '.join(names[:8])}")
+    index = 0 if column is None else _column(names, column, path.name)
+    if not rows:
         raise RecordedError(f"{shown(path.name)} holds no times")
-    return times
+    mistakes = _surplus(names, rows)
+    times_s = [_positive_s(cells, index, line, mistakes) for line, cells in rows]
+    if mistakes:
+        raise WrongRows(path.name, sorted(mistakes, key=lambda one: (one.line, one.cell)))
+    return times_s
 
 
 def column_names(path: Path) -> tuple[str, ...]:
@@ -95,13 +125,7 @@ def rows_of(path: Path) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _column(names: list[str], column: str | None, file: str) -> int:
-    if column is None and len(names) > 1:
-        raise RecordedError(
-            f"{shown(file)} has {len(names)} columns", f"add 'column:' with one of: {', '.join(names[:8])}"
-        )
-    if column is None:
-        return 0
+def _column(names: list[str], column: str, file: str) -> int:
     if column not in names:
         raise RecordedError(
             f"no column {shown(column)} in {shown(file)}", did_you_mean(column, names, otherwise="columns")
@@ -109,14 +133,22 @@ def _column(names: list[str], column: str | None, file: str) -> int:
     return names.index(column)
 
 
-def _positive(cells: list[str], index: int, line: int, file: str) -> float:
+def _surplus(names: list[str], rows: list[tuple[int, list[str]]]) -> list[Mistake]:
+    """Rows with more values than the first line has columns; blank cells at their end are none."""
+    n_values = [(line, max(at + 1 for at, cell in enumerate(cells) if cell.strip())) for line, cells in rows]
+    found = [(line, n) for line, n in n_values if n > len(names)]
+    return [Mistake(line, len(names), f"{n} values, the first line has {len(names)}", _ONE_EACH) for line, n in found]
+
+
+def _positive_s(cells: list[str], index: int, line: int, mistakes: list[Mistake]) -> float:
+    """The time in a cell; what is wrong with it is added to ``mistakes``."""
     cell = cells[index] if index < len(cells) else ""
     number = _number(cell)
     if number is None or not number > 0 or not math.isfinite(number):
-        raise RecordedError(f"{shown(file)} line {line}: {shown(cell)} is not a positive number of seconds")
-    if number > LONGEST_S:
-        raise RecordedError(f"{shown(file)} line {line}: {shown(cell)} is more than 2^33 s (272 years)")
-    return number
+        mistakes.append(Mistake(line, index, f"{shown(cell)} is not a positive number of seconds"))
+    elif number > LONGEST_S:
+        mistakes.append(Mistake(line, index, f"{shown(cell)} is more than 2^33 s (272 years)"))
+    return number or 0.0
 
 
 def _number(cell: str) -> float | None:
@@ -152,24 +184,13 @@ class Order:
     priority: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Mistake:
-    """What is wrong with a row. line : counted from 1; cell : which one of the row, counted from 0"""
-
-    line: int
-    cell: int
-    message: str
-    hint: str = ""
-
-
 def read_orders(path: Path, products: Collection[str]) -> tuple[list[Order], list[Mistake]]:
     """The orders of a file, and its mistakes, of which one is that times go backwards.
 
     Columns, in any order: time (seconds, or h:mm or h:mm:ss since the start), and where wanted product, quantity, due
     and priority. Raises RecordedError where there is no table.
     """
-    names, rows = _order_table(path, ("time",), ("product", "quantity", "due", "priority"))
-    mistakes: list[Mistake] = []
+    names, rows, mistakes = _order_table(path, ("time",), ("product", "quantity", "due", "priority"))
     orders: list[Order] = []
     for line, row in rows:
         read = _Row(row, line, mistakes)
@@ -191,8 +212,7 @@ def read_sequence(path: Path, products: Collection[str]) -> tuple[list[str], lis
 
     Columns: product, and where wanted quantity. Raises RecordedError where there is no table.
     """
-    _, rows = _order_table(path, ("product",), ("quantity",))
-    mistakes: list[Mistake] = []
+    _, rows, mistakes = _order_table(path, ("product",), ("quantity",))
     sequence: list[str] = []
     for line, row in rows:
         read = _Row(row, line, mistakes)
@@ -204,11 +224,11 @@ def read_sequence(path: Path, products: Collection[str]) -> tuple[list[str], lis
     return sequence, mistakes
 
 
-Table = tuple[list[str], list[tuple[int, dict[str, str]]]]
+Table = tuple[list[str], list[tuple[int, dict[str, str]]], list[Mistake]]
 
 
 def _order_table(path: Path, needed: tuple[str, ...], wanted: tuple[str, ...]) -> Table:
-    """The columns of a file, and its rows by column, each with its line. Raises RecordedError."""
+    """The columns of a file, its rows by column, each with its line, and rows too long. Raises RecordedError."""
     (_, heading), *rows = rows_of(path)
     names = [cell.strip().casefold() for cell in heading]
     known, where = (*needed, *wanted), shown(path.name)
@@ -223,7 +243,8 @@ def _order_table(path: Path, needed: tuple[str, ...], wanted: tuple[str, ...]) -
             raise RecordedError(f"{where} has two columns {shown(name)}", "keep one of them")
     if not rows:
         raise RecordedError(f"{where} has no rows below its heading", "add a line for each order or product")
-    return names, [(line, dict(zip(names, (cell.strip() for cell in cells)))) for line, cells in rows]
+    by_column = [(line, dict(zip(names, (cell.strip() for cell in cells)))) for line, cells in rows]
+    return names, by_column, _surplus(names, rows)
 
 
 class _NoValue(ValueError):

@@ -42,7 +42,10 @@ def resolve_library(name: str, folder: Path) -> Path:
         raise LibraryMissing(f"cannot use {shown(name)}: {error}", "copy the library there") from None
     if found is None:
         near = [str(path.relative_to(root)) for root in (folder, shipped_folder()) for path in _libraries_below(root)]
-        hint = did_you_mean(name, near, otherwise="libraries found") or "'opsim motion fit' makes one from recordings"
+        hint = (
+            did_you_mean(name, near, otherwise="libraries found", files=True)
+            or "'opsim motion fit' makes one from recordings"
+        )
         raise LibraryMissing(f"no library file {shown(name)}", hint)
     return found
 

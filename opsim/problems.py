@@ -8,9 +8,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from functools import lru_cache
 from itertools import islice
+from pathlib import PurePath
 
 _DIGITS = re.compile(r"(\d+)")
 
@@ -39,6 +40,8 @@ def enumerated(names: Sequence[str]) -> str:
 MOST_SHOWN = 50
 WIDEST_LINE = 160
 MOST_COMPARED = 2000
+NEAR = 0.6
+"""How like a word must be to be the one that was meant: twice the letters they share, in that of both."""
 MOST_FOUND = 200
 """Problems that a reader looks for: more would be read by nobody, and a hostile file could hold a million."""
 
@@ -98,12 +101,21 @@ def shown(value: object) -> str:
 
 
 def nearest(word: object, known: Iterable[str]) -> str | None:
-    """The known word most like this one, or None where none is near."""
-    text = str(word)[:60]
-    words = sorted(_comparable(text, known))
+    """The known word most like this one, of two that are as like the one that begins alike; None where none is near."""
+    text = str(word)[:60].casefold()
+    words = sorted(_comparable(str(word)[:60], known))
     by_folded = {known_word.casefold(): known_word for known_word in reversed(words)}
-    match = get_close_matches(text.casefold(), by_folded, n=1)
-    return by_folded[match[0]] if match else None
+    matches = get_close_matches(text, by_folded, cutoff=NEAR)
+    if not matches:
+        return None
+    return by_folded[max(matches, key=lambda one: (SequenceMatcher(None, one, text).ratio(), one[:1] == text[:1]))]
+
+
+def nearest_file(name: object, files: Iterable[str]) -> str | None:
+    """The file most like one of this name, compared without folder and ending, which alike files share anyway."""
+    by_stem = {PurePath(file).stem: file for file in reversed(list(files))}
+    near = nearest(PurePath(str(name)).stem, by_stem)
+    return None if near is None else by_stem[near]
 
 
 def _comparable(text: str, known: Iterable[str]) -> list[str]:
@@ -117,9 +129,14 @@ def _comparable(text: str, known: Iterable[str]) -> list[str]:
     return list(islice(alike, MOST_COMPARED))
 
 
-def did_you_mean(word: object, known: Iterable[str], *, otherwise: str = "known", most: int = 12) -> str:
-    """The hint for an unknown word: the nearest right one, or the words that are known, so many of them at most."""
-    near = nearest(word, known := list(known))
+def did_you_mean(
+    word: object, known: Iterable[str], *, otherwise: str = "known", most: int = 12, files: bool = False
+) -> str:
+    """The hint for an unknown word: the nearest right one, or the words that are known, so many of them at most.
+
+    files : whether the words are names of files
+    """
+    near = (nearest_file if files else nearest)(word, known := list(known))
     if near is not None:
         return f"did you mean {shown(near)}?"
     if not known or len(known) > MOST_COMPARED:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from opsim.problems import Problem, ScenarioError, natural_key, nearest, shown
+from opsim.problems import Problem, ScenarioError, natural_key, nearest_file, shown
 
 FEW = 5
 
@@ -41,9 +41,8 @@ def _meant(file: Path, beside: list[str]) -> str:
 
     beside : names of the scenarios in its folder
     """
-    names = {Path(name).stem: name for name in reversed([*beside, *(f"{s}{file.suffix}" for s in shipped_scenarios())])}
-    near = nearest(file.stem, names)
+    near = nearest_file(file, [*beside, *(f"{name}{file.suffix}" for name in shipped_scenarios())])
     if near is not None:
-        return f"did you mean {shown(names[near])}?"
+        return f"did you mean {shown(near)}?"
     here = f"here are {', '.join(sorted(beside)[:FEW])}{', ...' if len(beside) > FEW else ''}; " if beside else ""
     return f"{here}'opsim init --list' shows those that come with opsim"

@@ -167,7 +167,7 @@ def _sum(pieces: list[tuple[str, str]], text: str, kind: str) -> float:
 def _fraction(number: str, text: str) -> Fraction:
     size = abs(float(number))
     if size != 0 and not _RANGE[0] <= size <= _RANGE[1]:
-        raise UnitError(f"{shown(text)} is out of any range that can be meant")
+        raise UnitError(f"found {shown(text)}, expected a number from {_RANGE[0]:g} to {_RANGE[1]:g} before the unit")
     return Fraction(number) if size != 0 else Fraction(0)
 
 

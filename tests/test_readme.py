@@ -3,20 +3,15 @@
 import csv
 import re
 import shlex
-from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
-import numpy as np
+import click
 import pytest
 from click.testing import CliRunner
-from long_take import long_take
 
-from emulator.recordings.bvh_write import write_bvh
-from emulator.synthetic.tasks import make
 from opsim.cli import main
-from opsim.libraries import load_library
-from opsim.shipped import shipped_folder
 from tests.browser.axe import serious
 from tests.browser.chromium import browser
 
@@ -33,43 +28,18 @@ COMMANDS = [
     for name, language, text in BLOCKS
     if not language
     for line in text.splitlines()
-    if line.startswith("opsim ")
+    if line.startswith(("opsim ", "python -m emulator."))
 ]
 SCENARIO = next(text for name, language, text in BLOCKS if (name, language) == ("README", "yaml"))
+MAKES_A_RECORDING = re.compile(r"opsim motion sample \S+/.* -o deep_squat\.npz")
 
 
-@pytest.fixture(scope="module")
-def squats():
-    """A small recording in the ``.npz`` form: three people, four squats each, drawn from the shipped library."""
-    model = load_library(shipped_folder() / "libraries" / "public_movements.npz")["deep_squat"]
-    rate_hz = 30.0
-    rng = np.random.default_rng(1)
-    drawn = [model.sample(4, rng, worker=model.draw_worker(rng)) for _ in range(3)]
-    frames = [
-        people[k].positions_m(times_s=np.arange(0, people.duration_s[k], 1 / rate_hz))[0]
-        for people in drawn
-        for k in range(4)
-    ]
-    return {
-        "positions": np.concatenate(frames),
-        "offsets": np.cumsum([0, *map(len, frames)]),
-        "fps": rate_hz,
-        "names": np.array(model.skeleton.names),
-        "parents": np.array(model.skeleton.parents),
-        "subject": np.repeat(["s1", "s2", "s3"], 4),
-        "trial": np.arange(12),
-        "cov_correct": np.ones(12),
-        "ann_turn_frame": np.concatenate([people.mark_s[:, 0] * rate_hz for people in drawn]),
-    }
-
-
-def with_the_files(folder, squats):
-    """The files that pages name: the scenario of README.md, a recording, and a long take of six reaches as BVH."""
-    (folder / "two_benches.yaml").write_text(SCENARIO)
-    np.savez(folder / "deep_squat.npz", **squats)
-    motions = [replace(motion, mark_s=np.zeros(0)) for motion in make("reach", 1, 6)[0].motions]
-    write_bvh(long_take(motions, np.random.default_rng(0))[0], folder / "take.bvh")
-    return folder
+def run(line):
+    """A command as it stands, in this process: one of its own would load compiled code anew."""
+    words = shlex.split(line, comments=True)
+    if words[0] == "opsim":
+        return CliRunner().invoke(main, words[1:])
+    return CliRunner().invoke(click.command()(lambda: import_module(words[2]).main(words[3:])))
 
 
 def opened(chromium, path, width):
@@ -90,23 +60,28 @@ def python_rows():
 
 
 @pytest.mark.parametrize(("page", "block"), [*python_rows()])
-def test_a_python_block_runs_as_it_stands(page, block, tmp_path, squats, monkeypatch):
-    """In this process: one of its own would load compiled code anew for each."""
-    monkeypatch.chdir(with_the_files(tmp_path, squats))
+def test_a_python_block_runs_as_it_stands_after_the_command_that_makes_its_recording(
+    page, block, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "two_benches.yaml").write_text(SCENARIO)
+    for line in (line for name, line in COMMANDS if name == page and MAKES_A_RECORDING.match(line)):
+        assert run(line).exit_code == 0
     exec(compile(block, f"a block of {page}", "exec"), {"__name__": "__main__"})
 
 
 @pytest.fixture(scope="module")
-def answers(tmp_path_factory, squats):
+def answers(tmp_path_factory):
     """Of a page: its folder, and what each command answered there, in order; compiled code is loaded once for all."""
 
     @cache
     def of_page(page):
-        folder = with_the_files(tmp_path_factory.mktemp(page), squats)
+        folder = tmp_path_factory.mktemp(page)
+        (folder / "two_benches.yaml").write_text(SCENARIO)
         lines = [line for name, line in COMMANDS if name == page]
         with pytest.MonkeyPatch.context() as patch:
             patch.chdir(folder)
-            return folder, {line: CliRunner().invoke(main, shlex.split(line, comments=True)[1:]) for line in lines}
+            return folder, {line: run(line) for line in lines}
 
     return of_page
 

@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from emulator.recordings.take import Recording, Take
+from emulator.recordings.body_size import SHORTEST_M, TALLEST_M, first_of, wrong_size
+from emulator.recordings.take import Recording
 
 POLICIES: dict[str, tuple[str, ...]] = {
     "swaps": ("mend", "tell", "off"),
@@ -89,8 +90,8 @@ class CleaningSettings:
     tolerance_deg: float = 15.0
     cut_off_hz: float | None = None
     noise_m: float = 0.001
-    shortest_m: float = 0.6
-    tallest_m: float = 2.6
+    shortest_m: float = SHORTEST_M
+    tallest_m: float = TALLEST_M
 
     def __post_init__(self) -> None:
         wrong = [said for field in fields(self) if (said := _wrong(field.name, getattr(self, field.name)))]
@@ -152,45 +153,17 @@ def _wrong(name: str, value: Any) -> str:
     return f"{name}: found {value!r}, expected {most:g} at most" if value > most else ""
 
 
-UNITS_M = {"millimetres": 0.001, "centimetres": 0.01, "inches": 0.0254, "decimetres": 0.1, "feet": 0.3048}
-USUAL_M = 1.7
-N_FRAMES = 15
 LYING, STANDING = 0.3, 0.9
-MOST_NAMED = 5
 
 
 def mistakes(recording: Recording, settings: CleaningSettings) -> list[str]:
     """What speaks against the recording as a whole: place, found and expected; empty if nothing."""
     if settings.plausible == "off":
         return []
-    wrong = [said for take in recording.takes if (said := _wrong_size(take, settings))]
-    hidden = _never_seen(recording)
-    if len(wrong) > MOST_NAMED:
-        wrong = [*wrong[:MOST_NAMED], f"and {len(wrong) - MOST_NAMED} more takes of {len(recording.takes)}"]
-    return [*wrong, *hidden, *([] if wrong else _wrong_way_up(recording))]
-
-
-def size_m(take: Take) -> float:
-    """Between the two farthest joints, median over frames; nan where nothing was seen."""
-    frames = np.unique(np.linspace(0, take.n_frames - 1, N_FRAMES).astype(int))
-    positions = take.positions_m[frames]
-    away = np.linalg.norm(positions[:, :, None] - positions[:, None], axis=-1)
-    most = np.where(np.isfinite(away), away, 0.0).max(axis=(1, 2))
-    return float(np.median(most[most > 0])) if np.any(most > 0) else float("nan")
-
-
-def _wrong_size(take: Take, settings: CleaningSettings) -> str:
-    size = size_m(take)
-    if np.isfinite(size) and settings.shortest_m <= size <= settings.tallest_m:
-        return ""
-    expected = f"expected {settings.shortest_m:g} to {settings.tallest_m:g} m"
-    if not np.isfinite(size):
-        return f"take {take.name}: found no frame in which two joints are seen, {expected} between the farthest"
-    fitting = {unit: size * metres for unit, metres in UNITS_M.items()}
-    unit = min(fitting, key=lambda name: abs(np.log(fitting[name] / USUAL_M)))
-    fits = settings.shortest_m <= fitting[unit] <= settings.tallest_m
-    hint = f"; in {unit} it would be {fitting[unit]:.2f} m" if fits else ""
-    return f"take {take.name}: found {size:.3g} m between the two farthest joints, {expected}{hint}"
+    limits_m = settings.shortest_m, settings.tallest_m
+    sizes = (wrong_size(take.name, take.positions_m, *limits_m) for take in recording.takes)
+    wrong = first_of(list(filter(None, sizes)), len(recording.takes))
+    return [*wrong, *_never_seen(recording), *([] if wrong else _wrong_way_up(recording))]
 
 
 def _never_seen(recording: Recording) -> list[str]:

@@ -32,15 +32,20 @@ def read_motions(
     if not path.exists():
         raise RecordingError(f"{path}: no such file")
     if path.suffix.lower() != ".npz":
-        from emulator.recordings.importing import FORMATS
-
-        way = "; opsim motion import makes one of such files" if path.suffix.lower() in FORMATS else ""
-        raise RecordingError(f"{path}: recordings end in .npz, found {path.suffix or 'no ending'!r}{way}")
+        raise RecordingError(f"{path}: recordings end in .npz, found {path.suffix or 'no ending'!r}{way_to_npz(path)}")
     from emulator.recordings.npz import read_npz
 
     return read_npz(
         path, where, task=task, glitches=glitches, mapping_file=None if mapping_file is None else Path(mapping_file)
     )
+
+
+def way_to_npz(path: Path) -> str:
+    """How a file of another form becomes a recording; empty where no reader knows its ending."""
+    from emulator.recordings.importing import FORMATS
+
+    known = path.suffix.lower() in FORMATS
+    return f"; 'opsim motion import {path.name} -o {path.stem}.npz' makes one of it" if known else ""
 
 
 __all__ = ["RecordingError", "read_motions"]

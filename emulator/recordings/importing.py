@@ -70,8 +70,8 @@ def format_of(path: Path) -> str:
         raise RecordingError(f"{path}: found a skeleton (.asf) without motion, expected the .amc that goes with it")
     if ending not in FORMATS:
         known = [*FORMATS, ".npz"]
-        near = get_close_matches(ending, known, n=1, cutoff=0.6)
-        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}"
+        near = get_close_matches(ending[1:], [one[1:] for one in known], n=1)
+        hint = f"did you mean {'.' + near[0]!r}?" if near else f"known: {', '.join(known)}"
         raise RecordingError(f"{path}: found {path.suffix or 'no ending'!r}, expected a recording's ending; {hint}")
     return FORMATS[ending].name
 

@@ -16,7 +16,8 @@ import numpy as np
 
 from emulator.archive import MemberError, open_members, read_member
 from emulator.motion import Motion, MotionSet, glitch, motion_from_positions
-from emulator.recordings import RecordingError
+from emulator.recordings import RecordingError, way_to_npz
+from emulator.recordings.body_size import MOST_NAMED, first_of, wrong_size
 from emulator.recordings.joint_names import joints_of
 from emulator.recordings.npz_form import expected_of, form_mistakes, is_mark, mark_mistakes
 from emulator.recordings.selection import rows_where
@@ -53,6 +54,7 @@ def read_npz(
     marks = {key.removeprefix("ann_").removesuffix("_frame"): arrays[key] for key in arrays if is_mark(key)}
     rate_hz = float(arrays["fps"])
     motions: list[Motion] = []
+    glitched: dict[str, np.ndarray] = {}
     for i in np.flatnonzero(keep):
         frames = slice(int(arrays["offsets"][i]), int(arrays["offsets"][i + 1]))
         positions = arrays["positions"][frames].astype(float)
@@ -60,6 +62,8 @@ def read_npz(
         wrong = glitch(positions, rate_hz, names=arrays["names"].tolist())
         if wrong:
             notes.append(f"{'left out' if glitches == 'drop' else 'kept'} {name}: {wrong}")
+            if np.isfinite(positions).any():
+                glitched[name] = positions
         if wrong and glitches == "drop":
             continue
         try:
@@ -77,7 +81,9 @@ def read_npz(
         except ValueError as error:
             raise RecordingError(f"{path}: repetition {name}: {error}") from None
     if not motions:
-        raise RecordingError(f"{path}: no repetition is left (where: {where}; {'; '.join(notes) or 'no notes'})")
+        sizes = [wrong_size(name, positions) for name, positions in glitched.items()]
+        _refuse(path, first_of(list(filter(None, sizes)), len(keep)))
+        raise RecordingError(_none_left(path, selection, notes))
     notes += _breathing(motions) + unread
     return MotionSet(
         task=task or _task(path),
@@ -102,6 +108,13 @@ def _breathing(motions: list[Motion]) -> list[str]:
     ]
 
 
+def _none_left(path: Path, selection: str, notes: list[str]) -> str:
+    """That nothing is left to read, of many reasons the first five."""
+    more = [f"and {len(notes) - MOST_NAMED} more"] if len(notes) > MOST_NAMED else []
+    why = "".join(f"\n  {note}" for note in [*notes[:MOST_NAMED], *more])
+    return f"{path}: no repetition is left" + (f" of those with {selection}" if selection != "all" else "") + why
+
+
 def load_arrays(path: Path) -> tuple[dict[str, np.ndarray], dict[str, Any], list[str]]:
     """The arrays that are read, each of the form that is expected, whole numbers as such; what meta says; notes.
 
@@ -113,7 +126,7 @@ def load_arrays(path: Path) -> tuple[dict[str, np.ndarray], dict[str, Any], list
             wanted = [key for key in keys if key == "meta" or expected_of(key)]
             arrays = {key: read_member(file, f"{key}.npy") for key in wanted}
     except (MemberError, OSError, KeyError) as error:
-        raise RecordingError(f"{path}: not a recording in .npz form ({error})") from None
+        raise RecordingError(f"{path}: not a recording in .npz form ({error}){way_to_npz(path)}") from None
     _refuse(path, form_mistakes(arrays))
     whole = [key for key in ("offsets", "parents", "core", "core_parents") if key in arrays]
     arrays |= {key: arrays[key].astype(np.int64) for key in whole} | {"fps": arrays["fps"].reshape(())}
@@ -156,10 +169,11 @@ def body_of(
     """
     names, parents = [str(name) for name in arrays["names"]], tuple(arrays["parents"].tolist())
     joints = list(range(len(names)))
-    if "core" in arrays and "core_parents" in arrays and mapping_file is None:
+    cored = "core" in arrays and "core_parents" in arrays and mapping_file is None
+    if cored:
         joints, parents = arrays["core"].tolist(), tuple(arrays["core_parents"].tolist())
     here = [names[j] for j in joints]
-    remedy = "give each joint a name of its own, or leave one out by core"
+    remedy = "give each joint a name of its own" + (", or take one out of 'core' and 'core_parents'" if cored else "")
     wrong = [f"names: {each}" for each in said_twice(here, "joint", joints, remedy)]
     positions = arrays["positions"][:, joints].astype(float)
     if mapping_file is None:

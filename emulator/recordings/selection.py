@@ -55,7 +55,9 @@ class _Reader:
         while self.text[place:].strip():
             found = _TOKEN.match(self.text, place)
             if not found:
-                raise WhereError(f"where {_short(self.text)!r}: cannot read {_short(self.text[place:].strip())!r}")
+                rest = self.text[place:].strip()
+                hint = "; write == for equals" if rest.startswith("=") else ""
+                raise WhereError(f"where {_short(self.text)!r}: cannot read {_short(rest)!r}{hint}")
             tokens.append(found.group(1))
             place = found.end()
         return tokens

@@ -24,6 +24,7 @@ MOST_LINE_BYTES = 1 << 20
 """A longer line is a damaged or hostile file: a frame of 10,000 channels has a tenth of that."""
 MOST_TIMES_LARGER = 16
 """Joints take at most so many times the bytes of their file, besides the first 64 MB: a digit and a blank are 2."""
+MOST_PLACES = 5
 _MARKS = (
     (codecs.BOM_UTF32_LE, "utf-32"),
     (codecs.BOM_UTF32_BE, "utf-32"),
@@ -100,10 +101,17 @@ def said_twice(names: Sequence[str], what: str, places: Sequence[object], remedy
     for name, place in zip(names, places):
         at.setdefault(name, []).append(place)
     return [
-        f"found {quoted(name)} {len(found)} times, as {what} {' and '.join(map(str, found))}; {remedy}"
+        f"found {quoted(name)} {len(found)} times, as {what} {_first(found)}; {remedy}"
         for name, found in at.items()
         if len(found) > 1
     ]
+
+
+def _first(places: Sequence[object]) -> str:
+    """All of a few places, of many the first."""
+    if len(places) <= MOST_PLACES:
+        return " and ".join(map(str, places))
+    return f"{', '.join(map(str, places[:MOST_PLACES]))} and {len(places) - MOST_PLACES} more"
 
 
 def finite(word: str) -> float | None:

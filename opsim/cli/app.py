@@ -116,6 +116,8 @@ def mistakes(*only: type[Exception]) -> Iterator[None]:
 
 
 def _said(error: Exception) -> str:
+    if isinstance(error, FileExistsError) and error.filename:
+        return f"{error.filename}: found a file, expected a folder to write into"
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return str(error)

@@ -46,7 +46,7 @@ def _found(file: Path, column: str | None, worker: str | None) -> dict[str, Any]
     from opsim.fitting import between_share, fitted
 
     column = column or _other_column(file, worker)
-    times_s = np.array(read_times(file, column))
+    times_s = np.array(read_times(file, column, "--column"))
     share = None if worker is None else between_share(times_s, read_labels(file, worker))
     families = fitted(times_s)
     best, named = families[0], f"recorded: {file.name}" + (f", column: {column}" if column else "")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from itertools import dropwhile, takewhile
 from pathlib import Path
 
 import click
@@ -9,6 +11,7 @@ import click
 from opsim.cli.app import Mistake, mistakes
 
 DEFAULT = "starter"
+SHORT = 200
 
 
 @click.command("init")
@@ -73,6 +76,18 @@ def _write(out: Path, text: str) -> Path:
 
 
 def _first_words(text: str) -> str:
-    """What a template says of itself: its first comment."""
-    comments = (line.removeprefix("# ") for line in text.splitlines() if line.startswith("# "))
-    return next((line for line in comments if not line.startswith("yaml-language-server")), "")
+    """What a template says of itself: of its first comment the first sentence, and those that fit beside it."""
+    sentences = re.split(r"(?<=[.?!])(?:\n|\s+(?=[A-Z]))", _first_comment(text))
+    said = sentences[0]
+    for sentence in sentences[1:]:
+        if len(said) + len(sentence) >= SHORT:
+            break
+        said += f" {sentence}"
+    return " ".join(said.split())
+
+
+def _first_comment(text: str) -> str:
+    """The first lines of comment that follow each other, but for the one that is there for editors."""
+    lines = [line for line in text.splitlines() if not line.startswith("# yaml-language-server")]
+    begun = dropwhile(lambda line: not line.startswith("# "), lines)
+    return "\n".join(line.removeprefix("# ") for line in takewhile(lambda line: line.startswith("# "), begun))

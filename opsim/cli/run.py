@@ -10,7 +10,7 @@ Writing the reports of a run: one file a variant, and a word on whatever could n
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -294,7 +294,9 @@ Cells = dict[str, dict[str, Any]]
 
 
 def print_results(title: str, results: dict[str, Any]) -> None:
-    """One row a figure, one column a variant; of states those that matter (``_ALWAYS``, ``_WHERE_LARGE``)."""
+    """One row a figure, one column a variant; of states those that matter (``_ALWAYS``, ``_WHERE_LARGE``), and how many
+    are left out.
+    """
     from opsim.cli.app import print_table
     from opsim.kpi.parts import part_name
     from opsim.report.numbers import kpi_name, largest_mean, plus_minus
@@ -305,9 +307,10 @@ def print_results(title: str, results: dict[str, Any]) -> None:
         for row in result.summary["kpis"]:
             if row["headline"]:
                 found.setdefault(row["kpi"], {}).setdefault((row["subject"], row["part"]), {})[name] = row
-    rows = []
+    rows, left_out = [], []
     for kpi, by_subject in found.items():
         kept = {of: c for of, c in by_subject.items() if matters(kpi, of[1], c) and not _says_again(of, by_subject)}
+        left_out += list(_left_out(kpi, [c for of, c in by_subject.items() if of not in kept]))
         largest = largest_mean(row for cells in kept.values() for row in cells.values())
         for of, cells in kept.items():
             texts = [plus_minus(cells[name], largest) if name in cells else "" for name in results]
@@ -315,6 +318,19 @@ def print_results(title: str, results: dict[str, Any]) -> None:
             rows.append((kpi_name(kpi, hours), " ".join(filter(None, named)), *texts))
     heading = _heading(title, [result.summary for result in results.values()])
     print_table(heading, ("figure", "of", *results), without_repeats(rows), words=2)
+    for line in left_out:
+        click.echo(line)
+
+
+def _left_out(kpi: str, rows: Sequence[Mapping[str, Mapping[str, Any]]]) -> Iterator[str]:
+    """How many states that there are in some variant are not shown, and where they are."""
+    from opsim.report.numbers import kpi_name
+
+    n = sum(any((row["mean"] or 0) > 0 for row in cells.values()) for cells in rows)
+    if kpi in _WHERE_LARGE and n:
+        rows_are = "row is" if n == 1 else "rows are"
+        which = f"waiting, breaks, and states of at most {100 * _LARGE:g} %"
+        yield f"{kpi_name(kpi)}: {n} {rows_are} not shown here ({which}); the report has all"
 
 
 def matters(kpi: str, part: str, cells: Mapping[str, Mapping[str, Any]]) -> bool:

@@ -10,6 +10,8 @@ import click
 from opsim.cli.app import mistakes
 from opsim.cli.study_options import Asked, Common, Kind, Told, study_options
 
+_BY_VARY = "grid where every factor is a list or --levels is given, else latin_hypercube"
+_POINTS = "10 a factor; of sobol_indices 64 base points, of morris 10 paths"
 _DESIGNS = ("grid", "one_at_a_time", "latin_hypercube", "sobol", "sobol_indices", "morris")
 
 
@@ -38,9 +40,15 @@ KIND = Kind("sweep", study, kept)
     metavar="PATH=VALUES",
     help="A factor, as 'stations.saw.buffer=1,2,4' or 'release.every=40 s..60 s'; again for others.",
 )
-@click.option("--design", type=click.Choice(_DESIGNS), help="Where to look in the room of factors.")
-@click.option("--points", type=click.IntRange(min=2), help="How many, of a design that spreads them.")
-@click.option("--levels", type=click.IntRange(min=2), help="Of a grid: how many values every range has.")
+@click.option(
+    "--design", type=click.Choice(_DESIGNS), help=f"Where to look in the room of factors.  [default: {_BY_VARY}]"
+)
+@click.option(
+    "--points", type=click.IntRange(min=2), help=f"How many, of a design that spreads them.  [default: {_POINTS}]"
+)
+@click.option(
+    "--levels", type=click.IntRange(min=2), help="Of a grid: how many values every range has; a range needs it."
+)
 @click.option("--figure", "figures", multiple=True, metavar="NAME", help="This figure; may be given again.")
 @study_options(shards=True)
 def command(file: str, common: Common, vary: Sequence[str], **options: Any) -> None:

@@ -64,7 +64,13 @@ def _print(found: dict[str, Any], results: dict[str, Any]) -> None:
         ]
     columns = ("variant", "series", "suggested", "the run's own", "")
     print_table("Warm-up by MSER-5", columns, without_repeats(rows), words=2)
-    click.echo("Take the longest, rounded up, and look at the picture (--picture) before you believe it.")
+    click.echo(_advice(any(of.until_s is not None for series in found.values() for of in series)))
+
+
+def _advice(is_found: bool) -> str:
+    if is_found:
+        return "Take the longest, rounded up, and look at the picture (--picture) before you believe it."
+    return "No warm-up is found in any series: run longer, and look at the picture (--picture) of what there is."
 
 
 def _until(of: Any) -> str:

@@ -162,7 +162,7 @@ def read_target(text: str) -> Target:
         return Target(AskedFigure(""), float(found[1]))
     found = _COMPARED.fullmatch(text)
     if found is None:
-        raise ValueError(f"no target: {shown(text)}; write it {SUCH_A_TARGET}")
+        raise ValueError(f"expected a target, found {shown(text)}; write it {SUCH_A_TARGET}")
     asked = read_asked(found[1])
     if asked.kpi not in KPIS:
         raise ValueError(f"unknown figure {shown(asked.kpi)}; {did_you_mean(asked.kpi, KPIS)}")

@@ -20,6 +20,7 @@ from opsim.problems import did_you_mean, shown
 from opsim.task_model import BODY_RANGES
 
 _NAME = re.compile(r"[\w][\w \-]*")
+_PER_CENT = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{1,9})?)\s*(?:%|percent|per cent)\s*")
 NAME_PATTERN = r"^[^\s!-/:-@\[-^`{-~][^!-,./:-@\[-^`{-~]*$"
 """What a name may look like, for editors: as ``is_name``, with every letter outside ASCII allowed."""
 
@@ -32,6 +33,12 @@ def plain_error(
     or_on : another key that it is about, where that one alone comes from an option or another file
     """
     return PydanticCustomError("plain", "{message}", {"message": message, "hint": hint, "on": on, "or_on": or_on})
+
+
+def of_per_cent(value: object) -> str:
+    """How ``5 %`` is written; empty for what is no part of a hundred."""
+    match = _PER_CENT.fullmatch(value) if isinstance(value, str) else None
+    return f"write {float(match[1]) / 100:g}" if match and float(match[1]) <= 100 else ""
 
 
 def to_sum_to_1(total: float) -> str:
@@ -153,9 +160,11 @@ def _whole(value: object) -> object:
 
 
 def _beside(value: object) -> str:
-    """The whole numbers on both sides of another one."""
+    """The whole number that was meant, or those on both sides of another number."""
     if not isinstance(value, float) or not 0 <= value < 1e9:
         return ""
+    if value.is_integer():
+        return f"write {value:.0f}"
     return f"write {math.floor(value)} or {math.floor(value) + 1}"
 
 

@@ -13,6 +13,7 @@ from pydantic.fields import FieldInfo
 
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import templates
+from opsim.scenario.fields import of_per_cent
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Place, Scenario, Step
 from opsim.scenario.schema.hands import BY_PRODUCT, HEIGHT, LAYERS, Layers
 from opsim.scenario.schema.human_models import MODEL_TAGS
@@ -208,8 +209,9 @@ def _type_hint(kind: str, value: object) -> str:
         return "fill it, or remove the line"
     if kind == "list_type" and isinstance(value, str):
         return f"write [{value}]" if len(value) < 40 else "write it in [ ]"
-    number = kind == "float_type" and isinstance(value, str) and isinstance(scalar(value), int | float)
-    return "remove the quotes" if number else ""
+    if kind != "float_type" or not isinstance(value, str):
+        return ""
+    return "remove the quotes" if isinstance(scalar(value), int | float) else of_per_cent(value)
 
 
 def _missing(loc: tuple[Part, ...], keys: list[str], tree: Node) -> Problem:

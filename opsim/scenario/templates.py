@@ -125,7 +125,7 @@ class _Reader:
             return None
         if file is None:
             beside = [one.name for one in folder.glob("*.y*ml")]
-            hint = did_you_mean(node.value, beside, otherwise="files there")
+            hint = did_you_mean(node.value, beside, otherwise="files there", files=True)
             self.broken.append(problem(node.place, path, f"no file {shown(node.value)} to include", hint))
         return file
 

@@ -45,7 +45,7 @@ def test_expressions_choose_rows(text, rows):
     ("text", "word"),
     [
         ("cov_corect == 1", "no covariate 'cov_corect'; did you mean 'cov_correct'"),
-        ("cov_correct = 1", "cannot read '= 1'"),
+        ("cov_correct = 1", "cannot read '= 1'; write == for equals"),
         ("cov_correct ==", "expected a value, found 'the end'"),
         ("(cov_correct == 1", "expected '\\)', found 'the end'"),
         ("cov_correct == 1 worker", "expected 'and', 'or' or the end, found 'worker'"),
@@ -114,7 +114,8 @@ def test_a_recording_that_does_not_say_what_is_correct_is_read_whole_and_says_so
         ({"fps": 0.0}, "fps: found 0, expected 1 to 10000 frames a second"),
         ({"names": np.array(["wing"] + ["x"] * 20)}, "joint 'wing' is not known"),
         ({"positions": np.zeros((33, 4, 3))}, r"positions: found \(33, 4, 3\), expected \(frames, 21, 3\)"),
-        ({"positions": np.full((33, 21, 3), np.nan)}, "no repetition is left.*positions are missing"),
+        ({"positions": np.full((33, 21, 3), np.nan)}, r"left of those with cov_correct==1\n.*positions are missing"),
+        ({"positions": 300 * np.random.default_rng(0).normal(size=(33, 21, 3))}, "a/1: .*; in millimetres it would"),
         ({"positions": np.ones((33, 21, 3))}, "repetition a/1: bone to joint 'spine' has no length at frame 0"),
         ({"subject": np.array([object()] * 3)}, "subject.npy holds Python objects"),
         ({"offsets": np.array([])}, r"offsets: found \[\], expected whole numbers, two or more"),
@@ -141,6 +142,13 @@ def test_a_broken_recording_is_refused_by_name(tmp_path, changes, word):
     with pytest.raises(RecordingError, match=word) as error:
         read_motions(path)
     assert str(path) in str(error.value)
+
+
+@pytest.mark.parametrize("read", [read_motions, read_recording])
+def test_a_file_of_another_form_is_sent_to_import(tmp_path, read):
+    (tmp_path / "take.bvh").write_text("HIERARCHY")
+    with pytest.raises(RecordingError, match=r"'opsim motion import take\.bvh -o take\.npz' makes one of it"):
+        read(tmp_path / "take.bvh")
 
 
 def test_all_mistakes_of_a_file_are_said_at_once(tmp_path):

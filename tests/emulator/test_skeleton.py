@@ -101,10 +101,11 @@ def test_a_missing_position_is_named_with_its_frame():
     ("names", "parents", "word"),
     [
         (("a", "a"), (-1, 0), "named twice"),
-        (("a", "b"), (-1, -1), "exactly one joint"),
-        (("a", "b", "c"), (-1, 2, 1), "own ancestor"),
+        (("a", "b"), (-1, -1), "joints a, b have no parent"),
+        (("a", "b", "c"), (-1, 2, 1), "joint 'b' is its own ancestor"),
+        (("a", "b"), (1, 0), "joint 'a' is its own ancestor"),
         (("a", "b"), (-1,), "one each"),
-        (("a", "b"), (-1, 7), "joint numbers"),
+        (("a", "b"), (-1, 7), "joint 'b': found parent 7, expected a joint number from 0 to 1"),
     ],
 )
 def test_a_broken_skeleton_is_refused(names, parents, word):

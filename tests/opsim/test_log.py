@@ -298,6 +298,9 @@ def test_without_pandas_it_is_said_what_to_install(monkeypatch):
             thing.to_frame()
 
 
+ONE_EACH = "write decimals with a point, and text that holds a comma in quotes"
+
+
 def times(tmp_path, text, column=None):
     (tmp_path / "times.csv").write_text(text, encoding="utf-8")
     return read_times(resolve_times("times.csv", tmp_path), column)
@@ -328,6 +331,13 @@ def test_a_column_is_read_in_its_order(tmp_path, text, column, expected):
         ("t\n1\n1e10\n", None, "'times.csv' line 3: '1e10' is more than 2^33 s (272 years)"),
         ("a,b\n1,2\n", None, "'times.csv' has 2 columns; add 'column:' with one of: a, b"),
         ("duration,b\n1,2\n", "duratoin", "no column 'duratoin' in 'times.csv'; did you mean 'duration'?"),
+        (
+            "t\n1\n-2\n,\nabc,,\n",
+            None,
+            "'times.csv' line 3: '-2' is not a positive number of seconds\n"
+            "'times.csv' line 5: 'abc' is not a positive number of seconds",
+        ),
+        ("t\n1,5\n", None, f"'times.csv' line 2: 2 values, the first line has 1; {ONE_EACH}"),
         ("a,b\n1\n", "b", "'times.csv' line 2: '' is not a positive number of seconds"),
     ],
 )

@@ -59,6 +59,14 @@ def test_every_mistake_of_a_file_is_told_with_its_line(tmp_path):
     ]
 
 
+def test_a_row_with_more_values_than_columns_is_told_and_blank_cells_are_none(tmp_path):
+    hint = "write decimals with a point, and text that holds a comma in quotes"
+    _, wrong = read_orders(written(tmp_path, "time,product\n0,a,,\n10,b,7,2,3\n"), PRODUCTS)
+    assert wrong == [Mistake(3, 2, "5 values, the first line has 2", hint)]
+    _, wrong = read_sequence(written(tmp_path, "product\na\nb,2\n"), PRODUCTS)
+    assert wrong == [Mistake(3, 1, "2 values, the first line has 1", hint)]
+
+
 @pytest.mark.parametrize(("text", "said"), [
     ("product\na\n", "no column 'time'"),
     ("time,prodct\n1,a\n", "a column 'prodct'; did you mean 'product'?"),

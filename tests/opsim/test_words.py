@@ -8,7 +8,7 @@ from opsim.external_draws import human_of
 from opsim.files import NotInside, inside
 from opsim.human.fatigue import Lffrm, RestByNeed
 from opsim.plan.workers import NO_EFFECTS, HumanPlan
-from opsim.problems import MOST_SHOWN, Problem, ScenarioError, did_you_mean, natural_key, nearest, shown
+from opsim.problems import MOST_SHOWN, Problem, ScenarioError, did_you_mean, natural_key, nearest, nearest_file, shown
 from opsim.units import UNITS, UnitError, parse, written
 
 
@@ -52,7 +52,7 @@ def test_a_quantity_is_read_to_the_nearest_float(text, kind, si):
         ("8 H", "time", "unknown unit 'H'; write '8 h'"),
         ("2 weks", "time", "unknown unit 'weks'; units of time: ms, s, min, h, d"),
         ("2 mn", "time", "unknown unit 'mn'; did you mean 'min'? units of time: ms, s, min, h, d"),
-        ("80 cmm", "length", "unknown unit 'cmm'; did you mean 'mm'? units of length: mm, cm, m, km, in, ft"),
+        ("80 cmm", "length", "unknown unit 'cmm'; did you mean 'cm'? units of length: mm, cm, m, km, in, ft"),
         ("5 kg", "time", "'5 kg' is a mass; expected a time; such as '45 s'"),
         ("5 kg", "angle", "'5 kg' is a mass; expected an angle; such as '10 deg'"),
         ("10 deg", "mass", "'10 deg' is an angle; expected a mass; such as '6 kg'"),
@@ -68,7 +68,7 @@ def test_a_quantity_is_read_to_the_nearest_float(text, kind, si):
         ("1:2:3:4", "time", "cannot read '1:2:3:4' as a time; write '45 s', '1 min 30 s' or a clock '00:45:00'"),
         ("30 s 1 min", "time", "cannot read '30 s 1 min' as a time; write one number and one unit, or '1 min 30 s'"),
         ("1 min -30 s", "time", "cannot read '1 min -30 s' as a time; write one number and one unit, or '1 min 30 s'"),
-        ("1e99 s", "time", "'1e99 s' is out of any range that can be meant"),
+        ("1e99 s", "time", "found '1e99 s', expected a number from 1e-30 to 1e+30 before the unit"),
         ("", "time", "expected a time, found empty text; write a number and its unit, such as '45 s'"),
         ("soon", "time", "cannot read 'soon' as a time; write a number and its unit, such as '45 s'"),
         (float("inf"), "time", "expected a time, found inf; write a finite number with its unit: '45 s'"),
@@ -167,7 +167,10 @@ def test_a_value_is_shown_in_printable_words(value, words):
 
 def test_the_nearest_word_is_found_whatever_its_case():
     assert nearest("Pelvsi", ["pelvis", "spine"]) == "pelvis"
+    assert nearest("Munday", ["Monday", "Sunday"]) == "Monday" and nearest("Sumday", ["Monday", "Sunday"]) == "Sunday"
     assert nearest("zebra", ["pelvis", "spine"]) is None
+    assert nearest_file("tmes.csv", ["t.csv", "sub/times.csv"]) == "sub/times.csv"
+    assert nearest_file("nope.npz", ["junk.npz", "o.npz"]) is None
     assert did_you_mean("zebra", ["pelvis", "spine"]) == "known: pelvis, spine"
     assert did_you_mean("zebra", []) == ""
 

@@ -16,7 +16,8 @@ from emulator.recordings.take import Take
 from emulator.segmenting.repetitions import postures, repetitions
 from emulator.segmenting.segment import Segments, segment
 from emulator.segmenting.synthesis import motion_of, take_of
-from tests.long_take import long_take, plain, usual_ends
+from emulator.synthetic.long_take import long_take
+from tests.long_take import plain, usual_ends
 from tests.take_evidence import segmenting_figures
 from tests.take_evidence.cycles_judged import Judged, judged
 

@@ -19,6 +19,14 @@ def chosen(library: str, task: str | None) -> Any:
     return loaded.only() if task is None else loaded[task]
 
 
+def library_and_task(library: str, task: str | None) -> tuple[str, str | None]:
+    """Both of ``library/task``, as a scenario names an emulator, where no file is called so and no task is named."""
+    if task is None and "/" in library and not library.endswith(".npz") and not _is_file(Path(library)):
+        name, _, inside = library.rpartition("/")
+        return name, inside
+    return library, task
+
+
 def found(library: str) -> Path:
     """The file of a library: at this path, or the shipped one of this name. Raises ValueError."""
     from opsim.problems import did_you_mean, shown
@@ -32,7 +40,7 @@ def found(library: str) -> Path:
     if name in shipped:
         return shipped[name]
     beside = [] if "\0" in library else [str(path) for path in file.parent.glob("*.npz") if path.is_file()]
-    hint = did_you_mean(library, [*beside, *shipped], otherwise="libraries here and shipped ones")
+    hint = did_you_mean(library, [*beside, *shipped], otherwise="libraries here and shipped ones", files=True)
     raise ValueError(f"no library {shown(library)}; {hint}")
 
 

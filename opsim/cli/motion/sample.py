@@ -9,7 +9,9 @@ import csv
 import json
 import math
 import re
+from collections import Counter
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +45,12 @@ class _Rate(click.FloatRange):
     "--fps", type=_Rate(min=1, max=1000), default=50.0, show_default=True, help="Frames a second, for .npz and .bvh."
 )
 @click.option("--person", metavar="NAME", help="All by this person of the fit.  [default: each by another, new person]")
+@click.option(
+    "--new-people",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="By so many new people, each several times.  [default: each by another]",
+)
 @click.option("--json", "as_json", is_flag=True, help="JSON for machines.")
 def command(
     library: str,
@@ -52,22 +60,29 @@ def command(
     out: Path | None,
     fps: float,
     person: str | None,
+    new_people: int | None,
     as_json: bool,
 ) -> None:
-    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz or .bvh file, the movements."""
+    """Draw performances of a TASK of a LIBRARY: durations, marks and, into an .npz or .bvh file, the movements.
+
+    Both may be said in one word, as in a scenario: public_movements/deep_squat.
+    """
     import numpy as np
 
     from opsim.cli.app import print_json
-    from opsim.cli.motion.files import chosen
+    from opsim.cli.motion.files import chosen, library_and_task
 
     replaced: list[str] = []
+    library, task = library_and_task(library, task)
     with mistakes():
+        who = _who(n, person, new_people)
         model = chosen(library, task)
         _refuse(out, library)
-        drawn = model.sample(n, np.random.default_rng(seed), worker=person)
+        drawn = _drawn(model, who, person, np.random.default_rng(seed))
         if out is not None:
             said = f"opsim motion sample {Path(library).name} {model.task} -n {n} --seed {seed}"
-            _write(out, model, drawn, fps, said if person is None else f"{said} --person {person}", person)
+            said += f" --person {person}" if person else f" --new-people {new_people}" if new_people else ""
+            _write(out, model, drawn, fps, said, who)
             replaced = _without_other_draws(out, n)
     rows = [_row(model, drawn, k) for k in range(n)]
     if as_json:
@@ -76,6 +91,56 @@ def command(
     _print_times(model, drawn)
     if out is not None:
         click.echo("\n".join([f"{n} performances: {_files(out, n)}", *replaced]))
+
+
+def _who(n: int, person: str | None, new_people: int | None) -> list[str]:
+    """Who does each of n performances, those of a person one after the other. Raises ValueError."""
+    if person is not None and new_people is not None:
+        raise ValueError("--person: found together with --new-people, expected one of them")
+    if new_people is not None and new_people > n:
+        raise ValueError(f"--new-people: found {new_people}, expected at most the {n} performances of -n")
+    if person is not None:
+        return [person] * n
+    n_people = n if new_people is None else new_people
+    return [f"new{k * n_people // n + 1}" for k in range(n)]
+
+
+@dataclass(frozen=True)
+class _ByPeople:
+    """Performances of several people, those of each after those of the one before."""
+
+    of: tuple[Any, ...]
+
+    @property
+    def skeleton(self) -> Any:
+        return self.of[0].skeleton
+
+    @property
+    def duration_s(self) -> Any:
+        import numpy as np
+
+        return np.concatenate([own.duration_s for own in self.of])
+
+    @property
+    def mark_s(self) -> Any:
+        import numpy as np
+
+        return np.concatenate([own.mark_s for own in self.of])
+
+    def __getitem__(self, k: int) -> Any:
+        for own in self.of:
+            if k < len(own.duration_s):
+                return own[k]
+            k -= len(own.duration_s)
+        raise IndexError(k)
+
+
+def _drawn(model: Any, who: list[str], person: str | None, rng: Any) -> Any:
+    """The performances of ``who``; new people who have several are drawn one by one."""
+    counts = Counter(who)
+    if person is not None or len(counts) == len(who):
+        return model.sample(len(who), rng, worker=person)
+    return _ByPeople(tuple(model.sample(n, rng, worker=model.draw_worker(rng)) for n in counts.values()))
 
 
 def _refuse(out: Path | None, library: str) -> None:
@@ -128,9 +193,9 @@ def _print_times(model: Any, drawn: Any) -> None:
     print_table(f"{model.task}: {len(drawn.duration_s)} performances", ("time", "mean", "5 %", "median", "95 %"), rows)
 
 
-def _write(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str | None) -> None:
+def _write(out: Path, model: Any, drawn: Any, fps: float, said: str, who: list[str]) -> None:
     if out.suffix.lower() == ".npz":
-        _write_npz(out, model, drawn, fps, said, person)
+        _write_npz(out, model, drawn, fps, said, who)
         return
     if out.suffix.lower() == ".bvh":
         write_bvh_files(out, drawn, fps, _frame_times_s)
@@ -142,10 +207,10 @@ def _write(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str
         writer.writerows(rows)
 
 
-def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str, person: str | None) -> None:
+def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str, who: list[str]) -> None:
     """The form of recordings, so that ``motion fit`` reads it again; the source says that it is emulated.
 
-    person : who all are of; None: each performance is of another subject, a new one, as it was drawn
+    who : the subject of each performance
     """
     import numpy as np
 
@@ -164,7 +229,7 @@ def _write_npz(out: Path, model: Any, drawn: Any, fps: float, said: str, person:
         fps=fps,
         names=np.array(model.skeleton.names),
         parents=np.array(model.skeleton.parents),
-        subject=np.array([f"new{k + 1}" if person is None else person for k in range(len(frames))]),
+        subject=np.array(who),
         trial=np.array([f"k{k}" for k in range(len(frames))]),
         duration=np.asarray(drawn.duration_s),
         meta=json.dumps(meta),

@@ -228,11 +228,9 @@ def _takes_in(file: Path, wrong: Sequence[str]) -> Any:
 
 def _model(source: str, task: str | None) -> Any:
     """The emulator of ``library/task``, or of a library and a task beside it."""
-    from opsim.cli.motion.files import chosen, found
+    from opsim.cli.motion.files import chosen, found, library_and_task
 
-    library = source
-    if task is None and "/" in source and not Path(source).is_file():
-        library, _, task = source.rpartition("/")
+    library, task = library_and_task(source, task)
     try:
         found(library)
     except ValueError as error:

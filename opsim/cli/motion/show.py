@@ -148,14 +148,17 @@ def _written(ready: Any, out: Path, kind: str) -> list[str]:
 def command(library: str, task: str | None, seed: int, as_json: bool, **options: Any) -> None:
     """Draw a TASK of a LIBRARY along real time: the mean performance above drawn ones.
 
+    Both may be said in one word, as in a scenario: public_movements/deep_squat.
+
     With --video the mean moves beside drawn ones: an offline page, a GIF or a film, by the ending of -o.
     With --beside, write a page on which recorded and emulated performances move side by side, and one guesses.
     """
+    from opsim.cli.motion.files import library_and_task
     from opsim.task_model import behind
 
     with mistakes():
         asked = Asked(**options)
-        model, out = asked.checked(library, task)
+        model, out = asked.checked(*library_and_task(library, task))
         report = model.report
         title = f"{model.task}: emulated from {behind(report.source, report.n_sequences, report.n_workers)}"
         said = {"strips": _strips, "video": _video, "beside": _beside}[asked.kind](model, out, asked, seed, title)

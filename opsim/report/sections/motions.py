@@ -346,7 +346,7 @@ def _turned(points: np.ndarray, angle_rad: float) -> np.ndarray:
     return points @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
 
-SYNTHETIC = "No movement stands behind these times. They are what the scenario says, and nobody measured them here."
+SYNTHETIC = "No movement stands behind these times: they are given in the scenario."
 
 
 def synthetic_times_section(material: Material) -> Section | None:
@@ -362,4 +362,4 @@ def synthetic_times_section(material: Material) -> Section | None:
 
 
 def _tag(model: str) -> str:
-    return "times from a file" if model.startswith("recorded") else "made up"
+    return "times from a file" if model.startswith("recorded") else "given in the scenario"

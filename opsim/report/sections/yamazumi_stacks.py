@@ -275,12 +275,15 @@ def person_sentences(stacks: Sequence[Stack]) -> Iterator[str]:
     if not stacks:
         return
     most, least = (pick(stacks, key=lambda stack: stack.total_s) for pick in (max, min))
+    kinds = {what for stack in stacks for what in stack.beside}
+    spent = listing(["work", *(what for what in (SETTING_UP, WALKING) if what in kinds)])
     if least.total_s > ALIKE * most.total_s:
-        yield f"For a finished job everybody works, sets up and walks about as long, {in_s(most.total_s)} at most."
+        yield f"For a finished job everybody spends about as long on {spent}, {in_s(most.total_s)} at most."
         return
+    between = "; the others lie between" if len(stacks) > 2 else ""
     yield (
-        f"For a finished job {most.name} works, sets up and walks the longest ({in_s(most.total_s)}), "
-        f"{least.name} the shortest ({in_s(least.total_s)})."
+        f"For a finished job {most.name} spends {in_s(most.total_s)} on {spent}, "
+        f"{least.name} {in_s(least.total_s)}{between}."
     )
 
 

@@ -160,14 +160,17 @@ def _unclear(one: Against) -> str:
     return "" if one.clear or one.identical else " ?"
 
 
+WHERE_TO_PASTE = "Where the file has overrides or scenarios already, write there only the lines that it lacks."
+
+
 def _override(found: LayoutFound) -> Iterator[StudySection]:
     if found.taken is not None:
         gained = bool(found.gains)
         title = "To paste into the scenario" if gained else "The best layout found, to paste: it shows no clear gain"
-        yield StudySection(title, code=override_text([found.taken]), on_screen=gained)
+        yield StudySection(title, [WHERE_TO_PASTE], code=override_text([found.taken]), on_screen=gained)
     others = [one for one in found.candidates if one is not found.taken]
     if others:
-        yield StudySection("The other layouts, to paste", code=override_text(others))
+        yield StudySection("The other layouts, to paste", [WHERE_TO_PASTE], code=override_text(others))
 
 
 def _flows(found: LayoutFound) -> Iterator[StudySection]:

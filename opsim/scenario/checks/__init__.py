@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
 
-from opsim.problems import Problem
+from opsim.problems import Problem, nearest
 from opsim.scenario.checks.assembly import (
     assembly_problems,
     batch_problems,
@@ -38,11 +39,42 @@ from opsim.scenario.checks.sequence import failure_problems, sequence_problems, 
 from opsim.scenario.checks.shifts import shift_problems
 from opsim.scenario.checks.sources import saturated_problems, source_problems
 from opsim.scenario.checks.transport import carrying_problems, conveyor_problems, tool_problems, transporter_problems
-from opsim.scenario.tree import Node
+from opsim.scenario.schema import Scenario
+from opsim.scenario.tree import Node, child, entries
+
+WORD_OF = {
+    "layout": "place",
+    "libraries": "library",
+    "shifts": "shift",
+    "tasks": "task",
+    "tools": "tool",
+    "stations": "station",
+    "stores": "station",
+    "conveyors": "station",
+    "products": "product",
+    "workers": "worker",
+}
+"""What a thing of a section is called in messages; a step of a route is a station, whatever it is."""
 
 
 def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
-    """The problems of a variant, found one by one; parts that the schema refuses are passed over.
+    """The problems of a variant, without those that only follow from a section that cannot be read."""
+    words = {WORD_OF[section] for section in chain(_unreadable(tree), _unreadable(base))}
+    follows = re.compile(rf"\bno (?:{'|'.join(sorted(words))})\b") if words else None
+    return (one for one in _problems(tree, base, folder) if follows is None or not follows.search(one.message))
+
+
+def _unreadable(tree: Node) -> Iterator[str]:
+    """Sections that are no block, or that are not there while an unknown key reads like them."""
+    mistyped = {nearest(key, Scenario.model_fields) for key in entries(tree) if key not in Scenario.model_fields}
+    for section in WORD_OF:
+        node = child(tree, section)
+        if section in mistyped if node is None else not isinstance(node.value, dict):
+            yield section
+
+
+def _problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
+    """What every check finds, one by one; parts that the schema refuses are passed over.
 
     tree : the variant's tree, ``like`` resolved; base : the file's tree before any override.
     """

@@ -3,15 +3,19 @@
 A name that is used must be the name of something.
 
 The sources of a scenario as they stand in the tree: its one release, or each of its sources.
+
+Mistakes of a CSV file that a scenario names, at their places in it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from pathlib import Path
 
+from opsim.csv_input import Mistake
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.schema.routing import OUT, START
-from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
+from opsim.scenario.tree import Node, Part, Place, Source, child, entries, items, problem, text
 
 POINTS = ("stations", "stores", "conveyors")
 
@@ -174,3 +178,15 @@ def made_by(tree: Node, release: Node) -> list[str]:
 def says_products(release: Node) -> bool:
     """Whether a source says itself what it makes."""
     return child(release, "products") is not None or child(release, "sequence") is not None
+
+
+def in_the_file(file: Path, path: TreePath, mistakes: list[Mistake]) -> Iterator[Problem]:
+    """Mistakes at their places in a CSV file; in a line with quotes at its beginning."""
+    lines = file.read_text(encoding="utf-8-sig").splitlines() if mistakes else []
+    mark = next((mark for mark in (",", ";", "\t") if lines and mark in lines[0]), ",")
+    source = Source(str(file), tuple(lines))
+    for one in mistakes:
+        line = lines[one.line - 1]
+        before = [] if '"' in line else line.split(mark)[: one.cell]
+        column = sum(len(cell) + 1 for cell in before)
+        yield problem(Place(source, one.line - 1, column), path, one.message, one.hint)

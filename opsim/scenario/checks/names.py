@@ -20,12 +20,12 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
-from opsim.csv_input import RecordedError, read_times, resolve_times
+from opsim.csv_input import RecordedError, WrongRows, read_times, resolve_times
 from opsim.engine.rules import ALLOCATION_RULES
 from opsim.kpi.catalogue import KPIS, AskedFigure, read_asked, subject_of
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
 from opsim.problems import Problem, did_you_mean, nearest, shown
-from opsim.scenario.checks.lookup import POINTS, emulators, releases, says_products, visited
+from opsim.scenario.checks.lookup import POINTS, emulators, in_the_file, releases, says_products, visited
 from opsim.scenario.checks.sequence import setup_times, stop_times
 from opsim.scenario.fields import Moved, read_any_moved, read_moved, to_sum_to_1
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
@@ -169,6 +169,8 @@ def _recorded(model: Node, path: tuple[Part, ...], folder: Path) -> Iterator[Pro
         return
     try:
         read_times(resolve_times(file, folder), text(model, "column"))
+    except WrongRows as error:
+        yield from in_the_file(folder / file, (*path, "recorded"), error.mistakes)
     except RecordedError as error:
         yield problem(model.value["recorded"].place, (*path, "recorded"), error.message, error.hint)
 

@@ -48,16 +48,16 @@ def _pauses(node: Node, shift: Shift, path: TreePath) -> Iterator[Found]:
 def _outside(one: Found, shift: Shift) -> Iterator[Problem]:
     path, pause, node = one
     hours = f"{on_the_clock(shift.start_s)} to {on_the_clock(shift.end_s)}"
+    first, last = on_the_clock(shift.start_s), on_the_clock(shift.end_s - pause.lasts_s)
     offset_s = shift.offset_s(pause)
     if pause.lasts_s > shift.length_s:
         found = f"lasts {pause.lasts_s / 60:g} min, and the whole shift {shift.length_s / 60:g} min"
         yield problem(_at(node, "lasts"), (*path, "lasts"), found, "make it shorter")
     elif offset_s >= shift.length_s:
         found = f"{on_the_clock(pause.at_s)} is outside the shift, {hours}"
-        yield problem(_at(node, "at"), (*path, "at"), found, f"give a time from {on_the_clock(shift.start_s)} on")
+        yield problem(_at(node, "at"), (*path, "at"), found, f"begin it from {first} to {last}")
     elif offset_s + pause.lasts_s > shift.length_s:
         found = f"goes on until {on_the_clock(pause.at_s + pause.lasts_s)}, beyond the shift, {hours}"
-        last = on_the_clock(shift.end_s - pause.lasts_s)
         yield problem(_at(node, "at"), (*path, "at"), found, f"begin it at {last} or before, or make it shorter")
 
 

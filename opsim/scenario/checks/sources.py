@@ -12,10 +12,10 @@ from opsim.csv_input import Mistake, RecordedError, read_orders, read_sequence, 
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario.checks import lookup
 from opsim.scenario.checks.assembly import passes, values
-from opsim.scenario.checks.lookup import first_of, made_by, releases, stations_of
+from opsim.scenario.checks.lookup import first_of, in_the_file, made_by, releases, stations_of
 from opsim.scenario.schema import Scenario
 from opsim.scenario.schema.sources import MOST_AT_ONCE
-from opsim.scenario.tree import Node, Part, Place, Source, child, entries, items, problem, text
+from opsim.scenario.tree import Node, Place, child, entries, items, problem, text
 
 
 def source_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -67,22 +67,10 @@ def _files(tree: Node, release: Node, path: lookup.TreePath, folder: Path) -> It
         except RecordedError as error:
             yield problem(place, (*path, key), error.message, error.hint)
             continue
-        yield from _in_the_file(folder / name, (*path, key), mistakes)
+        yield from in_the_file(folder / name, (*path, key), mistakes)
         if key == "file" and says and lookup.says_products(release):
             hint = "remove the column, or products and sequence"
             yield problem(place, (*path, key), f"the products come from {shown(name)} and from the source", hint)
-
-
-def _in_the_file(file: Path, path: tuple[Part, ...], mistakes: list[Mistake]) -> Iterator[Problem]:
-    """Mistakes at their places in a CSV file; in a line with quotes at its beginning."""
-    lines = file.read_text(encoding="utf-8-sig").splitlines() if mistakes else []
-    mark = next((mark for mark in (",", ";", "\t") if lines and mark in lines[0]), ",")
-    source = Source(str(file), tuple(lines))
-    for one in mistakes:
-        line = lines[one.line - 1]
-        before = [] if '"' in line else line.split(mark)[: one.cell]
-        column = sum(len(cell) + 1 for cell in before)
-        yield problem(Place(source, one.line - 1, column), path, one.message, one.hint)
 
 
 def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[Mistake], bool]:

@@ -11,11 +11,10 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema, model_validator
 
 from opsim.problems import did_you_mean, shown
-from opsim.scenario.fields import Whole, plain_error, summing_to_1
+from opsim.scenario.fields import Whole, of_per_cent, plain_error, summing_to_1
 from opsim.scenario.tree import Block
 
 START, OUT = "start", "out"
-_PER_CENT = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{1,9})?)\s*(?:%|percent|per cent)\s*")
 _FRACTION = re.compile(r"\s*([0-9]{1,9})\s*/\s*([1-9][0-9]{0,8})\s*")
 
 
@@ -24,16 +23,10 @@ def _probability(value: object) -> float:
     if fraction is not None:
         value = int(fraction[1]) / int(fraction[2])
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise plain_error(f"expected a probability, found {shown(value)}", _of_per_cent(value))
+        raise plain_error(f"expected a probability, found {shown(value)}", of_per_cent(value) or "such as 0.3 or 1/3")
     if not 0 <= value <= 1:
         raise plain_error(f"a probability lies between 0 and 1, found {shown(value)}", _as_share(value))
     return float(value)
-
-
-def _of_per_cent(value: object) -> str:
-    """How ``5 %`` is written, or an example."""
-    match = _PER_CENT.fullmatch(value) if isinstance(value, str) else None
-    return f"write {float(match[1]) / 100:g}" if match and float(match[1]) <= 100 else "such as 0.3 or 1/3"
 
 
 def _as_share(value: float) -> str:

@@ -115,8 +115,8 @@ def override_text(candidates: Sequence[Candidate]) -> str:
     for one in candidates:
         said = [f"{path}: {flow_text(value)}" for path, value in one.changes.items()]
         lines += _in_lines(f"  {_key(one.name)}: {{", said)
-    listed = ", ".join(f"{_key(one.name)}: [{_key(one.name)}]" for one in candidates)
-    return "\n".join([*lines, f"scenarios: {{base: [], {listed}}}"])
+    listed = [f"  {_key(one.name)}: [{_key(one.name)}]" for one in candidates]
+    return "\n".join([*lines, "scenarios:", "  base: []", *listed])
 
 
 def _in_lines(head: str, parts: Sequence[str]) -> Iterator[str]:

@@ -186,7 +186,7 @@ class Points:
     bases: Mapping[str, str] = field(default_factory=dict)
 
     def points(self, variant: str | None) -> list[Point]:
-        """To be run, in order; two rows with the same values are the same point."""
+        """To be run, in order; two rows with the same values are the same point, one at a time the base among them."""
         width = len(str(len(self.values)))
         return [
             Point(f"point {row + 1:0{width}d}", self._changes(values), variant)
@@ -200,8 +200,10 @@ class Points:
         ).reshape(len(self.values), len(self.factors))
 
     def _changes(self, values: Sequence[Any]) -> dict[str, Any]:
-        pairs = zip(self.factors, values)
-        return {factor.path: value for factor, value in pairs if value is not UNCHANGED}
+        said = [(factor, value) for factor, value in zip(self.factors, values) if value is not UNCHANGED]
+        if self.design == "one_at_a_time" and all(f.words(value) == self.bases.get(f.path) for f, value in said):
+            return {}
+        return {factor.path: value for factor, value in said}
 
 
 def points_of(asked: Sweep, seed: int) -> Points:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from emulator.cleaning import POLICIES, CleaningSettings, cleaned, settings_of
-from emulator.cleaning.settings import beyond_rate, mistakes, size_m
+from emulator.cleaning.settings import beyond_rate, mistakes
+from emulator.recordings.body_size import size_m
 from tests.made.takes import clean
 
 
@@ -104,4 +105,4 @@ def test_switched_off_anything_passes():
 
 
 def test_the_size_of_a_body_is_that_between_its_farthest_joints():
-    assert 1.4 < size_m(clean().takes[0]) < 2.0
+    assert 1.4 < size_m(clean().takes[0].positions_m) < 2.0

@@ -7,8 +7,9 @@ import pytest
 
 from emulator.recordings.npz import read_recording
 from emulator.segmenting.repetitions import postures, repetitions
+from emulator.synthetic.long_take import long_take
 from emulator.synthetic.tasks import make
-from tests.long_take import long_take, plain, usual_ends
+from tests.long_take import plain, usual_ends
 from tests.recordings import recording
 
 

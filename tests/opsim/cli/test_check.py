@@ -384,7 +384,9 @@ def test_the_templates_say_what_they_are(tmp_path):
     code, shown, _ = opsim("init", "--list")
     assert code == 0 and "A saturated line of three people" in shown
     templates = json.loads(opsim("init", "--list", "--json")[1])["templates"]
-    assert set(templates) == set(shipped_scenarios()) and all(templates.values())
+    assert set(templates) == set(shipped_scenarios()) and all(
+        said.endswith((".", "?", "!")) for said in templates.values()
+    )
 
 
 def test_the_schema_is_printed():

@@ -48,6 +48,16 @@ def test_each_drawn_performance_is_of_another_new_person(tmp_path):
     assert MotionLibrary.load(tmp_path / "lib.npz")["reach"].report.n_workers == 6
 
 
+def test_new_people_may_have_several_performances_each_of_a_library_and_task_in_one_word(tmp_path):
+    out = tmp_path / "reach.npz"
+    words = ("-n", 5, "--new-people", 2, "--fps", 20, "-o", out)
+    assert opsim("motion", "sample", "bench_work/reach", *words)[0] == 0
+    motions = read_motions(out, where=None).motions
+    assert [motion.worker for motion in motions] == ["new1", "new1", "new1", "new2", "new2"]
+    sizes_m = np.array([motion.bone_length_m.sum() for motion in motions])
+    assert np.ptp(sizes_m[:3]) < 0.001 * sizes_m[0] < abs(sizes_m[3] - sizes_m[0])
+
+
 def test_those_of_one_person_of_the_fit_have_the_name_and_that_persons_ways(tmp_path):
     model = MotionLibrary.load(BENCH)["reach"]
     name, out = model.workers[0], tmp_path / "reach.npz"
@@ -151,6 +161,12 @@ def test_the_seed_decides_the_samples():
         ([BENCH, "raech"], "did you mean 'reach'?"),
         ([BENCH], "name one"),
         ([BENCH, "reach", "-n", "0"], "-n"),
+        (
+            [BENCH, "reach", "-n", "2", "--new-people", "3"],
+            "--new-people: found 3, expected at most the 2 performances",
+        ),
+        ([BENCH, "reach", "--person", "w1", "--new-people", "3"], "--person: found together with --new-people"),
+        (["bench_work/raech"], "did you mean 'reach'?"),
         ([BENCH, "reach", "-o", "x.txt"], ".csv"),
     ],
 )

@@ -168,6 +168,7 @@ def test_a_state_that_takes_little_everywhere_is_left_to_the_report(capsys):
     print_results("made", {"base": result(*states("station_states", "press", work=0.9, setup=0.05, down=0.01))})
     shown = capsys.readouterr().out
     assert "press work" in shown and "setup" not in shown and "down" not in shown
+    assert "State of station: 2 rows are not shown here" in shown
 
 
 @pytest.mark.parametrize("part", ["setup", "walk", "held", "team", "tool"])
@@ -176,8 +177,9 @@ def test_of_workers_too(part):
     assert not matters("worker_states", part, {"base": {"mean": 0.01}, "wide": {"mean": None}})
 
 
-def test_idle_workers_are_what_the_shown_states_leave():
-    assert not matters("worker_states", "wait", {"base": {"mean": 0.9}})
+def test_idle_workers_are_what_the_shown_states_leave_and_are_said_to_be_left_out(capsys):
+    print_results("made", {"base": result(*states("worker_states", "ana", work=0.1, wait=0.9, walk=0.0))})
+    assert "State of worker: 1 row is not shown here (waiting, breaks, and" in capsys.readouterr().out
 
 
 def test_of_work_broken_off_the_parts_there_are_in_any_variant_are_shown_in_plain_words(capsys):
@@ -354,6 +356,18 @@ def results(tmp_path_factory):
 def test_each_variant_gets_its_suggestion(results):
     code, shown, _ = opsim("warm-up", results)
     assert code == 0 and "base" in shown and "wider" in shown and "Jobs inside" in shown and "MSER-5" in shown
+
+
+def test_where_no_warm_up_is_found_none_is_to_be_taken(tmp_path):
+    file = line(tmp_path, LINE)
+    opsim("run", file, "-o", tmp_path / "out", "--horizon", "2 min")
+    _, shown, _ = opsim("warm-up", tmp_path / "out")
+    assert "No warm-up is found in any series" in shown and "Take the longest" not in shown
+
+
+def test_a_folder_that_is_a_file_is_named_with_what_was_expected(tmp_path):
+    file = line(tmp_path, LINE)
+    assert opsim("run", file, "-o", file)[::2] == (2, f"{file}: found a file, expected a folder to write into\n")
 
 
 def test_one_variant_as_json(results):

@@ -8,7 +8,17 @@ from opsim.report.sections.bottleneck import CELLS, FIND_OUT, _bars, bottleneck_
 from opsim.report.sections.bottleneck import bottleneck_section as section_of_bottleneck_picture
 from opsim.report.sections.summary import keeps_up
 from opsim.report.sections.yamazumi import yamazumi_section as section
-from opsim.report.sections.yamazumi_stacks import LINE, PACE, TAKT, WALKING, station_stacks, worker_stacks
+from opsim.report.sections.yamazumi_stacks import (
+    LINE,
+    PACE,
+    SETTING_UP,
+    TAKT,
+    WALKING,
+    Stack,
+    person_sentences,
+    station_stacks,
+    worker_stacks,
+)
 from tests.made.result import BOLD, SCRIPT
 from tests.opsim.kpi.made_logs import work
 from tests.opsim.report.made_floor import bars, charts, floor, renamed, strings, words
@@ -105,6 +115,19 @@ def test_without_rows_tasks_share_as_planned_and_nobody_is_told_of():
     saw, _ = station_stacks(made)
     assert saw.tasks == pytest.approx({"pick": 20, "turn": 50})
     assert list(charts(section(made))) == ["yamazumi-stations"]
+
+
+@pytest.mark.parametrize(("people", "sentence"), [
+    ([("ana", 95, {}), ("ben", 100, {WALKING: 9})],
+     "For a finished job ben spends 109 s on work and walking, ana 95 s."),
+    ([("ana", 95, {}), ("ben", 40, {}), ("eva", 60, {SETTING_UP: 5, WALKING: 5})],
+     "For a finished job ana spends 95 s on work, set-up and walking, ben 40 s; the others lie between."),
+    ([("ana", 95, {}), ("ben", 95, {})], "For a finished job everybody spends about as long on work, 95 s at most."),
+])  # fmt: skip
+def test_of_people_only_what_there_is_is_said(people, sentence):
+    assert list(person_sentences([Stack(name, {"saw": work_s}, beside) for name, work_s, beside in people])) == [
+        sentence
+    ]
 
 
 def test_one_station_has_nothing_to_be_compared_with():

@@ -101,9 +101,9 @@ MEAL = "meal: {at: 02:00, lasts: 30 min, place: canteen}"
     ("meal: {at: 02:00, lasts: 30 min, place: cantine}",
      "9: shifts.night.breaks.meal.place: no place 'cantine' | did you mean 'canteen'?"),
     ("meal: {at: 21:59, lasts: 30 min}",
-     "9: shifts.night.breaks.meal.at: 21:59 is outside the shift, 22:00 to 06:00 | give a time from 22:00 on"),
+     "9: shifts.night.breaks.meal.at: 21:59 is outside the shift, 22:00 to 06:00 | begin it from 22:00 to 05:30"),
     ("meal: {at: 06:00, lasts: 30 min}",
-     "9: shifts.night.breaks.meal.at: 06:00 is outside the shift, 22:00 to 06:00 | give a time from 22:00 on"),
+     "9: shifts.night.breaks.meal.at: 06:00 is outside the shift, 22:00 to 06:00 | begin it from 22:00 to 05:30"),
     ("meal: {at: 05:31, lasts: 30 min}",
      "9: shifts.night.breaks.meal.at: goes on until 06:01, beyond the shift, 22:00 to 06:00 | begin it at 05:30 or "
      "before, or make it shorter"),
@@ -118,7 +118,7 @@ MEAL = "meal: {at: 02:00, lasts: 30 min, place: canteen}"
     ("meal: {at: 02:00}",
      "9: shifts.night.breaks.meal: 'lasts' is missing | add e.g. 'lasts: 15 min'"),
     ("meal: {at: 02:00, lasts: 30 min, days: [Mon, Mun]}",
-     "9: shifts.night.breaks.meal.days[1]: expected a day of the week, found 'Mun' | did you mean 'Sun'?"),
+     "9: shifts.night.breaks.meal.days[1]: expected a day of the week, found 'Mun' | did you mean 'Mon'?"),
 ])  # fmt: skip
 def test_breaks_that_cannot_be(breaks, answer):
     assert said((MEAL, breaks)) == answer
@@ -229,6 +229,15 @@ def test_defaults_and_likes_hold_for_shifts():
     ("shift: night}", "shift: night}\nrotations: {r: {workers: [ana], posts: [s], after: 2.5}}",
      "17: rotations.r.posts: expected at least 2 entries, found 1 | such as [pack, label, [lift, stack]]\n"
      "17: rotations.r.after: expected a whole number, found 2.5 | write 2 or 3"),
+    ("shift: night}", "shift: night}\nrotations: {r: {workers: [ana, ben], posts: [s, s], after: 1e3}}",
+     "17: rotations.r.after: expected a whole number, found 1000.0 | write 1000"),
+    ("{fixed: 10 min}", "{dist: lognormal, mean: 10 min, cv: 0.3, between_share: 40%}",
+     "10: tasks.t.between_share: expected a number, found '40%' | write 0.4"),
+    ("workers:\n", "wrkers:\n", "14: wrkers: unknown key 'wrkers' | did you mean 'workers'?"),
+    ("stations: {s: {at: a, tasks: [t], shift: [early, late]}}", "stations: [{at: a, tasks: [t]}]",
+     "11: stations: expected a block of names, found a list of 1 | such as {pack: {at: bench, tasks: [label]}}"),
+    ("tasks: {t: {fixed: 10 min}}", "tasks: null",
+     "10: tasks: expected a block of names, found nothing | fill it, or remove the line"),
 ])  # fmt: skip
 def test_one_mistake_is_told_once_with_the_way_out(old, new, answer):
     assert said((old, new)) == answer

@@ -1,5 +1,6 @@
 import sys
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -94,6 +95,16 @@ def test_one_at_a_time_leaves_the_other_factors_alone():
     found = points(design="one_at_a_time")
     changes = [dict(point.changes) for point in found.points(None)]
     assert changes[:3] == [{}, {"release.every": "40 s"}, {"release.every": "60 s"}] and len(changes) == 6
+
+
+def test_a_value_that_the_scenario_has_already_is_the_base_and_runs_once():
+    found = replace(points(design="one_at_a_time"), bases={"release.every": "60 s", "stations.saw.buffer": "1"})
+    assert [dict(point.changes) for point in dict.fromkeys(found.points(None))] == [
+        {},
+        {"release.every": "40 s"},
+        {"stations.saw.buffer": 2},
+        {"stations.saw.buffer": 4},
+    ]
 
 
 def test_numbers_that_are_no_power_of_two_are_said():
