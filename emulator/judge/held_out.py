@@ -162,8 +162,8 @@ def too_few(motions: MotionSet) -> list[str]:
     n_held = int(np.sum(each // 2))
     if n_held >= FEWEST_HELD:
         return []
-    people = f"{len(motions)} repetitions of {len(each)} people hold out {n_held}, one of two of each person"
-    return [f"{motions.task}: {people}; expected {FEWEST_HELD} or more to judge by"]
+    found = f"{len(motions)} repetitions of {len(each)} people leave {n_held} to judge by (of each person every second)"
+    return [f"{motions.task}: {found}; expected {FEWEST_HELD} or more: record people more than once"]
 
 
 def _aligned(motions: MotionSet, warps: np.ndarray, pace: JointPCA, n_times: int) -> np.ndarray:

@@ -215,7 +215,7 @@ def _print_people(variant: str, skills: Any, crew: Any) -> None:
         more = "" if crew.with_overtime is None else f", {crew.with_overtime:.0%} with all overtime"
         where = ", ".join(crew.skills[:6]) + (" and others" if len(crew.skills) > 6 else "")
         click.echo(
-            f"{variant}: however work is shared, {crew.share:.0%} of the time of {who} ({where}) is wanted{more}\n"
+            f"{variant}: shared as evenly as can be, work takes {crew.share:.0%} of the time of {who} ({where}){more}\n"
         )
 
 

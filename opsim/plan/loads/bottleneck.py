@@ -101,8 +101,8 @@ def _stations(loads: Loads) -> Iterator[str]:
         if load.most_per_h == 0:
             yield f"{load.station} never works: its maintenance takes all of its time"
         elif load.load is not None and load.load >= 1:
-            which = "its time" if load.hours == 1 else f"its time, {load.hours:.0%} of the run,"
-            yield f"{load.station} cannot keep up: {load.load:.0%} of {which} is wanted{_overtime(load)}"
+            there = "" if load.hours == 1 else f" (it is there for {load.hours:.0%} of the run)"
+            yield f"{load.station} cannot keep up: it would need {load.load:.0%} of its time{there}{_overtime(load)}"
 
 
 def _people_overloaded(loads: Loads) -> Iterator[str]:
@@ -120,8 +120,8 @@ def _people_overloaded(loads: Loads) -> Iterator[str]:
         alone = len(crew.workers) == 1
         who = crew.workers[0] if alone else f"the {len(crew.workers)} workers of {len(crew.skills)} stations"
         yield (
-            f"{who} cannot keep up: {'' if alone else 'however they share the work, '}{crew.share:.0%} of "
-            f"{'the' if alone else 'their'} time is wanted, walks not counted ({', '.join(crew.skills[:6])})"
+            f"{who} cannot keep up: {'it takes' if alone else 'shared as evenly as can be, it takes'} {crew.share:.0%} "
+            f"of {'the' if alone else 'their'} time, walks not counted ({', '.join(crew.skills[:6])})"
             f"{_overtime(crew)}"
         )
 

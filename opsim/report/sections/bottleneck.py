@@ -90,7 +90,7 @@ def _which(
     top, sole = find(rows, "bottleneck", first, "momentary"), find(rows, "bottleneck", first, "sole")
     if top is None:
         return
-    alone = f"; for {with_interval(sole)} it is so alone" if sole is not None else ""
+    alone = f", {with_interval(sole)} without another one beside it" if sole is not None else ""
     next_to_it = [f"{name} ({percent(momentary[name])})" for name in ranked[1:] if momentary[name] >= MUCH]
     others = f"; next {'is' if len(next_to_it) == 1 else 'are'} {listing(next_to_it)}" if next_to_it else ""
     of_all = f"of the {time}, the longest of all stations"

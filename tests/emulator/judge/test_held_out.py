@@ -75,7 +75,8 @@ def test_people_with_one_repetition_hold_nothing_out():
     assert too_few(made()) == []
     (words,) = too_few(make("reach", 13, 1)[0])
     assert words == (
-        "reach: 13 repetitions of 13 people hold out 0, one of two of each person; expected 5 or more to judge by"
+        "reach: 13 repetitions of 13 people leave 0 to judge by (of each person every second); "
+        "expected 5 or more: record people more than once"
     )
 
 
@@ -277,7 +278,7 @@ def test_all_that_is_wrong_is_said_before_anything_is_done():
     with pytest.raises(ValueError) as refused:
         judge_held_out(motions, ["PWJ", "SIEM/JointPCA/MGV"])
     lines = str(refused.value).splitlines()
-    assert len(lines) == 4 and "root_m is no number" in lines[-1] and "hold out 0" in lines[-2]
+    assert len(lines) == 4 and "root_m is no number" in lines[-1] and "leave 0 to judge by" in lines[-2]
 
 
 def test_shares_are_whole_and_in_proportion():

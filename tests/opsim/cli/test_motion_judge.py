@@ -250,7 +250,7 @@ def test_all_that_is_wrong_is_said_at_once_and_nothing_begins(
 def test_people_with_one_repetition_each_are_refused(reach, nothing_begins):
     lonely = named(reach, "lonely.npz", subject=np.array([f"s{k}" for k in range(16)]))
     code, _, complaint = opsim("motion", "judge", lonely)
-    assert code == 2 and "16 repetitions of 16 people hold out 0" in complaint
+    assert code == 2 and "16 repetitions of 16 people leave 0" in complaint
 
 
 def test_a_repetition_of_two_frames_is_named_before_judging(reach, nothing_begins):

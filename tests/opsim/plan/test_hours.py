@@ -165,7 +165,7 @@ def test_all_together_are_loaded_by_their_time_too():
 def test_too_much_work_for_the_hours_there_are_is_told_with_what_overtime_would_do():
     said = overloads(edited(("every: 72 s", "every: 54 s")))
     assert said == [
-        "pack cannot keep up: 107% of its time, 62% of the run, is wanted",
+        "pack cannot keep up: it would need 107% of its time (it is there for 62% of the run)",
         "work at pack cannot be done: 107% of the time of the 2 workers who can, walks not counted; 0.62 of them are "
         "at work on the mean of the run; 94% with all the overtime that is allowed",
     ]

@@ -226,8 +226,8 @@ def test_where_the_floor_decides_the_bottleneck_says_how_many_jobs_pass():
 def test_what_cannot_be_done_is_said():
     edits = [*PEOPLE, ("every: 72 s", "every: 12 s")]
     assert overloads(edited(*edits)) == [
-        "cut cannot keep up: 450% of its time is wanted",
-        "drill cannot keep up: 450% of its time is wanted",
+        "cut cannot keep up: it would need 450% of its time",
+        "drill cannot keep up: it would need 450% of its time",
         "work at drill cannot be done: 150% of the time of the 1 worker who can, walks not counted",
     ]
 
@@ -237,7 +237,7 @@ def test_people_who_cannot_share_all_their_work_are_said():
     edits += [("cut: {at: here", "cut: {servers: 9, at: here"), ("drill: {at: there", "drill: {servers: 9, at: there")]
     (said,) = overloads(edited(*edits))
     assert said.startswith(
-        "the 2 workers of 2 stations cannot keep up: however they share the work, 112% of their time"
+        "the 2 workers of 2 stations cannot keep up: shared as evenly as can be, it takes 112% of their time"
     )
 
 
