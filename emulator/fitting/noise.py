@@ -7,7 +7,7 @@ least stiff on, and the first is taken whose draws are about as smooth and as qu
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -17,7 +17,7 @@ from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.joint_speeds import median_speed_ratio, peak_ratio, share_too_fast
 from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
-from emulator.model.smoothed import MOST_NOISE, Bands, Curves, distance_to_recordings
+from emulator.model.smoothed import MOST_NOISE, Bands, Curves, distance_to_recordings, drawn_about_recordings
 from emulator.motion import MotionSet
 from emulator.people.population import Population
 
@@ -29,12 +29,14 @@ PEOPLE_STIFFNESSES = (1.0, 4.0, 16.0, 64.0)
 """How much smoother than people's own deviations that is by which new people deviate further, to choose from."""
 MOST_JERK, MOST_JERK_NEW = 1.2, 1.3
 """Draws of known and of new people may have so many times the recorded peak jerk."""
-MOST_FAST, MOST_FAST_NEW = 0.01, 0.05
+MOST_FAST, MOST_FAST_NEW = 0.02, 0.05
 """And this share of them a joint that is too fast."""
+ABOUT = 0.03
+"""What goes less far by so little goes about as far: then less stiff noise, which is more like that of recordings."""
 LEAST_SPEED = 0.93
 """And the median of their peak speed is at least so much of the recorded: peaks blurred together are slow."""
 N_DRAWN = 200
-"""Draws by which a law is told smooth and quick; of known people for each recording, or for so many of them."""
+"""Draws by which a law of new people is told smooth and quick."""
 
 
 Noise = tuple[float, float]
@@ -43,16 +45,24 @@ Tried = TypeVar("Tried", float, Noise)
 
 
 def naturally(models: Sequence[tuple[Noise, MotionEmulator]], motions: MotionSet) -> tuple[Noise, MotionEmulator]:
-    """Of models whose draws of known people are smooth enough what goes farthest; where none are, what goes least."""
-    each = -(-N_DRAWN // len(motions))
-    workers = [motions.motions[i].worker for i in np.unique(np.linspace(0, len(motions) - 1, N_DRAWN).astype(int))]
+    """Of models whose draws about the recordings are smooth enough what goes farthest; where none are, what goes least.
+
+    models : from the least stiff on; of those that go about as far the first is tried first
+    """
 
     def alike(model: MotionEmulator) -> MotionPerformances:
-        rng = np.random.default_rng(0)
-        scores = [model.sample(each, rng, worker=worker).scores for worker in workers]
-        return model.performances(np.concatenate(scores))
+        assert model.workforce.smoothed is not None
+        return model.performances(drawn_about_recordings(model.workforce.smoothed))
 
-    return _first(sorted(models, key=lambda tried: -_far(tried[1])), alike, motions, MOST_JERK, MOST_FAST)
+    return _first(_farthest_first(models), alike, motions, MOST_JERK, MOST_FAST)
+
+
+def _farthest_first(models: Sequence[tuple[Noise, MotionEmulator]]) -> Iterator[tuple[Noise, MotionEmulator]]:
+    left = [(_far(tried[1]), tried) for tried in models]
+    while left:
+        least = (1.0 - ABOUT) * max(far for far, _ in left)
+        yield from (tried for far, tried in left if far >= least)
+        left = [one for one in left if one[0] < least]
 
 
 def _far(model: MotionEmulator) -> float:

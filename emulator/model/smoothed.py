@@ -221,7 +221,7 @@ def smoothed(
     cut_off = np.maximum(np.diag(gram) - np.sum(recorded**2, axis=1), 0.0)
 
     def too_far(h: float) -> bool:
-        draws = _drawn(_blurred(sharp, h, curves, bands, most_noise))[:, at] * size
+        draws = drawn_about_recordings(_blurred(sharp, h, curves, bands, most_noise))[:, at] * size
         reached = np.quantile(_nearest(draws, recorded, cut_off), QUARTILES)
         return bool(np.mean(np.log(np.maximum(reached, 1e-12) / np.maximum(asked, 1e-12))) > 0)
 
@@ -329,7 +329,7 @@ def _largest_not(too_far: Callable[[float], bool]) -> float:
     return low
 
 
-def _drawn(blurred: SmoothedScores) -> np.ndarray:
+def drawn_about_recordings(blurred: SmoothedScores) -> np.ndarray:
     """(N_TRIED, K) draws about the recordings in turn, always with the same random numbers."""
     rng = np.random.default_rng(0)
     n = len(blurred.owner)
@@ -341,7 +341,7 @@ def _drawn(blurred: SmoothedScores) -> np.ndarray:
 def distance_to_recordings(blurred: SmoothedScores, at: slice, size: np.ndarray) -> float:
     """Median distance of draws about recordings to the nearest of these, in coordinates ``at`` (P,) times size (P,)."""
     recorded = blurred.scores[:, at] * size
-    return float(np.median(_nearest(_drawn(blurred)[:, at] * size, recorded, np.zeros(len(recorded)))))
+    return float(np.median(_nearest(drawn_about_recordings(blurred)[:, at] * size, recorded, np.zeros(len(recorded)))))
 
 
 def _nearest(drawn: np.ndarray, recorded: np.ndarray, cut_off: np.ndarray) -> np.ndarray:

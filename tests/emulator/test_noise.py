@@ -44,6 +44,14 @@ def test_of_laws_that_move_like_a_body_the_one_that_goes_farthest_is_taken(order
     assert naturally([((float(i), 0.7), laws[i]) for i in order], motions)[0] == (1.0, 0.7)
 
 
+@pytest.mark.parametrize(("more", "taken"), [(1.01, 0.0), (1.3, 1.0)])
+def test_of_laws_that_go_about_as_far_the_least_stiff_is_taken(more, taken):
+    """They come from the least stiff on."""
+    laws = blurred(1.0), blurred(more)
+    assert far(laws[0]) < far(laws[1])
+    assert naturally([((float(i), 0.7), law) for i, law in enumerate(laws)], made("lift")[0])[0] == (taken, 0.7)
+
+
 def test_where_none_moves_like_a_body_the_one_that_goes_least_is_taken():
     motions, laws = made("lift")[0], (blurred(3.0, paces=40.0), blurred(2.0, paces=40.0))
     assert naturally([((float(i), 0.7), law) for i, law in enumerate(laws)], motions)[0] == (1.0, 0.7)
