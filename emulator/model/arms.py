@@ -61,7 +61,7 @@ class Arms:
             step = share[:, None] * np.einsum("nrp,nr->np", across, np.linalg.solve(size, left[..., None])[..., 0])
             tried = goal - self._hand(flat + np.einsum("np,ngpc->ngc", moved + step, ways), lengths, yaw_rad)
             length = np.linalg.norm(tried, axis=1)
-            better = length < best
+            better = (length < best) & (best >= NEAR_M)  # NOTE: a body moves as it does without the others
             share = np.where(better, 1.0, 0.5 * share)
             moved[better], left[better], best[better] = (moved + step)[better], tried[better], length[better]
         return moved
