@@ -4,7 +4,6 @@ Inputs and outputs of ``opsim motion`` are tried before the work, and named when
 """
 
 import json
-import re
 import shutil
 import warnings
 from dataclasses import replace
@@ -340,18 +339,3 @@ def test_one_repetition_six_times_is_fitted_with_one_clear_note(made_reach, tmp_
         np.savez(tmp_path / "same.npz", **{**file, **same, **marks})
     code, shown, _ = opsim("motion", "fit", tmp_path / "same.npz", "-o", tmp_path / "lib.npz")
     assert code == 0 and "nan" not in shown and shown.count("one and the same movement") == 1
-
-
-@pytest.mark.slow
-def test_the_motion_commands_of_the_docs_work_one_after_the_other(tmp_path, monkeypatch):
-    page = (shipped_folder().parent / "docs" / "motion.md").read_text(encoding="utf-8")
-    lines = [line.partition("#")[0] for line in page.splitlines() if re.match("opsim motion .*squat", line)]
-    monkeypatch.chdir(tmp_path)
-    opsim("motion", "sample", "public_movements", "deep_squat", "-n", 8, "-o", "reach.npz")
-    changed("deep_squat.npz", cov_correct=np.ones(8, int))
-    assert len(lines) == 9
-    verbs = ("fit", "sample", "show")  # judging takes a minute: see test_motion_judge, test_motion_people
-    for line in (line for line in lines if line.split()[2] in verbs):
-        code, _, complaint = opsim(*line.replace('"', "").split()[1:])
-        assert code == 0, complaint
-    assert {"lib.npz", "drawn.npz", "strip.png", "squat.gif"} <= {path.name for path in tmp_path.iterdir()}
