@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 
-from opsim.problems import Problem, nearest
+from opsim.problems import MOST_FOUND, Problem, nearest
 from opsim.scenario.checks.assembly import (
     assembly_problems,
     batch_problems,
@@ -66,7 +66,8 @@ def check_problems(tree: Node, base: Node, folder: Path) -> Iterator[Problem]:
 
 def _unreadable(tree: Node) -> Iterator[str]:
     """Sections that are no block, or that are not there while an unknown key reads like them."""
-    mistyped = {nearest(key, Scenario.model_fields) for key in entries(tree) if key not in Scenario.model_fields}
+    unknown = islice((key for key in entries(tree) if key not in Scenario.model_fields), MOST_FOUND)
+    mistyped = {nearest(key, Scenario.model_fields) for key in unknown}
     for section in WORD_OF:
         node = child(tree, section)
         if section in mistyped if node is None else not isinstance(node.value, dict):
