@@ -165,6 +165,13 @@ class Skeleton:
         """A bone is named after the joint where it ends."""
         return tuple(self.names[j] for j in self.bones)
 
+    @cached_property
+    def other_side(self) -> tuple[int, ...]:
+        """For each bone that of the other side; itself in the middle, or where the other side is not there."""
+        names, swapped = self.bone_names, {"left_": "right_", "right_": "left_"}
+        other = [next((to + n[len(side) :] for side, to in swapped.items() if n.startswith(side)), n) for n in names]
+        return tuple(names.index(one) if one in names else i for i, one in enumerate(other))
+
     @property
     def edges(self) -> tuple[tuple[int, int], ...]:
         """(parent, child) joint numbers of each bone."""

@@ -88,8 +88,8 @@ def turns(before: End, after: End) -> tuple[Offset, Offset]:
     Opposite bones meet half-way by one of the ways there are.
     """
     axis = _axis(before.value, after.value) * (0.5 * sphere.angle(before.value, after.value))[..., None]
-    common = turned(before.value, axis)
-    rates = turned(before.rate, axis), turned(after.rate, -axis)
+    common = sphere.turned(before.value, axis)
+    rates = sphere.turned(before.rate, axis), sphere.turned(after.rate, -axis)
     missing = rates[1] - rates[0]
     length = np.linalg.norm(missing, axis=-1)
     missing = missing * _beyond(length, np.maximum(before.doubt, after.doubt))[..., None]
@@ -112,8 +112,8 @@ def eased_turn(directions: np.ndarray, offset: Offset, to_seam_s: np.ndarray, wi
     share, rate = _weights(to_seam_s, window_s)
     rows, columns = np.nonzero((share > 0) & np.any(offset.shift != 0, axis=(1, 2))[:, None] | (rate != 0))
     out = np.array(directions)
-    some = turned(out[rows, columns], share[rows, columns, None, None] * offset.shift[rows])
-    out[rows, columns] = turned(some, rate[rows, columns, None, None] * offset.rate[rows])
+    some = sphere.turned(out[rows, columns], share[rows, columns, None, None] * offset.shift[rows])
+    out[rows, columns] = sphere.turned(some, rate[rows, columns, None, None] * offset.rate[rows])
     return out
 
 
@@ -121,21 +121,6 @@ def eased_shift(values: np.ndarray, offset: Offset, to_seam_s: np.ndarray, windo
     """The same for plain channels (n, T, C)."""
     share, rate = _weights(to_seam_s, window_s)
     return np.asarray(values + share[..., None] * offset.shift[:, None] + rate[..., None] * offset.rate[:, None])
-
-
-def turned(vectors: np.ndarray, by: np.ndarray) -> np.ndarray:
-    """Vectors (..., 3) turned about ``by`` (..., 3) by its length in radians (Rodrigues); by 0 the same bits."""
-    angle = np.sqrt(np.einsum("...c,...c->...", by, by))[..., None]
-    sine = np.sinc(angle / np.pi)
-    bend = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
-    across = _cross(by, vectors)
-    return np.asarray(vectors + sine * across + bend * _cross(by, across))
-
-
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The cross product of (..., 3); numpy's own takes twice the time."""
-    (x, y, z), (u, v, w) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 
 
 def _weights(to_seam_s: np.ndarray, window_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

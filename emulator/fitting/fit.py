@@ -20,6 +20,7 @@ from emulator.model.joint_coordinates import CURVES
 from emulator.model.reduction import JointPCA
 from emulator.model.smoothed import Curves, smoothed
 from emulator.motion import MotionSet
+from emulator.people.bone_turns import BoneTurns
 from emulator.people.kinds import Kinds, kinds_of
 from emulator.people.workers import Workforce, shrinkages
 
@@ -82,7 +83,8 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
         return model
     crews = [(noise, _blurred(crew, parts, made.moving, covariates, curves, *noise)) for noise in NOISES]
     own, model = naturally([(noise, replace(model, workforce=blurred)) for noise, blurred in crews], motions)
-    between, model = with_population(model, curves, motions)
+    turns = BoneTurns.fit(made.directions.mean(axis=1), made.moving.worker_index, kinds.of, motions.skeleton)
+    between, model = with_population(model, curves, motions, turns)
     report = summary(made, parts, model.workforce, settings, covariates.lines)
     return replace(model, report=replace(report, methods=report.methods | {"stiffness": stiffness_said(own, between)}))
 

@@ -19,6 +19,7 @@ from emulator.model.emulator import MotionEmulator
 from emulator.model.performances import MotionPerformances
 from emulator.model.smoothed import MOST_NOISE, Bands, Curves, distance_to_recordings, drawn_about_recordings
 from emulator.motion import MotionSet
+from emulator.people.bone_turns import BoneTurns
 from emulator.people.population import Population
 
 STIFFNESSES = (4.0, 16.0, 64.0)
@@ -72,7 +73,7 @@ def _far(model: MotionEmulator) -> float:
 
 
 def with_population(
-    model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet
+    model: MotionEmulator, curves: tuple[Curves, ...], motions: MotionSet, turns: BoneTurns
 ) -> tuple[float, MotionEmulator]:
     """The model with the least stiff law of new people whose draws are as smooth and quick as asked; else the stiffest.
 
@@ -82,17 +83,17 @@ def with_population(
     crew = model.workforce
     if crew.smoothed is None or not crew.has_worker_effect:
         return 0.0, model
-    populations = ((stiffness, population(model, curves, stiffness)) for stiffness in PEOPLE_STIFFNESSES)
+    populations = ((stiffness, population(model, curves, stiffness, turns)) for stiffness in PEOPLE_STIFFNESSES)
     models = ((stiffness, replace(model, workforce=replace(crew, population=law))) for stiffness, law in populations)
     return _first(models, lambda m: m.sample(N_DRAWN, np.random.default_rng(0)), motions, MOST_JERK_NEW, MOST_FAST_NEW)
 
 
-def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float) -> Population:
+def population(model: MotionEmulator, curves: tuple[Curves, ...], stiffness: float, turns: BoneTurns) -> Population:
     """The law of new people whose curves deviate further by what is this stiff of the people's own deviations."""
     crew, scale = model.workforce, model.scale
     between = crew.apart() / np.sqrt(crew.kinds.n_not_alone)
     bands = [(curve.at, Bands.of(between[:, curve.at], curve, stiffness)) for curve in curves]
-    return Population.fit(between, bands, scale.block("bones"), crew.kinds)
+    return Population.fit(between, bands, scale.block("bones"), crew.kinds, turns)
 
 
 def _first(

@@ -24,6 +24,26 @@ def angle(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return np.arctan2(np.sqrt(np.einsum("...c,...c->...", across, across)), cosine)
 
 
+def turned(vectors: np.ndarray, by: np.ndarray) -> np.ndarray:
+    """Vectors (..., 3) turned about ``by`` (..., 3) by its length in radians (Rodrigues); by 0 the same bits."""
+    angle = np.sqrt(np.einsum("...c,...c->...", by, by))[..., None]
+    sine = np.sinc(angle / np.pi)
+    bend = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
+    across = _cross(by, vectors)
+    return np.asarray(vectors + sine * across + bend * _cross(by, across))
+
+
+def matrices(by: np.ndarray) -> np.ndarray:
+    """(..., 3, 3) matrices that turn about ``by`` (..., 3) by its length in radians."""
+    return np.ascontiguousarray(np.moveaxis(turned(np.eye(3), by[..., None, :]), -1, -2))
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """The cross product of (..., 3); numpy's own takes twice the time."""
+    (x, y, z), (u, v, w) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+
+
 def distance(y: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Distance of two postures (..., B, 3): the sum of their arcs, (...) radians.
 

@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from emulator.geometry import sphere
 from emulator.geometry.flattening import SIEM, Extrinsic, Flattening
 from emulator.model.targets import ANKLES, HandPlaces, blended
 from emulator.motion import turn
@@ -37,17 +38,24 @@ class Arms:
         return np.flatnonzero(~np.array(below))
 
     def lifted(
-        self, posture: np.ndarray, place: np.ndarray, yaw_rad: np.ndarray, length_m: np.ndarray, miss: np.ndarray
+        self,
+        posture: np.ndarray,
+        place: np.ndarray,
+        yaw_rad: np.ndarray,
+        length_m: np.ndarray,
+        turns: np.ndarray,
+        miss: np.ndarray,
     ) -> np.ndarray:
         """(n, P) by how much upper bones' coefficients change so that hands come by ``miss`` (n, R).
 
         posture (n, P) : of the upper bones; place (n, G) : of the marks on the common clock, in cells
         yaw_rad (n, G) : heading at the marks against that at the start; length_m (n, B)
+        turns (n, B or 0, 3) : of bones, see ``MotionPerformances``
         """
         basis = blended(self._control, place)
-        mean, ways, lengths = basis[:, :, -1], basis[:, :, :-1], length_m[:, self._chain]
+        mean, ways, steps = basis[:, :, -1], basis[:, :, :-1], self._steps(length_m, turns, yaw_rad)
         flat = mean + np.einsum("np,ngpc->ngc", posture, ways)
-        goal = self._hand(flat, lengths, yaw_rad) + miss
+        goal = self._hand(flat, steps) + miss
         best, moved = np.linalg.norm(miss, axis=1), np.zeros_like(posture)
         left, share = miss.copy(), np.ones(len(miss))
         for _ in range(ROUNDS):
@@ -55,29 +63,37 @@ class Arms:
                 break
             now = flat + np.einsum("np,ngpc->ngc", moved, ways)
             around = now[:, None] + STEP * np.moveaxis(ways, 2, 1)  # (n, P, G, C)
-            slope = self._slope(around, now, lengths, yaw_rad)
+            slope = self._slope(around, now, steps)
             across = slope @ self.covariance
             size = across @ np.swapaxes(slope, 1, 2) + 1e-8 * np.eye(len(self.rows))
             step = share[:, None] * np.einsum("nrp,nr->np", across, np.linalg.solve(size, left[..., None])[..., 0])
-            tried = goal - self._hand(flat + np.einsum("np,ngpc->ngc", moved + step, ways), lengths, yaw_rad)
+            tried = goal - self._hand(flat + np.einsum("np,ngpc->ngc", moved + step, ways), steps)
             length = np.linalg.norm(tried, axis=1)
             better = (length < best) & (best >= NEAR_M)  # NOTE: a body moves as it does without the others
             share = np.where(better, 1.0, 0.5 * share)
             moved[better], left[better], best[better] = (moved + step)[better], tried[better], length[better]
         return moved
 
-    def _slope(self, around: np.ndarray, now: np.ndarray, lengths: np.ndarray, yaw_rad: np.ndarray) -> np.ndarray:
+    def _slope(self, around: np.ndarray, now: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """(n, R, P) how the hands move with the coefficients."""
         n, n_ways = around.shape[:2]
-        lengths, yaw_rad = np.repeat(lengths, n_ways, axis=0), np.repeat(yaw_rad, n_ways, axis=0)
-        hand = self._hand(around.reshape(n * n_ways, *around.shape[2:]), lengths, yaw_rad).reshape(n, n_ways, -1)
-        return np.swapaxes(hand - self._hand(now, lengths[::n_ways], yaw_rad[::n_ways])[:, None], 1, 2) / STEP
+        repeated = np.repeat(steps, n_ways, axis=0)
+        hand = self._hand(around.reshape(n * n_ways, *around.shape[2:]), repeated).reshape(n, n_ways, -1)
+        return np.swapaxes(hand - self._hand(now, steps)[:, None], 1, 2) / STEP
 
-    def _hand(self, flat: np.ndarray, length_m: np.ndarray, yaw_rad: np.ndarray) -> np.ndarray:
+    def _hand(self, flat: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """(n, R) from the root to the hands along upper bones, of flat coordinates (n, G, C) of the chain's."""
-        steps = self._flatten.inverse(flat) * length_m[:, None, :, None]
-        hands = np.einsum("gb,ngbc->ngc", self._weight, steps)
-        return turn(hands, yaw_rad).reshape(len(flat), -1)[:, list(self.rows)]
+        directions = self._flatten.inverse(flat)
+        hands = steps @ directions.reshape(*directions.shape[:2], -1, 1)
+        return np.asarray(hands.reshape(len(flat), -1)[:, list(self.rows)])
+
+    def _steps(self, length_m: np.ndarray, turns: np.ndarray, yaw_rad: np.ndarray) -> np.ndarray:
+        """(n, G, 3, 3b) what takes directions of the chain to how far the hands are from the root."""
+        way = turn(np.eye(3), yaw_rad[..., None])  # (n, G, 3, 3), the axes' images as rows
+        turned = sphere.matrices(turns[:, self._chain]) if turns.shape[1] else np.eye(3)
+        bones = length_m[:, self._chain, None, None] * turned
+        steps = np.einsum("gb,ngji,nbjk->ngibk", self._weight, way, bones)
+        return steps.reshape(*yaw_rad.shape, 3, -1)
 
     @cached_property
     def _weight(self) -> np.ndarray:

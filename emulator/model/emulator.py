@@ -80,14 +80,23 @@ class MotionEmulator(JointLaw):
         effect = self._effect(worker)
         law = self.law(effect)
         z = given(self, law, n, rng, effect, condition) if condition else law.sample(n, rng)
-        return self.performances(z, 1.0 if effect is None else effect.scale)
+        if effect is not None:
+            return self.performances(z, effect.scale, effect.turns)
+        return self.performances(z, turns=self.workforce.turns(n, self.skeleton, rng))
 
-    def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> MotionPerformances:
-        """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand."""
+    def performances(
+        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None
+    ) -> MotionPerformances:
+        """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand.
+
+        body_scale : factor on every bone; turns : (B, 3) or (n, B, 3) by which bones are turned, see ``WorkerEffect``
+        """
         duration_s = self.whole_s(scores)
         scale = np.empty(duration_s.shape)
         scale[...] = body_scale  # NOTE: np.full takes three times as long, for a block a twentieth of its draw
-        return MotionPerformances(self, scores, duration_s, scale)
+        shape = (len(scores), 0 if turns is None else self.skeleton.n_bones, 3)
+        turns = np.broadcast_to(np.zeros(3) if turns is None else turns, shape)
+        return MotionPerformances(self, scores, duration_s, scale, turns)
 
     def mean_duration_s(self, worker: Any = None) -> float:
         """Mean duration in seconds of the model: of a worker with this effect, or over the population."""

@@ -79,8 +79,8 @@ def mean_of(model: MotionEmulator, worker: str | WorkerEffect | None = None) -> 
     _put(z, model, "dwells", _NO_PAUSE)
     moving_s = model.mean_duration_s(effect) - dwell_s.sum()
     _put(z, model, "duration", float(model.margin.forward(np.log(moving_s))))
-    bones = np.ones(1) if effect is None else np.full(1, effect.scale)
-    return MeanPerformance(replace(model.performances(z[None], bones), duration_s=model.moving_s(z[None])), dwell_s)
+    body = () if effect is None else (effect.scale, effect.turns)
+    return MeanPerformance(replace(model.performances(z[None], *body), duration_s=model.moving_s(z[None])), dwell_s)
 
 
 def _put(z: np.ndarray, model: MotionEmulator, block: str, raw: float) -> None:

@@ -9,6 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from emulator.geometry import sphere
 from emulator.model import decoding
 from emulator.model.feet import bend, stood
 from emulator.model.joint_law import JointLaw
@@ -60,7 +61,8 @@ class Ground:
 class MotionPerformances(Performances):
     """n performances of a task.
 
-    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone.
+    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone; turns (n, B, 3)
+    rotation vectors by which bones are turned throughout, radians, or (n, 0, 3).
     ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
     """
 
@@ -68,6 +70,7 @@ class MotionPerformances(Performances):
     scores: np.ndarray
     duration_s: np.ndarray
     body_scale: np.ndarray
+    turns: np.ndarray
 
     @cached_property
     def mark_s(self) -> np.ndarray:
@@ -131,7 +134,8 @@ class MotionPerformances(Performances):
     def _directions(self, place: np.ndarray, dtype: Floats = np.float64) -> np.ndarray:
         model = self.model
         if model.footing is None:
-            return model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
+            directions = model.decoder.directions(model.scale.raw(self.scores, "posture"), place, np.dtype(dtype))
+            return turned(directions, self.turns)
         if len(self) > AT_ONCE and "_ground" not in self.__dict__:
             directions = np.empty((*place.shape, self.skeleton.n_bones, 3), dtype)
             for rows, some in self._blocks():
@@ -144,7 +148,7 @@ class MotionPerformances(Performances):
 
     def _decoded(self, ground: Ground, place: np.ndarray, dtype: Floats) -> np.ndarray:
         """Directions at places (n, S) of bodies on the ground before legs bend; here upper bones are as all others."""
-        return self.model.decoder.between(ground.flat, ground.posture, place, np.dtype(dtype))
+        return turned(self.model.decoder.between(ground.flat, ground.posture, place, np.dtype(dtype)), self.turns)
 
     @cached_property
     def _drawn(self) -> Drawn:
@@ -203,7 +207,7 @@ class MotionPerformances(Performances):
             posture, root = posture + moved[0], root + moved[1]
             flat = model.decoder.control(posture)
         clock = np.broadcast_to(np.arange(float(model.n_times)), (n, model.n_times))
-        aligned = model.decoder.between(flat, posture, clock)
+        aligned = turned(model.decoder.between(flat, posture, clock), self.turns)
         channel = model.root.inverse(root).reshape(n, model.n_times, 4)
         lowest_m = 0.0 if model.footing is None else -np.inf  # feet keep to floors of their own, smoothly
         root_m, yaw = model.channel.inverse(channel, aligned, own.length_m, lowest_m)
@@ -243,6 +247,15 @@ class MotionPerformances(Performances):
         own = np.linspace(0, 1, n_times) if times_s is None else np.asarray(times_s) / self.duration_s[:, None]
         own = np.broadcast_to(own, (len(self), np.shape(own)[-1]))
         return decoding.places(self.model.warps(self.scores), self.model.moving_share(self.scores, own))
+
+
+def turned(directions: np.ndarray, turns: np.ndarray) -> np.ndarray:
+    """Directions (n, S, B, 3), turned in place about rotation vectors (n, B, 3); as they are of (n, 0, 3)."""
+    from emulator.kernels.bodies import turn_bones
+
+    if turns.shape[1]:
+        turn_bones(directions.reshape(*directions.shape[:2], -1), sphere.matrices(turns))
+    return directions
 
 
 def put(record: Any, rows: np.ndarray, some: Any) -> None:

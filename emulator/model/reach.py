@@ -328,6 +328,10 @@ def reached_law(
 
     like : a trend whose windows and trust are taken
     """
+
+    def places_of(z: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        return places(z)  # one worker's, in all rows
+
     law = model.workforce.law(effect)
     z = recorded(model, None if effect is None else effect.z)
     trend = like.of(z, places(z))
@@ -340,16 +344,16 @@ def reached_law(
         moving = gain(near, slope, like.moved)
         if np.abs(target - here).max() < HIT_M:
             break
-        middle = on_target(places, middle[None], moving, target)[0]
+        middle = on_target(places_of, middle[None], moving, target)[0]
     centre = law.mean + (law.centre if law.people is None else law.people.mean)
     start = centre + foretold - trend(places(centre))
-    moved = on_target(places, start, moving, target)
+    moved = on_target(places_of, start, moving, target)
     for share in NEARER:  # what is too far away for a straight line begins nearer to the most likely one
         lost = np.flatnonzero(np.linalg.norm(target - places(moved), axis=1) > LOST_M)
         if lost.size == 0:
             break
         nearer = np.where(like.moved, middle + share * (start[lost] - middle), start[lost])
-        moved[lost] = on_target(places, nearer, moving, target)
+        moved[lost] = on_target(places_of, nearer, moving, target)
     people = None if law.people is None else held(law.people, slope, like.moved)
     base = law.centre if law.people is None else law.people.mean
     own = replace(law, mean=moved - base, noise=held(law.noise, slope, like.moved), people=people)
@@ -362,17 +366,22 @@ def derivative(places: Places, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return around[0], (around[1:] - around[0]).T / STEP
 
 
-def on_target(places: Places, z: np.ndarray, moving: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """z (n, K) moved along ``moving`` (K, R) until they are at ``target``, by Newton steps halved where they miss."""
+def on_target(
+    places: Callable[[np.ndarray, np.ndarray], np.ndarray], z: np.ndarray, moving: np.ndarray, target: np.ndarray
+) -> np.ndarray:
+    """z (n, K) moved along ``moving`` (K, R) until they are at ``target``, by Newton steps halved where they miss.
+
+    places : of some z and which rows they are
+    """
     z = np.array(z)
-    miss = target - places(z)
+    miss = target - places(z, np.arange(len(z)))
     size, step = np.linalg.norm(miss, axis=1), np.ones(len(z))
     for _ in range(ROUNDS):
         rows = np.flatnonzero(size > HIT_M)
         if rows.size == 0:
             break
         tried = z[rows] + step[rows, None] * (miss[rows] @ moving.T)
-        missed = target - places(tried)
+        missed = target - places(tried, rows)
         length = np.linalg.norm(missed, axis=1)
         better = length < size[rows]
         step[rows] = np.where(better, np.minimum(2.0 * step[rows], 1.0), 0.5 * step[rows])

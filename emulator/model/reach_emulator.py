@@ -15,7 +15,7 @@ from emulator.model.decoding import along
 from emulator.model.emulator import MotionEmulator
 from emulator.model.feet import fastest_of
 from emulator.model.gaussian import Law
-from emulator.model.performances import Ground, MotionPerformances, put, rows_of
+from emulator.model.performances import Ground, MotionPerformances, put, rows_of, turned
 from emulator.model.reach import ReachedLaw, Trend, on_target, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
 from emulator.people.workers import WorkerEffect
@@ -54,10 +54,12 @@ class ReachEmulator(MotionEmulator):
         """The law of z of the worker with this effect, or (None) of a new worker each time, given the targets."""
         return self._reached(effect).law
 
-    def performances(self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0) -> ReachPerformances:
+    def performances(
+        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None
+    ) -> ReachPerformances:
         """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm where a body can."""
-        drawn = super().performances(scores, body_scale)
-        return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale)
+        drawn = super().performances(scores, body_scale, turns)
+        return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale, drawn.turns)
 
     def covariance_with(self, at: int, effect: WorkerEffect | None) -> np.ndarray:
         """(K,) covariance of z with its coordinate ``at``, given the targets: hands stay where they are."""
@@ -80,9 +82,9 @@ class ReachEmulator(MotionEmulator):
         """(R,) what is asked for, target by target, in the order of ``AXES``."""
         return np.array([value for target in self.targets for value in target.place if value is not None], float)
 
-    def places(self, z: np.ndarray, scale: float | np.ndarray = 1.0) -> np.ndarray:
-        """z (n, K) -> (n, R) where the joints are along the axes asked for."""
-        return self.asked(self.hands(z, scale))
+    def places(self, z: np.ndarray, scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None) -> np.ndarray:
+        """z (n, K) -> (n, R) where the joints are along the axes asked for, of bodies as in ``performances``."""
+        return self.asked(self.hands(z, scale, turns))
 
     def asked(self, places_m: np.ndarray) -> np.ndarray:
         """Places (n, G, 3) -> (n, R) of the axes that are asked for."""
@@ -152,13 +154,15 @@ class ReachEmulator(MotionEmulator):
 
     def _reached(self, effect: WorkerEffect | None) -> ReachedLaw:
         """Worked out once for a worker."""
-        key = None if effect is None else (effect.z.tobytes(), effect.name, effect.scale, effect.like)
+        scale, turns = (1.0, None) if effect is None else (effect.scale, effect.turns)
+        turned = None if turns is None else turns.tobytes()
+        key = None if effect is None else (effect.z.tobytes(), effect.name, scale, effect.like, turned)
         if key not in self._laws:
             if len(self._laws) >= KEPT_LAWS:
                 self._laws.pop(next(iter(self._laws)))
-            scale = 1.0 if effect is None else effect.scale
             with threadpool_limits(1, user_api="blas"):  # the last bits of a law depend on how many threads there are
-                self._laws[key] = reached_law(self, effect, lambda z: self.places(z, scale), self.target_m, self._trend)
+                places = partial(self.places, scale=scale, turns=turns)
+                self._laws[key] = reached_law(self, effect, places, self.target_m, self._trend)
         return self._laws[key]
 
 
@@ -193,9 +197,11 @@ class ReachPerformances(MotionPerformances):
         for name in ("posture", "root"):
             at = model.scale.block(name)
             z[:, at], moving[at] = model.middle[at], model.moving[at]
-        for scale in np.unique(self.body_scale):
-            rows = self.body_scale == scale
-            z[rows] = on_target(partial(model.places, scale=scale), z[rows], moving, model.target_m)
+
+        def places(z: np.ndarray, rows: np.ndarray) -> np.ndarray:
+            return model.places(z, self.body_scale[rows], self.turns[rows])
+
+        z = on_target(places, z, moving, model.target_m)
         posture = model.scale.raw(z, "posture")
         return posture, model.scale.raw(z, "root"), model.decoder.control(posture)
 
@@ -209,7 +215,8 @@ class ReachPerformances(MotionPerformances):
         """(n, P) by how much coefficients of upper bones change where hands are to come by ``miss`` (n, R)."""
         place = self.model.hands.clock(self.scores)
         yaw_rad = along(control, np.concatenate([np.zeros((len(self), 1)), place], axis=1))[..., 3]
-        return self.model.arms.lifted(upper, place, yaw_rad[:, 1:] - yaw_rad[:, :1], self.bone_length_m, miss)
+        yaw_rad = yaw_rad[:, 1:] - yaw_rad[:, :1]
+        return self.model.arms.lifted(upper, place, yaw_rad, self.bone_length_m, self.turns, miss)
 
     def _fastest_m_per_s(self, ground: Ground) -> np.ndarray:
         """(n,) the greatest speed of any joint of bodies that stand like this, between frames of 1/30 s."""
@@ -248,6 +255,7 @@ class ReachPerformances(MotionPerformances):
         rows = np.flatnonzero(np.any(ground.posture != ground.upper, axis=1))
         if rows.size:
             lifted = self.model.decoder.directions(ground.upper[rows], place[rows], np.dtype(dtype))
+            lifted = turned(lifted, self.turns[rows])
             bones = self.model.arms.bones
             directions[np.ix_(rows, np.arange(place.shape[1]), bones)] = lifted[:, :, bones]
         return directions

@@ -114,7 +114,7 @@ class Reach:
             return self.places_m
         number = mark_number(self.model.task, self.model.mark_names, self.mark)
         places = HandPlaces(self.model, (joints_of(self.model.task, self.model.skeleton, self.joint),), (number,))
-        return places(recorded(self.model, worker.z), worker.scale)[:, 0]
+        return places(recorded(self.model, worker.z), worker.scale, worker.turns)[:, 0]
 
     def _sentence(self, target: Target, word: str, nearest_m: float) -> str:
         said = ", ".join(f"{name.removesuffix('_m')} {v:.2f} m" for name, v in zip(AXES, target.place) if v is not None)

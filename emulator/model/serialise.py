@@ -6,7 +6,7 @@ On the way back every value and array is doubted.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from emulator.model.gaussian import LowRankNormal
 from emulator.model.joint_coordinates import BLOCKS, CURVES, JointScale, Margin, bits, decode, encode, within_worker
 from emulator.model.reduction import JointPCA
 from emulator.model.smoothed import SmoothedScores, less_told, room
+from emulator.people.bone_turns import BoneTurns
 from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.workers import Told, Workforce
@@ -96,6 +97,7 @@ def _pack(model: MotionEmulator) -> tuple[dict[str, Any], dict[str, np.ndarray]]
         arrays |= {f"covariates_{name}": value for name, value in told.items()}
         arrays["told_fitted"] = model.workforce.told.fitted
     if model.workforce.population is not None:
+        plain["turns"] = asdict(model.workforce.population.turns)
         arrays |= packed(model.workforce.population, POPULATION, "population_")
     if model.workforce.kinds.several:
         arrays |= packed(model.workforce.kinds, KINDS, "kinds_")
@@ -328,7 +330,16 @@ class _Parts:
         table = {name: shape for name, shape in POPULATION.items() if name != "fine" or "population_fine" in self.own}
         found = self.own.record(table, "population_")
         fine = found.get("fine", np.zeros_like(found["rows"]))  # libraries of before have none
-        return Population(found["rows"], self.own.shares("population_drawn_in", "K"), fine, curves, bones, kinds)
+        drawn_in = self.own.shares("population_drawn_in", "K")
+        return Population(found["rows"], drawn_in, fine, curves, bones, kinds, self._turns())
+
+    def _turns(self) -> BoneTurns:
+        """Of libraries of before none."""
+        said = self.plain.get("turns", {})
+        turns = BoneTurns(**{name: self.own.number(f"turns.{name}", value) for name, value in said.items()})
+        if turns.spread_rad < 0 or not 0 <= turns.alike <= 1:
+            raise ValueError(f"{self.task}: {turns} makes no sense")
+        return turns
 
     def _among(self, blocks: Sequence[str]) -> np.ndarray:
         """(K,) which coordinates are of these blocks."""

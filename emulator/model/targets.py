@@ -17,7 +17,7 @@ from emulator.geometry.warps import coordinates_to_clock
 from emulator.model.decoding import along, control_points
 from emulator.model.joint_coordinates import inverse_all
 from emulator.model.joint_law import JointLaw
-from emulator.model.performances import MotionPerformances
+from emulator.model.performances import MotionPerformances, turned
 from emulator.motion import turn
 from emulator.skeleton import Skeleton, canonical_name
 
@@ -171,11 +171,14 @@ class HandPlaces:
         joints = tuple(joints_of(model.task, model.skeleton, target.joint) for target in targets)
         return cls(model, joints, tuple(_mark(model, target.mark) for target in targets))
 
-    def __call__(self, z: np.ndarray, scale: float | np.ndarray = 1.0) -> np.ndarray:
-        """z (n, K), factor on every bone (or (n,)) -> (n, G, 3) metres ahead, aside, high."""
+    def __call__(self, z: np.ndarray, scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None) -> np.ndarray:
+        """z (n, K), factor on every bone (or (n,)), turns of bones (n or 1, B, 3) -> (n, G, 3) m ahead, aside, high."""
         z, scale = np.asarray(z), np.broadcast_to(scale, len(z))
+        turns = np.zeros((0, 3)) if turns is None else turns
+        turns = np.broadcast_to(turns, (len(z), *turns.shape[-2:]))
         blocks = [slice(start, start + AT_ONCE) for start in range(0, len(z), AT_ONCE)]
-        return np.concatenate([np.zeros((0, len(self.marks), 3)), *(self._block(z[b], scale[b]) for b in blocks)])
+        found = [self._block(z[b], scale[b], turns[b]) for b in blocks]
+        return np.concatenate([np.zeros((0, len(self.marks), 3)), *found])
 
     def clock(self, z: np.ndarray) -> np.ndarray:
         """(n, G) places of the marks on the common clock, in cells."""
@@ -203,13 +206,13 @@ class HandPlaces:
         ankles = [names.index(name) for name in ANKLES if name in names]
         return ankles if len(ankles) == len(ANKLES) else [self.model.skeleton.root]
 
-    def _block(self, z: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    def _block(self, z: np.ndarray, scale: np.ndarray, turns: np.ndarray) -> np.ndarray:
         model = self.model
         place = np.concatenate([np.zeros((len(z), 1)), self.clock(z)], axis=1)
         flat = _along(self.posture_control, model.scale.raw(z, "posture"), place)
         lengths = model.bone_length_m(z) * scale[:, None]
         path = self._ridden(z, lengths, place) if model.rides else self._path(z, lengths, place)
-        directions = turn(model.flatten.inverse(flat), path[..., 3:])
+        directions = turn(turned(model.flatten.inverse(flat), turns), path[..., 3:])
         return self.seen(model.skeleton.positions(directions, lengths[:, None], path[..., :3]), path[:, 0, 3])
 
     def _path(self, z: np.ndarray, lengths: np.ndarray, place: np.ndarray) -> np.ndarray:

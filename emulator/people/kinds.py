@@ -13,7 +13,6 @@ import numpy as np
 
 from emulator.geometry.alignment import resample
 from emulator.motion import MotionSet
-from emulator.skeleton import Skeleton
 
 N_TIMES = 31
 NEARER = 0.6
@@ -92,7 +91,7 @@ def kinds_of(motions: MotionSet) -> np.ndarray:
     """
     from scipy.sparse.csgraph import connected_components
 
-    along, other_side = np.linspace(0.0, 1.0, N_TIMES), _other_side(motions.skeleton)
+    along, other_side = np.linspace(0.0, 1.0, N_TIMES), list(motions.skeleton.other_side)
     rows = np.stack([resample(motion.directions, along) for motion in motions.motions])
     index = motions.worker_index
     means = np.stack([rows[index == w].mean(axis=0) for w in range(index.max() + 1)])
@@ -102,14 +101,6 @@ def kinds_of(motions: MotionSet) -> np.ndarray:
     _, kinds = connected_components(one_side, directed=False)
     sides = other_side != list(range(len(other_side)))
     return np.asarray(kinds) if sides and np.bincount(kinds).max() > 1 else np.zeros(len(unit), int)
-
-
-def _other_side(skeleton: Skeleton) -> list[int]:
-    """For each bone that of the other side; itself in the middle, or where the other side is not there."""
-    names = skeleton.bone_names
-    swapped = {"left_": "right_", "right_": "left_"}
-    other = [next((to + n[len(side) :] for side, to in swapped.items() if n.startswith(side)), n) for n in names]
-    return [names.index(one) if one in names else i for i, one in enumerate(other)]
 
 
 def _apart(these: np.ndarray, those: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ from functools import lru_cache
 import numpy as np
 
 from emulator.model.smoothed import Bands
+from emulator.people.bone_turns import NO_TURNS, BoneTurns
 from emulator.people.kinds import Kinds
 
 N_SIZES, LARGEST_SIZE = 8, 3.0
@@ -35,6 +36,7 @@ class Population:
                nobody's fine detail is to be made larger
     bones    : (K,) coordinates whose deviations are of size 1
     kinds    : whose means people deviate from
+    turns    : by how much bones point another way throughout
     """
 
     rows: np.ndarray
@@ -43,9 +45,17 @@ class Population:
     curves: np.ndarray
     bones: np.ndarray
     kinds: Kinds
+    turns: BoneTurns = NO_TURNS
 
     @classmethod
-    def fit(cls, between: np.ndarray, curves: Sequence[tuple[slice, Bands]], bones: slice, kinds: Kinds) -> Population:
+    def fit(
+        cls,
+        between: np.ndarray,
+        curves: Sequence[tuple[slice, Bands]],
+        bones: slice,
+        kinds: Kinds,
+        turns: BoneTurns = NO_TURNS,
+    ) -> Population:
         """From rows (W, K) whose product is the covariance between people of one kind.
 
         curves : where these blocks lie, and how they are smoothed; bones : where this block lies
@@ -61,7 +71,7 @@ class Population:
             fine[:, at] = bands.times(between[:, at], whole - np.sqrt(1.0 - share))
         at_bones[bones], drawn_in[bones] = True, np.sqrt(1.0 - BODY_SHARE)
         rows[:, bones] = np.sqrt(BODY_SHARE) * between[:, bones]
-        return cls(rows, drawn_in, fine, at_curves, at_bones, kinds)
+        return cls(rows, drawn_in, fine, at_curves, at_bones, kinds, turns)
 
     @property
     def sizes(self) -> np.ndarray:

@@ -18,6 +18,7 @@ from emulator.model.smoothed import SmoothedScores
 from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.variance_components import anova
+from emulator.skeleton import Skeleton
 
 BETWEEN_METHOD = (
     "variances by ANOVA (a negative one is 0); correlations of people's means, shrunk to 0 by rho = {rho}; "
@@ -40,6 +41,7 @@ class WorkerEffect:
     scale : multiplies every bone length; it is 1 unless a body height was asked for
     said  : what was done with a body that was asked for, in words
     like  : the recorded person whose repetitions the worker's vary like; empty: like anybody's
+    turns : (B, 3) rotation vectors, radians, by which bones are turned throughout; None: as z has them
     """
 
     z: np.ndarray
@@ -47,6 +49,7 @@ class WorkerEffect:
     scale: float = 1.0
     said: tuple[str, ...] = ()
     like: str = ""
+    turns: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -182,6 +185,18 @@ class Workforce:
         own = self.population.deviations(self.apart(body), left)[at, like]
         own = own + self.kinds.shift[like]
         return law.mean + own + self.population.sizes[at] * (xi @ rows), self.names[like]
+
+    def turns(
+        self, n: int, skeleton: Skeleton, rng: np.random.Generator, numbers: np.ndarray | None = None
+    ) -> np.ndarray | None:
+        """(n, B, 3) by how much bones of new people are turned, see ``BoneTurns``; None where none is.
+
+        numbers : (W,) leanings of one person, who is then turned alike wherever these are the same
+        """
+        if self.population is None or not self.population.turns.spread_rad > 0:
+            return None
+        rng = rng if numbers is None else np.random.default_rng(np.ascontiguousarray(numbers).view(np.uint64))
+        return self.population.turns.drawn(n, self.population.sizes, skeleton, rng)
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
         if numbers is None:

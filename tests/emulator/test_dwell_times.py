@@ -128,7 +128,7 @@ def test_a_drawn_performance_really_stands_still_for_its_dwell(paused, drawn):
 def test_a_performance_that_does_not_pause_moves_as_one_of_an_emulator_without_pauses(paused, drawn):
     _, emulator = paused
     one = drawn[int(np.flatnonzero(emulator.dwell_s(drawn.scores)[:, 0] == 0)[0])]
-    bare = replace(emulator, dwells=made("lift")[1].dwells).performances(one.scores)
+    bare = replace(emulator, dwells=made("lift")[1].dwells).performances(one.scores, turns=one.turns)
     assert np.allclose(one.duration_s, bare.duration_s) and np.allclose(one.mark_s, bare.mark_s)
     assert np.allclose(one.positions_m(), bare.positions_m(), atol=1e-12)
 

@@ -165,3 +165,23 @@ def test_opposite_neighbours_are_refused_only_where_they_are_used():
     assert np.allclose(geodesic.along(sequence, np.array([0.5])), p)
     with pytest.raises(ValueError, match="opposite"):
         geodesic.along(sequence, np.array([1.5]))
+
+
+def test_turning_by_nothing_gives_the_same_bits():
+    vectors = np.random.default_rng(0).normal(size=(5, 3))
+    assert np.array_equal(sphere.turned(vectors, np.zeros((5, 3))), vectors)
+
+
+def test_turning_is_a_rotation():
+    rng = np.random.default_rng(1)
+    vectors, by = rng.normal(size=(2, 50, 3))
+    turned = sphere.turned(vectors, by)
+    assert np.allclose(np.linalg.norm(turned, axis=-1), np.linalg.norm(vectors, axis=-1), atol=1e-12)
+    assert np.allclose(sphere.turned(turned, -by), vectors, atol=1e-12)
+
+
+def test_the_matrices_of_turns_are_scipy_s():
+    from scipy.spatial.transform import Rotation
+
+    by = np.random.default_rng(2).normal(size=(4, 3, 3))
+    assert np.allclose(sphere.matrices(by).reshape(-1, 3, 3), Rotation.from_rotvec(by.reshape(-1, 3)).as_matrix())
