@@ -86,7 +86,10 @@ def model_of(made: Registered, settings: FitSettings) -> MotionEmulator:
     turns = BoneTurns.fit(made.directions.mean(axis=1), made.moving.worker_index, kinds.of, motions.skeleton)
     between, model = with_population(model, curves, motions, turns)
     report = summary(made, parts, model.workforce, settings, covariates.lines)
-    return replace(model, report=replace(report, methods=report.methods | {"stiffness": stiffness_said(own, between)}))
+    methods = {"stiffness": stiffness_said(own, between)}
+    if model.workforce.population is not None:
+        methods["bones of new people"] = turns.said
+    return replace(model, report=replace(report, methods=report.methods | methods))
 
 
 def _crew(parts: Parts, motions: MotionSet, covariates: Covariates, kinds: Kinds) -> Workforce:

@@ -1,11 +1,8 @@
 """Do the intervals of new people hold the people who were left out? Each person left out of the fit, one by one.
 
-What is asked for: the duration, and the leading coordinates of posture along its own time: principal axes of how the
-repetitions of those who stayed in differ about each one's mean. Which axes, decides what intervals hold: leading axes
-of all recordings point at whoever is odd, and where that person is left out he is missed: of people of a law, the
-law's own intervals then hold fewer than they say (tests/emulator/judge/test_coverage.py). Along the axes in which those
-who stayed in differ most, a law of them is too wide. In how one person's repetitions differ neither has a part. Each
-coordinate of each bone stands beside it: that favours nobody, too, and a shin that hardly moves counts as an arm does.
+What is asked for: the duration, and where each bone points at even moments of the movement's own time, coordinate by
+coordinate. That favours nobody. Along leading axes of all recordings, the one left out among them, people drawn from
+the very law would be held too rarely, since such axes point at whoever is odd (docs/what_was_tried.md).
 """
 
 from __future__ import annotations
@@ -19,12 +16,11 @@ from threadpoolctl import threadpool_limits
 from emulator.geometry.alignment import resample
 from emulator.judge.sequence_distances import stream
 from emulator.model.emulator import MotionEmulator
-from emulator.model.joint_coordinates import within_worker
 from emulator.motion import MotionSet
 
 LEVELS = (0.5, 0.9)
-N_DRAWN, N_TIMES, N_AXES = 400, 31, 3
-QUANTITIES = {"duration": "durations", "posture": "postures", "bones": "directions of single bones"}
+N_DRAWN, N_TIMES = 400, 31
+QUANTITIES = {"duration": "durations", "posture": "directions of bones"}
 """What is asked for, and its plural in words."""
 Progress = Callable[[int, int, str], None] | None
 
@@ -33,7 +29,7 @@ Progress = Callable[[int, int, str], None] | None
 class PersonCovered:
     """One person, left out: the share of his repetitions inside the central intervals (50 %, 90 %) of new people.
 
-    duration, posture : (inside 50 %, inside 90 %), of posture the mean over ``N_AXES`` coordinates
+    duration, posture : (inside 50 %, inside 90 %), of posture the mean over bones, their coordinates and moments
     refused           : why the fit without him could not be made; empty where it was, and then the shares are known
     """
 
@@ -41,7 +37,6 @@ class PersonCovered:
     name: str
     duration: tuple[float, float] = (np.nan, np.nan)
     posture: tuple[float, float] = (np.nan, np.nan)
-    bones: tuple[float, float] = (np.nan, np.nan)
     refused: str = ""
 
 
@@ -73,10 +68,8 @@ def covered(motions: MotionSet, name: str, seed: int = 0, n_drawn: int = N_DRAWN
             return PersonCovered(motions.task, name, refused=str(error))
         drawn = model.sample(n_drawn, stream(seed, "coverage", motions.task, name))
         duration = inside(own.duration_s[:, None], drawn.duration_s[:, None])
-        mine, theirs = _postures(own), _rows(drawn.directions(n_times=N_TIMES))
-        axes = leading_axes(_postures(others), others.worker_index)
-        posture = inside(mine @ axes.T, theirs @ axes.T)
-        return PersonCovered(motions.task, name, duration, posture, inside(mine, theirs))
+        posture = inside(_postures(own), _rows(drawn.directions(n_times=N_TIMES)))
+        return PersonCovered(motions.task, name, duration, posture)
 
 
 def pooled_coverage(rows: Sequence[PersonCovered], quantity: str) -> tuple[float, float]:
@@ -102,14 +95,3 @@ def _postures(motions: MotionSet) -> np.ndarray:
 
 def _rows(directions: np.ndarray) -> np.ndarray:
     return np.asarray(directions.reshape(len(directions), -1))
-
-
-def leading_axes(rows: np.ndarray, worker: np.ndarray) -> np.ndarray:
-    """(K, P) leading principal axes of how rows (N, P) deviate from the mean of their worker's, worker (N,) numbers.
-
-    Of all about their mean where nobody has two.
-    """
-    own = within_worker(rows, worker)
-    if not np.any(np.abs(own) > 1e-12):
-        own = rows - rows.mean(axis=0)
-    return np.linalg.svd(own, full_matrices=False)[2][: min(N_AXES, max(len(rows) - 1, 1))]

@@ -49,17 +49,6 @@ def stand_all(directions, length_m, chain, path, joints):
             stand(directions[i, s], length_m[i], chain, np.cos(at[3]), np.sin(at[3]), joints[i, s])
 
 
-@compiled(error_model="numpy", nogil=True)
-def turn_bones(directions, turns):
-    """Directions (n, S, 3B), in place, each bone's turned by its own matrix of turns (n, B, 3, 3)."""
-    for i in range(directions.shape[0]):
-        for s in range(directions.shape[1]):
-            for b in range(turns.shape[1]):
-                x, y, z = directions[i, s, 3 * b], directions[i, s, 3 * b + 1], directions[i, s, 3 * b + 2]
-                for c in range(3):
-                    directions[i, s, 3 * b + c] = turns[i, b, c, 0] * x + turns[i, b, c, 1] * y + turns[i, b, c, 2] * z
-
-
 @compiled(fastmath=FAST, error_model="numpy", nogil=True)
 def ride_all(directions, length_m, chain, feet, soft_m, channel, leg_m, lowest_m, root):
     """The way of the root (n, T, 3) from directions (n, T, 3B) and channel (n, T, 4); see ``root.RootChannel``.

@@ -9,6 +9,8 @@ Postures at any moment from tangent coordinates on the common clock: series only
 Between the points of the clock coordinates go along cubic B-splines, so that speed and acceleration do not jump.
 Its twin: decoding.directions_numpy.
 
+Directions turned bone by bone. Its twin: matrices and einsum in tests/emulator/test_bone_turns.py.
+
 The way uphill from every point to a mode. Its twin: a plain double loop in tests/emulator/judge.
 """
 
@@ -273,3 +275,14 @@ def uphill(distances, density, radius):
                 nearest = distances[i, j]
                 above[i] = j
     return above
+
+
+@compiled(error_model="numpy", nogil=True)
+def turn_bones(directions, turns):
+    """Directions (n, S, 3B), in place, each bone's turned by its own matrix of turns (n, B, 3, 3)."""
+    for i in range(directions.shape[0]):
+        for s in range(directions.shape[1]):
+            for b in range(turns.shape[1]):
+                x, y, z = directions[i, s, 3 * b], directions[i, s, 3 * b + 1], directions[i, s, 3 * b + 2]
+                for c in range(3):
+                    directions[i, s, 3 * b + c] = turns[i, b, c, 0] * x + turns[i, b, c, 1] * y + turns[i, b, c, 2] * z

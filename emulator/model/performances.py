@@ -251,7 +251,7 @@ class MotionPerformances(Performances):
 
 def turned(directions: np.ndarray, turns: np.ndarray) -> np.ndarray:
     """Directions (n, S, B, 3), turned in place about rotation vectors (n, B, 3); as they are of (n, 0, 3)."""
-    from emulator.kernels.bodies import turn_bones
+    from emulator.kernels.sphere import turn_bones
 
     if turns.shape[1]:
         turn_bones(directions.reshape(*directions.shape[:2], -1), sphere.matrices(turns))

@@ -52,6 +52,15 @@ class BoneTurns:
         alike = float(np.clip(together / square, 0.0, 1.0)) if square > 0 else 0.0
         return cls(float(np.sqrt(middling / chdtri(free, 0.5))), alike)
 
+    @property
+    def said(self) -> str:
+        """How new people's bones point, in words."""
+        if not self.spread_rad > 0:
+            return "point as the movement has them"
+        degrees = np.degrees(SHARE * self.spread_rad)
+        alike = f"left and right alike to {100 * self.alike:.0f} %"
+        return f"point {degrees:.2g} degrees another way throughout (standard deviation along an axis), {alike}"
+
     def drawn(self, n: int, sizes: np.ndarray, skeleton: Skeleton, rng: np.random.Generator) -> np.ndarray:
         """(n, B, 3) rotation vectors, radians, of n new people, each of one of the sizes (A,)."""
         size = rng.choice(sizes, n)[:, None, None]

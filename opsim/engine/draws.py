@@ -12,7 +12,6 @@ from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, Scattered
 from opsim.task_model import TaskModel, seconds_of
 from opsim.threads import one_blas_thread
-from opsim.worker_effects import worker_effect
 
 Held = tuple[float, float, float]
 """Seconds of a performance, and the shares of it from which to which a tool is held."""
@@ -119,9 +118,8 @@ class Draws:
 
     def _of_worker(self, task: int, worker: int, drawn: Callable = _performed) -> Items:
         plan, name = self._plan.tasks[task], self._plan.workers[worker].name
-        body, across = self._plan.workers[worker].body, self._plan.across_tasks
         with one_blas_thread():
-            effect = worker_effect(plan.model, plan.stream_name, name, self._plan.seed, self._workforce, body, across)
+            effect = self._plan.worker_effect(worker, plan, workforce=self._workforce)
         return self._items(("duration", plan.stream_name, name), drawn(plan.model, effect))
 
     def _items(self, name, draw) -> Items:

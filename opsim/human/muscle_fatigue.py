@@ -255,15 +255,12 @@ def _drawn(plan: Plan, workforce: int, worker: int, task: int) -> np.ndarray | N
     from opsim.ergonomics.joint_loads import shares, torques_nm
     from opsim.streams import stream
     from opsim.threads import one_blas_thread
-    from opsim.worker_effects import worker_effect
 
     person, work = plan.workers[worker], plan.tasks[task]
     if getattr(work.model, "by_index", False):
         return None
     with one_blas_thread():
-        effect = worker_effect(
-            work.model, work.stream_name, person.name, plan.seed, workforce, person.body, plan.across_tasks
-        )  # fmt: skip
+        effect = plan.worker_effect(worker, work, workforce=workforce)
         drawn: Any = work.model.sample(
             DRAWS, stream(plan.seed, workforce, "burden", person.name, work.stream_name, 0), worker=effect
         )

@@ -120,12 +120,12 @@ class Plan:
             return self.workforce
         return replication if self.staffing == "redrawn" else FIXED_WORKFORCE
 
-    def worker_effect(self, worker: int, task: TaskPlan, replication: int = 0) -> Any:
-        """A worker's own effect in a task: see ``opsim.worker_effects``."""
+    def worker_effect(self, worker: int, task: TaskPlan, replication: int = 0, workforce: int | None = None) -> Any:
+        """A worker's own effect in a task: see ``opsim.worker_effects``; of this workforce, or a replication's."""
         from opsim.worker_effects import worker_effect
 
         who = self.workers[worker]
-        workforce = self.workforce_of(replication)
+        workforce = self.workforce_of(replication) if workforce is None else workforce
         return worker_effect(task.model, task.stream_name, who.name, self.seed, workforce, who.body, self.across_tasks)
 
     def _repr_html_(self) -> str:

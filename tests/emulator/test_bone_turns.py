@@ -94,7 +94,9 @@ def test_no_bone_is_any_faster_for_being_turned(emulator):
 def test_known_people_are_as_they_were_recorded_and_times_are_those_of_the_draw(emulator):
     known = emulator.sample(5, np.random.default_rng(0), worker=emulator.workers[0])
     assert known.turns.shape == (5, 0, 3) and emulator.known_worker(emulator.workers[0]).turns is None
-    new = emulator.sample(5, np.random.default_rng(0))
+    rng, other = np.random.default_rng(0), np.random.default_rng(0)
+    new = emulator.sample(5, rng)
+    assert np.array_equal(new.scores, emulator.law(None).sample(5, other)) and rng.random() == other.random()
     as_drawn = emulator.performances(new.scores)
     assert np.array_equal(new.duration_s, as_drawn.duration_s) and np.array_equal(new.mark_s, as_drawn.mark_s)
     assert not np.allclose(new.positions_m(), as_drawn.positions_m(), atol=1e-3)
@@ -113,6 +115,12 @@ def test_a_new_worker_is_turned_alike_in_every_performance_and_wherever_the_same
     assert np.allclose(unit[0][free], unit[1][free])
     assert np.array_equal(emulator.sample(3, np.random.default_rng(5), worker=one).turns, np.stack([one.turns] * 3))
     assert not np.allclose(one.turns, emulator.draw_worker(np.random.default_rng(9)).turns)
+
+
+def test_the_report_says_by_how_much_bones_are_turned(emulator):
+    said, turns = emulator.report.methods["bones of new people"], emulator.workforce.population.turns
+    assert said == turns.said and f"{np.degrees(SHARE * turns.spread_rad):.2g} degrees" in said
+    assert BoneTurns().said == "point as the movement has them"
 
 
 def test_turns_are_kept_in_a_library(emulator, tmp_path):

@@ -84,16 +84,14 @@ TABLES: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
         ),
     ),
     "people": (
-        "New people: share of left-out people's repetitions inside the 50 and 90 % intervals of duration, of leading\n"
-        "coordinates of posture, and of each coordinate of single bones",
+        "New people: share of left-out people's repetitions inside the 50 and 90 % intervals of duration, and of\n"
+        "where each bone points",
         (
             ("people", "people_left_out", "{:.0f}"),
             ("time 50", "duration_50", TWO),
             ("90", "duration_90", TWO),
             ("posture 50", "posture_50", TWO),
             ("90", "posture_90", TWO),
-            ("bones 50", "bones_50", TWO),
-            ("90", "bones_90", TWO),
         ),
     ),
 }

@@ -86,8 +86,6 @@ def _told_apart(row: Row) -> str | None:
 
 def _coverage(table: Mapping[str, Row]) -> Iterator[str]:
     for name, share in pooled_coverage(table).items():
-        if name.startswith("bones"):
-            continue  # printed; what is asked for is asked of leading coordinates
         low, high = COVERAGE[int(name.rsplit("_", 1)[1])]
         if not low <= share <= high:
             yield f"new people's interval {name.replace('_', ' ')} %: holds {share:.2f}, expected {low} to {high}"

@@ -192,14 +192,12 @@ class DoseRates:
         """Over performances of his own: stream ``dose, task, worker`` of the workforce."""
         from opsim.streams import stream
         from opsim.threads import one_blas_thread
-        from opsim.worker_effects import worker_effect
 
         plan, person, named = self._plan, self._plan.workers[worker], self._plan.tasks[task]
         if named.automatic or named.attended:
             return 0.0
-        who = (person.name, plan.seed, self._workforce, person.body, plan.across_tasks)
         with one_blas_thread():
-            effect = worker_effect(named.model, named.stream_name, *who)
+            effect = plan.worker_effect(worker, named, workforce=self._workforce)
             rng = stream(plan.seed, self._workforce, "dose", named.stream_name, person.name, 0)
             block = named.model.sample(N_DRAWS, rng, worker=effect)
             return self._mean_rula(block, named) if has_body(block) else 0.0

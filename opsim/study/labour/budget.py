@@ -101,16 +101,9 @@ def people_differ(plan: Plan) -> bool:
 
     Who is a recorded person is the same in every workforce.
     """
-    from opsim.worker_effects import worker_effect
-
-    drawn = [worker for worker in plan.workers if not _recorded(worker.body)]
+    drawn = [number for number, worker in enumerate(plan.workers) if not _recorded(worker.body)]
     by_hand = [task for task in plan.tasks if not task.automatic]
-    return any(
-        worker_effect(task.model, task.stream_name, drawn[0].name, plan.seed, 1, drawn[0].body, plan.across_tasks)
-        is not None
-        for task in by_hand
-        if drawn
-    )
+    return any(plan.worker_effect(drawn[0], task, workforce=1) is not None for task in by_hand if drawn)
 
 
 def _recorded(body: Any) -> bool:

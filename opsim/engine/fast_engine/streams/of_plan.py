@@ -30,7 +30,6 @@ from opsim.plan.sources import ANY
 from opsim.plan.tasks import HoldPlan
 from opsim.streams import _hashed, _words
 from opsim.task_model import TaskModel
-from opsim.worker_effects import worker_effect
 
 _KEPT = 4
 _last: list[LuckOfPlan] = []
@@ -106,9 +105,7 @@ class LuckOfPlan:
         return words
 
     def _effect(self, task: int, worker: int, workforce: int) -> Any:
-        plan, one = self.plan.tasks[task], self.plan.workers[worker]
-        seed, across = self.plan.seed, self.plan.across_tasks
-        return worker_effect(plan.model, plan.stream_name, one.name, seed, workforce, one.body, across)
+        return self.plan.worker_effect(worker, self.plan.tasks[task], workforce=workforce)
 
     def _of_people(self, what: tuple, model: Any, make: Callable[[], Any]) -> Any:
         """As ``_kept``, but people of one replication alone, and effects that a plug-in may change, are made anew."""
