@@ -191,12 +191,12 @@ class Workforce:
     ) -> np.ndarray | None:
         """(n, B, 3) by how much bones of new people are turned, see ``BoneTurns``; None where none is.
 
-        rng     : is not moved on: a generator of its own is spawned, so that times are drawn as they were without
+        rng     : is not moved on, so that times are drawn as they were without
         numbers : (W,) leanings of one person, who is then turned alike wherever these are the same
         """
         if self.population is None or not self.population.turns.spread_rad > 0:
             return None
-        own = _spawned(rng) if numbers is None else np.random.default_rng(np.ascontiguousarray(numbers).view(np.uint64))
+        own = _aside(rng) if numbers is None else np.random.default_rng(np.ascontiguousarray(numbers).view(np.uint64))
         return self.population.turns.drawn(n, self.population.sizes, skeleton, own)
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
@@ -281,9 +281,10 @@ class Told:
         return np.asarray(np.sqrt(np.maximum(size, 0.0))[:, None] * axes.T @ steps)
 
 
-def _spawned(rng: np.random.Generator) -> np.random.Generator:
-    """A child of the generator; the generator itself where it was made without a seed sequence, and has none."""
-    try:
-        return rng.spawn(1)[0]
-    except TypeError:
-        return rng
+def _aside(rng: np.random.Generator) -> np.random.Generator:
+    """Another generator, seeded by what this one would draw far ahead; itself where it cannot jump there (SFC64).
+
+    NOTE: not by ``spawn``, which goes by how a generator was made, not by where it stands.
+    """
+    jumped = getattr(rng.bit_generator, "jumped", None)
+    return rng if jumped is None else np.random.default_rng(np.random.Generator(jumped()).integers(2**63))

@@ -344,4 +344,5 @@ def test_models_that_cannot_be_kept_are_drawn_again(made):
     task = SimpleNamespace(name="x", stream_name="x", model=Slotted(), handling=None)
     person = SimpleNamespace(name="ana", body=None)
     alone = SimpleNamespace(seed=1, across_tasks="as_recorded", workers=[person], tasks=[task])
+    alone.worker_effect = lambda *_, **more: None
     assert Burdens(alone, 0).course(0, 0) is None
