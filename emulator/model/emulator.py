@@ -16,6 +16,7 @@ from emulator.model.performances import MotionPerformances
 from emulator.model.recorded_reach import Reach
 from emulator.model.targets import Target
 from emulator.motion import MotionSet
+from emulator.people.bone_turns import Later
 from emulator.people.workers import WorkerEffect
 
 SCHEME = "Extrinsic/JointPCA/Smoothed"
@@ -85,7 +86,7 @@ class MotionEmulator(JointLaw):
         return self.performances(z, turns=self.workforce.turns(n, self.skeleton, rng))
 
     def performances(
-        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None
+        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | Later | None = None
     ) -> MotionPerformances:
         """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand.
 
@@ -94,8 +95,9 @@ class MotionEmulator(JointLaw):
         duration_s = self.whole_s(scores)
         scale = np.empty(duration_s.shape)
         scale[...] = body_scale  # NOTE: np.full takes three times as long, for a block a twentieth of its draw
-        shape = (len(scores), 0 if turns is None else self.skeleton.n_bones, 3)
-        turns = np.broadcast_to(np.zeros(3) if turns is None else turns, shape)
+        if not isinstance(turns, Later):
+            turns = np.zeros((0, 3)) if turns is None else turns
+            turns = np.broadcast_to(turns, (len(scores), *turns.shape[-2:]))
         return MotionPerformances(self, scores, duration_s, scale, turns)
 
     def mean_duration_s(self, worker: Any = None) -> float:

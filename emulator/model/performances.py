@@ -13,6 +13,7 @@ from emulator.geometry import sphere
 from emulator.model import decoding
 from emulator.model.feet import bend, stood
 from emulator.model.joint_law import JointLaw
+from emulator.people.bone_turns import Later
 from emulator.performances import Floats, Performances
 
 AT_ONCE = 128
@@ -61,8 +62,8 @@ class Ground:
 class MotionPerformances(Performances):
     """n performances of a task.
 
-    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone; turns (n, B, 3)
-    rotation vectors by which bones are turned throughout, radians, or (n, 0, 3).
+    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone; turning: see
+    ``turns``.
     ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
     """
 
@@ -70,7 +71,12 @@ class MotionPerformances(Performances):
     scores: np.ndarray
     duration_s: np.ndarray
     body_scale: np.ndarray
-    turns: np.ndarray
+    turning: np.ndarray | Later
+
+    @property
+    def turns(self) -> np.ndarray:
+        """(n, B, 3) rotation vectors by which bones are turned throughout, radians; (n, 0, 3) of known people."""
+        return self.turning.made if isinstance(self.turning, Later) else self.turning
 
     @cached_property
     def mark_s(self) -> np.ndarray:

@@ -10,7 +10,10 @@ thousands of genes), and how far both sides go together by all pairs: those of a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +23,44 @@ SHARE = 0.5
 """New people's bones are turned by so much of what recorded people's bones differ by, times the size of the person."""
 MIRRORED = np.array([-1.0, 1.0, -1.0])
 """A turn seen in the mirror of left and right: bending stays, leaning and twisting go the other way."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ahead:
+    """Where a generator stands: times are drawn as they would be without turns, and turns when they are asked for."""
+
+    bits: type
+    state: Any
+
+    @classmethod
+    def of(cls, rng: np.random.Generator) -> Ahead:
+        return cls(type(rng.bit_generator), rng.bit_generator.state)
+
+    @property
+    def number(self) -> int:
+        """The number that it draws next, which as a seed begins a stream that has nothing to do with its own."""
+        bits = self.bits(0)
+        bits.state = self.state
+        return int(np.random.Generator(bits).integers(2**63))
+
+
+@dataclass(frozen=True, eq=False)
+class Later:
+    """An array that is made when it is first asked for; rows of it are, too."""
+
+    make: Callable[[], np.ndarray]
+
+    @cached_property
+    def made(self) -> np.ndarray:
+        """The array."""
+        return self.make()
+
+    def __getitem__(self, rows: Any) -> Later:
+        return Later(partial(_rows, self, rows))
+
+
+def _rows(whole: Later, rows: Any) -> np.ndarray:
+    return np.asarray(whole.made[rows])
 
 
 @dataclass(frozen=True)
@@ -61,8 +102,9 @@ class BoneTurns:
         alike = f"left and right alike to {100 * self.alike:.0f} %"
         return f"point {degrees:.2g} degrees another way throughout (standard deviation along an axis), {alike}"
 
-    def drawn(self, n: int, sizes: np.ndarray, skeleton: Skeleton, rng: np.random.Generator) -> np.ndarray:
+    def drawn(self, n: int, sizes: np.ndarray, skeleton: Skeleton, seed: Ahead | np.ndarray) -> np.ndarray:
         """(n, B, 3) rotation vectors, radians, of n new people, each of one of the sizes (A,)."""
+        rng = np.random.default_rng(seed.number if isinstance(seed, Ahead) else seed)
         size = rng.choice(sizes, n)[:, None, None]
         unit = rng.standard_normal((n, skeleton.n_bones, 3))
         left, right = _sides(skeleton)

@@ -104,7 +104,7 @@ def _drawn(
         at = model.scale.block("duration").start
         z = _moved(z, law.covariance_with(at), at, law.mean[at] + slowness * law.spread[at])
     turns = crew.turns(1, model.skeleton, rng, numbers)
-    return replace(_as_asked(model, z, law, body, outside), like=like, turns=None if turns is None else turns[0])
+    return replace(_as_asked(model, z, law, body, outside), like=like, turns=None if turns is None else turns.made[0])
 
 
 def _as_asked(model: MotionEmulator, z: np.ndarray, law: LowRankNormal, body: Body, outside: str) -> WorkerEffect:

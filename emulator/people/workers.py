@@ -6,7 +6,7 @@ What the bodies of the recorded people tell of how they move, and what a body le
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from emulator.covariates.model import CovariateModel, level_shares, logged
 from emulator.model.gaussian import Law, LowRankNormal
 from emulator.model.joint_coordinates import within_worker
 from emulator.model.smoothed import SmoothedScores
+from emulator.people.bone_turns import Ahead, Later
 from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.variance_components import anova
@@ -188,16 +189,17 @@ class Workforce:
 
     def turns(
         self, n: int, skeleton: Skeleton, rng: np.random.Generator, numbers: np.ndarray | None = None
-    ) -> np.ndarray | None:
+    ) -> Later | None:
         """(n, B, 3) by how much bones of new people are turned, see ``BoneTurns``; None where none is.
 
-        rng     : is not moved on, so that times are drawn as they were without
+        rng     : is not moved on: the seed is what it draws next
         numbers : (W,) leanings of one person, who is then turned alike wherever these are the same
         """
-        if self.population is None or not self.population.turns.spread_rad > 0:
+        law = self.population
+        if law is None or not law.turns.spread_rad > 0:
             return None
-        own = _aside(rng) if numbers is None else np.random.default_rng(np.ascontiguousarray(numbers).view(np.uint64))
-        return self.population.turns.drawn(n, self.population.sizes, skeleton, own)
+        seed = Ahead.of(rng) if numbers is None else np.ascontiguousarray(numbers).view(np.uint64)
+        return Later(partial(law.turns.drawn, n, law.sizes, skeleton, seed))
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
         if numbers is None:
@@ -279,12 +281,3 @@ class Told:
         effect = self.model.level_effect
         steps = np.concatenate([self.model.slope, effect[1:] - effect[:1]]) if len(effect) else self.model.slope
         return np.asarray(np.sqrt(np.maximum(size, 0.0))[:, None] * axes.T @ steps)
-
-
-def _aside(rng: np.random.Generator) -> np.random.Generator:
-    """Another generator, seeded by what this one would draw far ahead; itself where it cannot jump there (SFC64).
-
-    NOTE: not by ``spawn``, which goes by how a generator was made, not by where it stands.
-    """
-    jumped = getattr(rng.bit_generator, "jumped", None)
-    return rng if jumped is None else np.random.default_rng(np.random.Generator(jumped()).integers(2**63))

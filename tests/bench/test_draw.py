@@ -12,6 +12,7 @@ from bench.cpu import best_s
 from scipy.interpolate import CubicSpline
 
 from emulator import Target
+from emulator.geometry import sphere
 from emulator.geometry.alignment import align
 from emulator.model import decoding as decode
 from emulator.model.emulator import MotionEmulator
@@ -38,7 +39,13 @@ def plain_directions(model, rng):
     drawn = model.sample(N, rng)
     own, cells = np.linspace(0, 1, N_TIMES), np.arange(float(N_TIMES))
     place = np.stack([np.interp(own, warp, cells) for warp in model.warps(drawn.scores)])
-    return decode.directions_numpy(model.posture, model.flatten, model.scale.raw(drawn.scores, "posture"), place)
+    coefficients = model.scale.raw(drawn.scores, "posture")
+    return turned(decode.directions_numpy(model.posture, model.flatten, coefficients, place), drawn)
+
+
+def turned(directions, drawn):
+    """Bones turned one by one, in plain numpy."""
+    return np.einsum("nbij,nsbj->nsbi", sphere.matrices(drawn.turns), directions)
 
 
 def our_directions(model, rng, dtype):
@@ -70,8 +77,8 @@ def plain_positions(model, rng):
     own, cells = np.linspace(0, 1, N_TIMES), np.arange(float(N_TIMES))
     place = np.stack([np.interp(own, warp, cells) for warp in model.warps(drawn.scores)])
     coefficients = model.scale.raw(drawn.scores, "posture")
-    between = decode.directions_numpy(model.posture, model.flatten, coefficients, place)
-    aligned = model.aligned_directions(drawn.scores)
+    between = turned(decode.directions_numpy(model.posture, model.flatten, coefficients, place), drawn)
+    aligned = turned(model.aligned_directions(drawn.scores), drawn)
     root, yaw = model.channel.inverse_numpy(model.root_channel(drawn.scores), aligned, drawn.bone_length_m)
     course = np.concatenate([root, yaw[..., None]], axis=-1)
     path = np.stack([CubicSpline(cells, way)(at) for way, at in zip(course, place)])
