@@ -219,6 +219,13 @@ FAULTS = (
         "1.0 - float(np.sqrt",
         ("test_the_first_weight_solves_the_equation_and_is_no_less_than_the_first_stages_share",),
     ),
+    Fault(
+        "emulator",
+        "drawn",
+        "self.alike * MIRRORED * unit",
+        "self.alike * unit",
+        ("test_drawn_turns_have_the_spread_and_the_sides_that_were_asked_for",),
+    ),
     Fault("emulator", "_normal_scores", "- 0.375) / (n + 0.25)", "- 0.5) / n", ("test_normal_scores_are_bloms",)),
     Fault(
         "emulator", "regression", "column / column[at]", "column", ("test_slopes_are_covariances_over_the_variance",)
