@@ -229,7 +229,7 @@ def _alike(model: MotionEmulator, made: Registered, rng: np.random.Generator, n_
 
 def _roughness(model: MotionEmulator, drawn: MotionPerformances) -> float:
     """In own time, without pauses (a pause would look rough)."""
-    moving = replace(model, dwells=NONE).performances(drawn.scores)
+    moving = replace(model, dwells=NONE).performances(drawn.scores, drawn.body_scale, drawn.turns)
     return roughness(moving.directions(n_times=model.n_times))
 
 

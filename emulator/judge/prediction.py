@@ -126,7 +126,7 @@ class Unseen:
 
         Each over its mean distance among the recordings, so that their sum judges both; see ``energy_scores``.
         """
-        directions, log_s = drawn.model.aligned_directions(drawn.scores), np.log(drawn.duration_s)
+        directions, log_s = drawn.aligned_directions(), np.log(drawn.duration_s)
         posture = energy_scores(distances(directions, self.directions[at]), distances(directions))
         time = energy_scores(np.abs(log_s[:, None] - self.log_s[at]), np.abs(log_s[:, None] - log_s))
         return np.stack([posture / self.posture_rad, time / self.log_time], axis=1)

@@ -279,10 +279,10 @@ def uphill(distances, density, radius):
 
 @compiled(error_model="numpy", nogil=True)
 def turn_bones(directions, turns):
-    """Directions (n, S, 3B), in place, each bone's turned by its own matrix of turns (n, B, 3, 3)."""
+    """Directions (n, S, B, 3), in place, each bone's turned by its own matrix of turns (n, B, 3, 3)."""
     for i in range(directions.shape[0]):
         for s in range(directions.shape[1]):
             for b in range(turns.shape[1]):
-                x, y, z = directions[i, s, 3 * b], directions[i, s, 3 * b + 1], directions[i, s, 3 * b + 2]
+                x, y, z = directions[i, s, b, 0], directions[i, s, b, 1], directions[i, s, b, 2]
                 for c in range(3):
-                    directions[i, s, 3 * b + c] = turns[i, b, c, 0] * x + turns[i, b, c, 1] * y + turns[i, b, c, 2] * z
+                    directions[i, s, b, c] = turns[i, b, c, 0] * x + turns[i, b, c, 1] * y + turns[i, b, c, 2] * z

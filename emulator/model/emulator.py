@@ -16,7 +16,7 @@ from emulator.model.performances import MotionPerformances
 from emulator.model.recorded_reach import Reach
 from emulator.model.targets import Target
 from emulator.motion import MotionSet
-from emulator.people.bone_turns import Later
+from emulator.people.bone_turns import LazyArray
 from emulator.people.workers import WorkerEffect
 
 SCHEME = "Extrinsic/JointPCA/Smoothed"
@@ -86,7 +86,7 @@ class MotionEmulator(JointLaw):
         return self.performances(z, turns=self.workforce.turns(n, self.skeleton, rng))
 
     def performances(
-        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | Later | None = None
+        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | LazyArray | None = None
     ) -> MotionPerformances:
         """The performances with these joint coordinates (n, K): durations at once, marks and postures on demand.
 
@@ -95,7 +95,7 @@ class MotionEmulator(JointLaw):
         duration_s = self.whole_s(scores)
         scale = np.empty(duration_s.shape)
         scale[...] = body_scale  # NOTE: np.full takes three times as long, for a block a twentieth of its draw
-        if not isinstance(turns, Later):
+        if not isinstance(turns, LazyArray):
             turns = np.zeros((0, 3)) if turns is None else turns
             turns = np.broadcast_to(turns, (len(scores), *turns.shape[-2:]))
         return MotionPerformances(self, scores, duration_s, scale, turns)

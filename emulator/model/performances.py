@@ -13,7 +13,7 @@ from emulator.geometry import sphere
 from emulator.model import decoding
 from emulator.model.feet import bend, stood
 from emulator.model.joint_law import JointLaw
-from emulator.people.bone_turns import Later
+from emulator.people.bone_turns import LazyArray
 from emulator.performances import Floats, Performances
 
 AT_ONCE = 128
@@ -62,7 +62,7 @@ class Ground:
 class MotionPerformances(Performances):
     """n performances of a task.
 
-    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone; turning: see
+    duration_s (n,) seconds; scores (n, K) joint coordinates; body_scale (n,) factor on every bone; lazy_turns: see
     ``turns``.
     ``performances[3]`` and slices are performances again, decoded to the same postures as in the block (to 1e-10).
     """
@@ -71,12 +71,12 @@ class MotionPerformances(Performances):
     scores: np.ndarray
     duration_s: np.ndarray
     body_scale: np.ndarray
-    turning: np.ndarray | Later
+    lazy_turns: np.ndarray | LazyArray
 
     @property
     def turns(self) -> np.ndarray:
         """(n, B, 3) rotation vectors by which bones are turned throughout, radians; (n, 0, 3) of known people."""
-        return self.turning.made if isinstance(self.turning, Later) else self.turning
+        return self.lazy_turns.made if isinstance(self.lazy_turns, LazyArray) else self.lazy_turns
 
     @cached_property
     def mark_s(self) -> np.ndarray:
@@ -101,6 +101,10 @@ class MotionPerformances(Performances):
         dtype   : of the answer and of its computation; float32 takes half the time and memory, and agrees to 1e-6
         """
         return self._directions(self._place(times_s, n_times), dtype)
+
+    def aligned_directions(self) -> np.ndarray:
+        """(n, T, B, 3) postures on the common clock, before bodies stand."""
+        return turned(self.model.aligned_directions(self.scores), self.turns)
 
     def path(self, times_s: np.ndarray | None = None, n_times: int = 101) -> np.ndarray:
         """(n, T, 4) ``root_m`` and the heading in radians; times as ``directions``."""
@@ -260,7 +264,7 @@ def turned(directions: np.ndarray, turns: np.ndarray) -> np.ndarray:
     from emulator.kernels.sphere import turn_bones
 
     if turns.shape[1]:
-        turn_bones(directions.reshape(*directions.shape[:2], -1), sphere.matrices(turns))
+        turn_bones(directions, sphere.matrices(turns))
     return directions
 
 

@@ -18,7 +18,7 @@ from emulator.model.gaussian import Law
 from emulator.model.performances import Ground, MotionPerformances, put, rows_of, turned
 from emulator.model.reach import ReachedLaw, Trend, on_target, reached_law, recorded
 from emulator.model.targets import HandPlaces, Target, checked
-from emulator.people.bone_turns import Later
+from emulator.people.bone_turns import LazyArray
 from emulator.people.workers import WorkerEffect
 from emulator.performances import Floats
 
@@ -56,11 +56,11 @@ class ReachEmulator(MotionEmulator):
         return self._reached(effect).law
 
     def performances(
-        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | Later | None = None
+        self, scores: np.ndarray, body_scale: float | np.ndarray = 1.0, turns: np.ndarray | LazyArray | None = None
     ) -> ReachPerformances:
         """See ``MotionEmulator.performances``; decoded they are at the targets, within 5 mm where a body can."""
         drawn = super().performances(scores, body_scale, turns)
-        return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale, drawn.turning)
+        return ReachPerformances(self, drawn.scores, drawn.duration_s, drawn.body_scale, drawn.lazy_turns)
 
     def covariance_with(self, at: int, effect: WorkerEffect | None) -> np.ndarray:
         """(K,) covariance of z with its coordinate ``at``, given the targets: hands stay where they are."""

@@ -172,7 +172,7 @@ class HandPlaces:
         return cls(model, joints, tuple(_mark(model, target.mark) for target in targets))
 
     def __call__(self, z: np.ndarray, scale: float | np.ndarray = 1.0, turns: np.ndarray | None = None) -> np.ndarray:
-        """z (n, K), factor on every bone (or (n,)), turns of bones (n or 1, B, 3) -> (n, G, 3) m ahead, aside, high."""
+        """z (n, K), factor on every bone (or (n,)), turns of bones ((n,) B, 3) -> (n, G, 3) m ahead, aside, high."""
         z, scale = np.asarray(z), np.broadcast_to(scale, len(z))
         turns = np.zeros((0, 3)) if turns is None else turns
         turns = np.broadcast_to(turns, (len(z), *turns.shape[-2:]))

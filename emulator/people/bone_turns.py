@@ -4,8 +4,9 @@ A new person is like one recorded person with a little noise between people, and
 Where these happen to agree, in how they hold a back, the next person does not. So each bone of a new person is turned
 by an angle that stays the same throughout: no bone is any faster for it.
 
-How much is told by all bones together, as of two people a single bone tells next to nothing (Smyth 2004 does so with
-thousands of genes), and how far both sides go together by all pairs: those of a squat do, those of a throw do not.
+By how much is told by all bones together: of two people a single bone tells next to nothing (Smyth 2004 pools the
+variances of thousands of genes so). How alike left and right are is told by all pairs: in a squat they are, in a throw
+they are not.
 """
 
 from __future__ import annotations
@@ -20,20 +21,20 @@ import numpy as np
 from emulator.skeleton import Skeleton
 
 SHARE = 0.5
-"""New people's bones are turned by so much of what recorded people's bones differ by, times the size of the person."""
+"""New people's bones are turned by so much of what recorded people's bones differ by, times a size as of their law."""
 MIRRORED = np.array([-1.0, 1.0, -1.0])
 """A turn seen in the mirror of left and right: bending stays, leaning and twisting go the other way."""
 
 
 @dataclass(frozen=True, eq=False)
-class Ahead:
+class StreamPosition:
     """Where a generator stands: times are drawn as they would be without turns, and turns when they are asked for."""
 
     bits: type
     state: Any
 
     @classmethod
-    def of(cls, rng: np.random.Generator) -> Ahead:
+    def of(cls, rng: np.random.Generator) -> StreamPosition:
         return cls(type(rng.bit_generator), rng.bit_generator.state)
 
     @property
@@ -45,7 +46,7 @@ class Ahead:
 
 
 @dataclass(frozen=True, eq=False)
-class Later:
+class LazyArray:
     """An array that is made when it is first asked for; rows of it are, too."""
 
     make: Callable[[], np.ndarray]
@@ -55,11 +56,11 @@ class Later:
         """The array."""
         return self.make()
 
-    def __getitem__(self, rows: Any) -> Later:
-        return Later(partial(_rows, self, rows))
+    def __getitem__(self, rows: Any) -> np.ndarray | LazyArray:
+        return self.made[rows] if "made" in self.__dict__ else LazyArray(partial(_rows, self, rows))
 
 
-def _rows(whole: Later, rows: Any) -> np.ndarray:
+def _rows(whole: LazyArray, rows: Any) -> np.ndarray:
     return np.asarray(whole.made[rows])
 
 
@@ -74,19 +75,21 @@ class BoneTurns:
 
     @classmethod
     def fit(cls, directions: np.ndarray, worker: np.ndarray, kind: np.ndarray, skeleton: Skeleton) -> BoneTurns:
-        """From the mean direction of each bone in each repetition (N, B, 3), worker (N,) and the kinds (W,) of these.
+        """From mean vectors of each bone in each repetition (N, B, 3), worker (N,) and the kinds (W,) of these.
 
         Nothing is turned where no two people are of one kind.
         """
         from scipy.special import chdtri
 
-        people = np.stack([directions[worker == w].mean(axis=0) for w in range(len(kind))])
-        apart = people - np.stack([people[kind == k].mean(axis=0) for k in kind])
+        points = directions / np.maximum(np.linalg.norm(directions, axis=-1, keepdims=True), 1e-12)
+        people = np.stack([points[worker == w].mean(axis=0) for w in range(len(kind))])
+        means = np.stack([people[kind == k].mean(axis=0) for k in kind])
+        apart = people - means
         free = 2 * (len(kind) - len(np.unique(kind)))  # two axes each
         if free == 0:
             return NO_TURNS
         middling = np.median(np.sum(apart**2, axis=(0, 2)))
-        turns = np.cross(people.mean(axis=0), apart)
+        turns = np.cross(means, apart)
         left, right = _sides(skeleton)
         together = np.sum(turns[:, left] * turns[:, right] * MIRRORED)
         square = 0.5 * np.sum(turns[:, [*left, *right]] ** 2)
@@ -102,9 +105,9 @@ class BoneTurns:
         alike = f"left and right alike to {100 * self.alike:.0f} %"
         return f"point {degrees:.2g} degrees another way throughout (standard deviation along an axis), {alike}"
 
-    def drawn(self, n: int, sizes: np.ndarray, skeleton: Skeleton, seed: Ahead | np.ndarray) -> np.ndarray:
+    def drawn(self, n: int, sizes: np.ndarray, skeleton: Skeleton, seed: StreamPosition | np.ndarray) -> np.ndarray:
         """(n, B, 3) rotation vectors, radians, of n new people, each of one of the sizes (A,)."""
-        rng = np.random.default_rng(seed.number if isinstance(seed, Ahead) else seed)
+        rng = np.random.default_rng(seed.number if isinstance(seed, StreamPosition) else seed)
         size = rng.choice(sizes, n)[:, None, None]
         unit = rng.standard_normal((n, skeleton.n_bones, 3))
         left, right = _sides(skeleton)
@@ -116,6 +119,6 @@ NO_TURNS = BoneTurns()
 
 
 def _sides(skeleton: Skeleton) -> tuple[list[int], list[int]]:
-    """Bones of the left that have another on the right, and these."""
+    """Bones of one side that have another on the other side, and these."""
     pairs = [(one, other) for one, other in enumerate(skeleton.other_side) if one < other]
     return [one for one, _ in pairs], [other for _, other in pairs]

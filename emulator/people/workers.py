@@ -15,7 +15,7 @@ from emulator.covariates.model import CovariateModel, level_shares, logged
 from emulator.model.gaussian import Law, LowRankNormal
 from emulator.model.joint_coordinates import within_worker
 from emulator.model.smoothed import SmoothedScores
-from emulator.people.bone_turns import Ahead, Later
+from emulator.people.bone_turns import LazyArray, StreamPosition
 from emulator.people.kinds import Kinds
 from emulator.people.population import Population
 from emulator.people.variance_components import anova
@@ -189,7 +189,7 @@ class Workforce:
 
     def turns(
         self, n: int, skeleton: Skeleton, rng: np.random.Generator, numbers: np.ndarray | None = None
-    ) -> Later | None:
+    ) -> LazyArray | None:
         """(n, B, 3) by how much bones of new people are turned, see ``BoneTurns``; None where none is.
 
         rng     : is not moved on: the seed is what it draws next
@@ -198,8 +198,8 @@ class Workforce:
         law = self.population
         if law is None or not law.turns.spread_rad > 0:
             return None
-        seed = Ahead.of(rng) if numbers is None else np.ascontiguousarray(numbers).view(np.uint64)
-        return Later(partial(law.turns.drawn, n, law.sizes, skeleton, seed))
+        seed = StreamPosition.of(rng) if numbers is None else np.ascontiguousarray(numbers).view(np.uint64)
+        return LazyArray(partial(law.turns.drawn, n, law.sizes, skeleton, seed))
 
     def _by_gaussian(self, law: LowRankNormal, rng: np.random.Generator, numbers: np.ndarray | None) -> np.ndarray:
         if numbers is None:

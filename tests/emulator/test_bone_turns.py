@@ -7,10 +7,12 @@ import pytest
 
 from emulator.geometry import sphere
 from emulator.model.emulator import MotionEmulator
+from emulator.model.library import LibraryError
 from emulator.model.performances import turned
 from emulator.people.bone_turns import MIRRORED, SHARE, BoneTurns
 from emulator.skeleton import standard_skeleton
 from tests.emulator.fitted import made
+from tests.emulator.test_library import with_header
 
 
 @pytest.fixture(scope="module")
@@ -129,3 +131,14 @@ def test_turns_are_kept_in_a_library(emulator, tmp_path):
     assert again.workforce.population.turns == emulator.workforce.population.turns
     rows = [model.sample(4, np.random.default_rng(0)).positions_m() for model in (emulator, again)]
     assert np.array_equal(*rows)
+
+
+@pytest.mark.parametrize("turns", [{"spread_rad": -1.0}, {"alike": 1.5}, {"alike": "very"}, {"width": 1.0}, [0.1]])
+def test_turns_that_make_no_sense_are_refused(emulator, tmp_path, turns):
+    emulator.save(tmp_path / "lift.npz")
+
+    def with_turns(header):
+        return header | {"tasks": {"lift": header["tasks"]["lift"] | {"turns": turns}}}
+
+    with pytest.raises(LibraryError):
+        MotionEmulator.load(with_header(tmp_path / "lift.npz", with_turns))

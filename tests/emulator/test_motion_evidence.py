@@ -144,7 +144,6 @@ FOUND = {
     **{"decoded_mm": 5.0, "decoded_auc": 0.5, "auc_drawn": 0.7},
     **{f"{name}_{kind}": 9.0 for name in ("places", "speeds") for kind in ("drawn", "halves")},
     **{"people_left_out": 6, "duration_50": 0.5, "duration_90": 0.9, "posture_50": 0.5, "posture_90": 0.9},
-    **{"bones_50": 0.4, "bones_90": 0.8},
     **{"novelty_drawn": 1.0, "p_drawn": 0.5},
 }
 

@@ -128,7 +128,7 @@ def test_draws_that_trunk_and_arms_cannot_bring_to_a_high_shelf_are_drawn_in(mon
         monkeypatch.setattr(reach_emulator, "MISSED_PER_S", counts)
         drawn = draws(at(high), 64, worker=short)
         off.append(np.sum(np.abs(wrists_m(drawn)[:, 2] - high) > 0.005))
-    assert off[1] > 4 and off[0] < 0.7 * off[1]
+    assert off[0] <= 7 < off[1]
 
 
 @pytest.mark.parametrize(("body", "height_m"), [(1.5, 1.54), (1.6, 1.68), (None, 1.9)])

@@ -19,12 +19,8 @@ class Drawn:
     scores: np.ndarray
     duration_s: np.ndarray
 
-    @property
-    def model(self):
-        return self
-
-    def aligned_directions(self, scores):
-        return scores
+    def aligned_directions(self):
+        return self.scores
 
 
 def unseen(directions, log_s, posture_rad=1.0, log_time=1.0):
