@@ -13,7 +13,7 @@ from opsim.scenario import read_scenarios
 from tests.opsim.cli.calls import opsim
 
 BENT = "trunk_beyond_20_min_per_h"
-N = 2
+N = 4
 
 
 @functools.cache
@@ -32,7 +32,7 @@ def replications(variant):
 def test_a_higher_low_level_takes_bending_away_and_time_with_it():
     (bent, rate), (bent_up, rate_up) = replications("base"), replications("low_raised")
     assert bent_up.max() < 0.8 * bent.min()
-    assert (rate_up >= rate).all() and rate_up.sum() > rate.sum()
+    assert rate_up.mean() > rate.mean()
 
 
 @pytest.mark.slow
