@@ -337,7 +337,7 @@ class _Parts:
         """Of libraries of before none."""
         said = self.plain.get("turns", {})
         turns = BoneTurns(**{name: self.own.number(f"turns.{name}", value) for name, value in said.items()})
-        if turns.spread_rad < 0 or not 0 <= turns.alike <= 1:
+        if turns.spread_rad < 0 or not (0 <= turns.alike <= 1 and 0 <= turns.upright <= 1):
             raise ValueError(f"{self.task}: {turns} makes no sense")
         return turns
 

@@ -46,13 +46,25 @@ def test_how_much_people_differ_and_how_alike_their_sides_are_is_found_again(ali
 
 
 def test_drawn_turns_have_the_spread_and_the_sides_that_were_asked_for():
-    skeleton, law = standard_skeleton(), BoneTurns(0.1, 0.6)
+    skeleton, law = standard_skeleton(), BoneTurns(0.1, 0.6, 0.8)
     drawn = law.drawn(4000, np.array([1.0]), skeleton, np.array([0]))
-    assert drawn.std(axis=0) == pytest.approx(SHARE * 0.1, rel=0.06)
+    paired = np.array([one != other for one, other in enumerate(skeleton.other_side)])
+    assert drawn.std(axis=0)[paired] == pytest.approx(SHARE * 0.1, rel=0.06)
+    leaning, bending = SHARE * 0.1 * np.sqrt([1 - 0.8, 1 + 0.8])
+    expected = np.broadcast_to([leaning, bending, leaning], (np.sum(~paired), 3))
+    assert drawn.std(axis=0)[~paired] == pytest.approx(expected, rel=0.06)
     left, right = next((one, other) for one, other in enumerate(skeleton.other_side) if one < other)
     for axis in range(3):
         together = np.corrcoef(MIRRORED[axis] * drawn[:, left, axis], drawn[:, right, axis])[0, 1]
         assert together == pytest.approx(0.6, abs=0.05)
+
+
+def test_trunks_that_bend_and_do_not_lean_are_told_so():
+    skeleton, rng = standard_skeleton(), np.random.default_rng(4)
+    body = np.broadcast_to([0.0, 0.0, 1.0], (skeleton.n_bones, 3))
+    by = 0.05 * rng.standard_normal((12, skeleton.n_bones, 3)) * [0.1, 1.0, 0.1]
+    found = BoneTurns.fit(sphere.turned(body, by), np.arange(12), np.zeros(12, int), skeleton)
+    assert found.upright == pytest.approx((1 - 0.01) / (1 + 0.01), abs=0.01)
 
 
 def test_kinds_of_people_do_not_count_as_differences_between_people():
@@ -105,7 +117,7 @@ def test_known_people_are_as_they_were_recorded_and_times_are_those_of_the_draw(
 
 
 def test_a_new_worker_is_turned_alike_in_every_performance_and_wherever_the_same_people_do_it(emulator):
-    """As far as people differ there; a right side follows its left by how alike sides are in that task."""
+    """As far as people differ there; others follow by how alike sides are in that task."""
     models = emulator, made("pick")[1]
 
     def leaning(name):
@@ -113,8 +125,8 @@ def test_a_new_worker_is_turned_alike_in_every_performance_and_wherever_the_same
 
     one, two = (model.draw_worker(np.random.default_rng(k), people=leaning) for k, model in enumerate(models))
     unit = [drawn.turns / m.workforce.population.turns.spread_rad for drawn, m in zip((one, two), models)]
-    free = [not name.startswith("right_") for name in emulator.skeleton.bone_names]
-    assert np.allclose(unit[0][free], unit[1][free])
+    left = [name.startswith("left_") for name in emulator.skeleton.bone_names]
+    assert np.allclose(unit[0][left], unit[1][left])
     assert np.array_equal(emulator.sample(3, np.random.default_rng(5), worker=one).turns, np.stack([one.turns] * 3))
     assert not np.allclose(one.turns, emulator.draw_worker(np.random.default_rng(9)).turns)
 
