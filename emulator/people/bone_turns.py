@@ -23,6 +23,8 @@ from emulator.skeleton import Skeleton
 
 SHARE = 0.5
 """New people's bones are turned by so much of what recorded people's bones differ by, times a size as of their law."""
+GIRDLES = ("hip", "shoulder", "clavicle")
+"""Bones to these are turned as mirror images: one side alone would twist the trunk (recorded 2 degrees, else 5-8)."""
 MIRRORED = np.array([-1.0, 1.0, -1.0])
 """A turn seen in the mirror of left and right: bending stays, leaning and twisting go the other way."""
 
@@ -111,7 +113,9 @@ class BoneTurns:
         size = rng.choice(sizes, n)[:, None, None]
         unit = rng.standard_normal((n, skeleton.n_bones, 3))
         left, right, middle = _sides(skeleton)
-        unit[:, right] = self.alike * MIRRORED * unit[:, left] + np.sqrt(1.0 - self.alike**2) * unit[:, right]
+        girdle = [skeleton.bone_names[bone].endswith(GIRDLES) for bone in left]
+        alike = np.where(girdle, 1.0, self.alike)[:, None]
+        unit[:, right] = alike * MIRRORED * unit[:, left] + np.sqrt(1.0 - alike**2) * unit[:, right]
         unit[:, middle] *= np.sqrt(1.0 + self.upright * MIRRORED)
         return np.asarray(SHARE * self.spread_rad * size * unit)
 

@@ -53,7 +53,9 @@ def test_drawn_turns_have_the_spread_and_the_sides_that_were_asked_for():
     leaning, bending = SHARE * 0.1 * np.sqrt([1 - 0.8, 1 + 0.8])
     expected = np.broadcast_to([leaning, bending, leaning], (np.sum(~paired), 3))
     assert drawn.std(axis=0)[~paired] == pytest.approx(expected, rel=0.06)
-    left, right = next((one, other) for one, other in enumerate(skeleton.other_side) if one < other)
+    left, right = (skeleton.bone_names.index(f"{side}_knee") for side in ("left", "right"))
+    hips = (drawn[:, skeleton.bone_names.index(f"{side}_hip")] for side in ("left", "right"))
+    assert np.array_equal(next(hips) * MIRRORED, next(hips))
     for axis in range(3):
         together = np.corrcoef(MIRRORED[axis] * drawn[:, left, axis], drawn[:, right, axis])[0, 1]
         assert together == pytest.approx(0.6, abs=0.05)
