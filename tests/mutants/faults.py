@@ -222,8 +222,8 @@ FAULTS = (
     Fault(
         "emulator",
         "drawn",
-        "self.alike * MIRRORED * unit",
-        "self.alike * unit",
+        "alike * MIRRORED * unit",
+        "alike * unit",
         ("test_drawn_turns_have_the_spread_and_the_sides_that_were_asked_for",),
     ),
     Fault("emulator", "_normal_scores", "- 0.375) / (n + 0.25)", "- 0.5) / n", ("test_normal_scores_are_bloms",)),
