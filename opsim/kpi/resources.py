@@ -134,16 +134,16 @@ def conveyors(log: EventLog, plan: Plan) -> Iterator[Figure]:
         blocked = here[log["kind"][here] == BLOCKED]
         length_s = window_length_s(plan)
         yield figure("on_conveyor", belt.name, "", inside_s(log, here, plan).sum() / length_s)
-        yield figure("conveyor_blocked", belt.name, "", _any_s(log, plan, blocked) / length_s)
+        yield figure("conveyor_blocked", belt.name, "", any_s(log, plan, blocked) / length_s)
 
 
 def _stock(log: EventLog, plan: Plan, rows: np.ndarray, store: str, product: str) -> Iterator[Figure]:
     length_s = window_length_s(plan)
     yield figure("stock", store, product, inside_s(log, rows, plan).sum() / length_s)
-    yield figure("stock_empty", store, product, 1.0 - _any_s(log, plan, rows) / length_s)
+    yield figure("stock_empty", store, product, 1.0 - any_s(log, plan, rows) / length_s)
 
 
-def _any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
+def any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
     """Seconds of the window in which any of some rows is open."""
     order = rows[np.argsort(log["start_s"][rows], kind="stable")]
     start_s, end_s = (np.clip(log[edge][order], *plan.window_s) for edge in ("start_s", "end_s"))

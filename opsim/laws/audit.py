@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from itertools import chain
 
-from opsim.laws.capacity import away, outages, rooms, shared
+from opsim.laws.capacity import away, one_outage_at_a_time, rooms, shared
 from opsim.laws.effects import pace, rests, shifts
 from opsim.laws.hours import closed, duty
 from opsim.laws.jobs import Stays, conserved, heights, integral, one_state, places, progress, tiled
@@ -23,7 +23,7 @@ LAWS: dict[str, Law] = {
     "people work in their shifts, and after them only for what they stay for": duty,
     "a job waits for one worker only while he is away": away,
     "the pieces of a performance follow one another and add up to one": progress,
-    "nobody works at a station that is down": outages,
+    "nobody works at a station that is down": one_outage_at_a_time,
     "nothing begins at a station that its calendar closes": closed,
     "no more tools, cards, repair teams and vehicles are in use than there are": shared,
     "hands are at the height that the product, or the layer in turn, asks for": heights,

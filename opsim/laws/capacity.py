@@ -65,16 +65,21 @@ def rooms(_log: EventLog, plan: Plan, stays: Stays) -> Iterator[str]:
 
 def shared(log: EventLog, plan: Plan, stays: Stays) -> Iterator[str]:
     """Everything that several ask for and only so many can have."""
-    yield from _tools(log, plan)
-    yield from _teams(log, plan)
-    yield from _vehicles(log, plan)
+    yield from tools_in_use(log, plan)
+    yield from repair_teams_in_use(log, plan)
+    yield from vehicles_in_use(log, plan)
+    yield from cards_in_use(plan, stays)
+
+
+def cards_in_use(plan: Plan, stays: Stays) -> Iterator[str]:
+    """No more jobs are in a loop than it has cards."""
     for card in plan.cards:
         found = _most_cards(stays.rows, plan, card)
         if found > card.n:
             yield f"loop {card.name}: {found} jobs in it at once on {card.n} cards"
 
 
-def _tools(log: EventLog, plan: Plan) -> Iterator[str]:
+def tools_in_use(log: EventLog, plan: Plan) -> Iterator[str]:
     if not plan.tools:
         return
     held = log.of(TOOL)
@@ -84,7 +89,7 @@ def _tools(log: EventLog, plan: Plan) -> Iterator[str]:
             yield f"tool {tool.name}: {found} in use at once of {tool.n}"
 
 
-def _teams(log: EventLog, plan: Plan) -> Iterator[str]:
+def repair_teams_in_use(log: EventLog, plan: Plan) -> Iterator[str]:
     if not plan.repair_teams:
         return
     repairs = log.of(REPAIR)
@@ -95,7 +100,7 @@ def _teams(log: EventLog, plan: Plan) -> Iterator[str]:
             yield f"repair team {team.name}: at {found} stops at once, and can see to {team.n}"
 
 
-def _vehicles(log: EventLog, plan: Plan) -> Iterator[str]:
+def vehicles_in_use(log: EventLog, plan: Plan) -> Iterator[str]:
     """A vehicle does one thing at a time, and there are no others."""
     if not plan.transporters:
         return
@@ -121,7 +126,7 @@ def _most_cards(rows: EventLog, plan: Plan, card: CardPlan) -> int:
     return peak(rows.where(here[has]))
 
 
-def outages(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
+def one_outage_at_a_time(log: EventLog, plan: Plan, _stays: Stays) -> Iterator[str]:
     """Rows of a station's outages do not overlap, and no performance or set-up there overlaps with one of them."""
     down = log.where(np.isin(log["kind"], (DOWN, REPAIR)) & (log["job"] < 0) & (log["worker"] < 0))
     if not len(down):

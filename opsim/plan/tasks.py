@@ -143,7 +143,8 @@ def moment_of(said: float | str, names: tuple[str, ...]) -> Moment:
 GRIPS = ("good", "fair", "poor", "unacceptable")
 FORCES = ("intermittent", "repeated", "static", "shock")
 FOREARMS = ("mid", "end")
-START, END = Moment(share=0.0), Moment(share=1.0)
+START = Moment(share=0.0)
+END = Moment(share=1.0)
 LEGS = ("balanced", "unbalanced")
 SAID = ("grip", "force", "forearm", "arms_supported", "sitting", "legs", "rapid")
 """What ``handling:`` of a task may say beside its load."""

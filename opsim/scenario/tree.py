@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from opsim.problems import Problem
 
 Part = str | int
+TreePath = tuple[Part, ...]
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,8 @@ from opsim.scenario.checks.lookup import named, one_of, onward
 from opsim.scenario.schema.lines import INDEXED, MOVING
 from opsim.scenario.schema.routing import OUT, START
 from opsim.scenario.schema.workers import USUAL_WALK_M_PER_S
-from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
+from opsim.scenario.tree import Node, Part, TreePath, child, entries, items, problem, text
 
-TreePath = tuple[str | int, ...]
 _NOT_ON_A_LINE = {
     "buffer": "the line's own stretch is all the room there is",
     "buffer_after": "a job moves on with the line",

@@ -15,7 +15,7 @@ from pathlib import Path
 from opsim.csv_input import Mistake
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.schema.routing import OUT, START
-from opsim.scenario.tree import Node, Part, Place, Source, child, entries, items, problem, text
+from opsim.scenario.tree import Node, Part, Place, Source, TreePath, child, entries, items, problem, text
 
 POINTS = ("stations", "stores", "conveyors")
 
@@ -154,9 +154,6 @@ def named(node: Node | None, known: Collection[str], what: str, path: tuple[Part
     if node is not None and isinstance(node.value, str) and node.value not in known:
         hint = did_you_mean(node.value, known, otherwise=f"known {what}s") or f"there are no {what}s yet"
         yield problem(node.place, path, f"no {what} {shown(node.value)}", hint)
-
-
-TreePath = tuple[Part, ...]
 
 
 def releases(tree: Node) -> dict[TreePath, Node]:

@@ -30,6 +30,7 @@ from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.lookup import motion_emulators, named
 from opsim.scenario.schema.workers import Person
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
+from opsim.scenario.warnings.people import BODIES
 
 
 def motion_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -253,7 +254,6 @@ def _figures(tree: Node) -> Iterator[Problem]:
                 yield problem(asked.place, (key, number), found, "remove one of the two lines")
 
 
-BODIES = ("emulator", "motions", "plugin")
 """Keys of tasks that may have a body."""
 NEEDS = {
     "rest": ("fatigue", "nobody tires, and nobody rests from it", "{model: lffrm}"),

@@ -21,7 +21,7 @@ from opsim.libraries import LibraryMissing, library_people, resolve_library
 from opsim.problems import Problem, did_you_mean, natural_key, shown
 from opsim.scenario.checks.lookup import emulators, named, one_of, onward, rework_at, visited
 from opsim.scenario.checks.sequence import rule_problems, setup_times
-from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
+from opsim.scenario.tree import Node, TreePath, child, entries, items, problem, text
 
 
 def recorded_people(tree: Node, folder: Path) -> list[str] | None:
@@ -166,7 +166,6 @@ def _priorities(tree: Node) -> Iterator[Problem]:
             yield problem(priority.name_place, ("stations", name, "priority"), found, "add stations to that list")
 
 
-TreePath = tuple[Part, ...]
 _NOT_HERE = {
     "batch": "whose jobs are worked on together, and each job of a crew is in one pair of hands",
     "preempt": "where jobs overtake each other, and those of a crew never do",
@@ -197,7 +196,7 @@ def _named_once(tree: Node, crew: Node, key: str, what: str, path: TreePath, see
         if not isinstance(node.value, str):
             continue
         before = seen.setdefault((what, node.value), name)
-        if before != name or node.value in _names(crew, key)[:number]:
+        if before != name or node.value in _crew_names(crew, key)[:number]:
             where = "twice here" if before == name else f"in crew {before} already"
             yield problem(node.place, here, f"{node.value} is {where}", f"a {what} has one place in one crew")
 
@@ -209,7 +208,9 @@ def _skills(tree: Node, crew: Node, path: TreePath) -> Iterator[Problem]:
         if not isinstance(node.value, str) or node.value not in workers:
             continue
         skills = entries(workers[node.value], "skills")
-        lacking = [station for station in _names(crew, "stations") if station in stations and station not in skills]
+        lacking = [
+            station for station in _crew_names(crew, "stations") if station in stations and station not in skills
+        ]
         if lacking:
             found = f"{node.value} has no skill at {shown(lacking[0])}, where his job may take him"
             hint = f"add '{lacking[0]}: 1.0' to the skills of {node.value}"
@@ -240,7 +241,7 @@ def _at_stations(tree: Node, crew: Node, path: TreePath) -> Iterator[Problem]:
         if station is None:
             continue
         reasons = [f"{key!r}, {why}" for key, why in _NOT_HERE.items() if child(station, key) is not None]
-        teams = [task for task in _names(station, "tasks") if _team(tree, task) > 1]
+        teams = [task for task in _crew_names(station, "tasks") if _team(tree, task) > 1]
         reasons += [f"task {shown(task)} of a team, and each job of a crew is in one pair of hands" for task in teams]
         reasons += ["a split, after which there is no job to go on with"] if node.value in splits else []
         if node.value in partners:
@@ -252,7 +253,7 @@ def _at_stations(tree: Node, crew: Node, path: TreePath) -> Iterator[Problem]:
 
 def _ways(tree: Node, crew: Node, name: str) -> Iterator[Problem]:
     """Routes that come to the stations of a crew in another order than its own."""
-    at = {station: number for number, station in enumerate(_names(crew, "stations"))}
+    at = {station: number for number, station in enumerate(_crew_names(crew, "stations"))}
     for product, node in entries(tree, "products").items():
         furthest: tuple[int, str] = (-1, "")
         for number, step in enumerate(items(node, "route")):
@@ -291,7 +292,7 @@ def _team(tree: Node, task: str) -> int:
     return node.value if node is not None and type(node.value) is int else 1
 
 
-def _names(block: Node, key: str) -> list[str]:
+def _crew_names(block: Node, key: str) -> list[str]:
     return [node.value for node in items(block, key) if isinstance(node.value, str)]
 
 

@@ -93,14 +93,14 @@ def walking_problems(tree: Node) -> Iterator[Problem]:
     ring_of = {place: ring for ring in rings(graph) for place in ring}
     said: set[tuple[str, str]] = set()
     for name, worker in entries(tree, "workers").items():
-        for start, end in _not_led(tree, worker, graph, back, ring_of):
+        for start, end in _not_led_there(tree, worker, graph, back, ring_of):
             if (start, end) not in said:
                 said.add((start, end))
                 found = f"no path leads from {shown(start)} to {shown(end)}, and {name} has to walk there"
-                yield problem(paths.name_place, ("layout", "paths"), found, _hint(graph, back, start, end))
+                yield problem(paths.name_place, ("layout", "paths"), found, _walking_hint(graph, back, start, end))
 
 
-def _not_led(tree: Node, worker: Node, graph: Graph, back: Graph, ring_of: Graph) -> Iterator[tuple[str, str]]:
+def _not_led_there(tree: Node, worker: Node, graph: Graph, back: Graph, ring_of: Graph) -> Iterator[tuple[str, str]]:
     """(from, to) of what a worker must be able to walk and cannot; ways between all his stations, seen from the first.
 
     His stations are those of his skills, and those he carries jobs to. He starts at his home, and needs to come back
@@ -150,7 +150,7 @@ def _reworked(tree: Node, product: Node, skilled: Collection[str]) -> Iterator[s
             yield name
 
 
-def _hint(graph: Graph, back: Graph, *places: str) -> str:
+def _walking_hint(graph: Graph, back: Graph, *places: str) -> str:
     cut_off = next((place for place in places if not graph.get(place) and not back.get(place)), None)
     return "is a path missing, or 'one_way' too much?" if cut_off is None else f"add e.g. [{cut_off}, ...]"
 

@@ -28,7 +28,7 @@ def sequence_problems(tree: Node) -> Iterator[Problem]:
     yield from rule_problems(child(tree, "flow", "routing"), ("flow", "routing"), "opsim.routing", ROUTING_RULES)
     for name, station in stations.items():
         yield from _preempt(station, ("stations", name))
-        yield from _batch_before(tree, station, ("stations", name))
+        yield from batch_before_problems(tree, station, ("stations", name))
         yield from _setup(tree, name, child(station, "setup"))
 
 
@@ -72,7 +72,7 @@ def _preempt(station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
         yield problem(preempt.place, (*path, "preempt"), found, "remove 'preempt', or 'batch'")
 
 
-def _batch_before(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
+def batch_before_problems(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
     """A batch would begin when its first job has a place downstream; the others would wait after all."""
     batch, own, of_all = child(station, "batch"), child(station, "blocking"), child(tree, "flow", "blocking")
     blocking = of_all if own is None else own

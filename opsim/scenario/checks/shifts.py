@@ -14,9 +14,8 @@ from opsim.clock import DAY_S, DAYS, WEEK_S, on_the_clock
 from opsim.problems import Problem, did_you_mean, shown
 from opsim.scenario.checks.lookup import named
 from opsim.scenario.schema.run import Pause, Shift
-from opsim.scenario.tree import Node, Part, child, entries, items, problem
+from opsim.scenario.tree import Node, TreePath, child, entries, items, problem
 
-TreePath = tuple[Part, ...]
 Found = tuple[TreePath, Pause, Node]
 """Where a pause stands, what it says, and its node."""
 

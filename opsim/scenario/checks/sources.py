@@ -15,7 +15,7 @@ from opsim.scenario.checks.assembly import passes, values
 from opsim.scenario.checks.lookup import first_of, in_the_file, made_by, releases, stations_of
 from opsim.scenario.schema import Scenario
 from opsim.scenario.schema.sources import MOST_AT_ONCE
-from opsim.scenario.tree import Node, Place, child, entries, items, problem, text
+from opsim.scenario.tree import Node, Place, TreePath, child, entries, items, problem, text
 
 
 def source_problems(tree: Node, folder: Path) -> Iterator[Problem]:
@@ -41,9 +41,9 @@ def _one_way(tree: Node) -> Iterator[Problem]:
         yield problem(place, "", "nothing says how jobs come in", "add e.g. 'release: {kind: poisson, every: 55 s}'")
 
 
-def _products(tree: Node, release: Node, path: lookup.TreePath) -> Iterator[Problem]:
+def _products(tree: Node, release: Node, path: TreePath) -> Iterator[Problem]:
     products = entries(tree, "products")
-    named: list[tuple[str, Place, lookup.TreePath]] = [
+    named: list[tuple[str, Place, TreePath]] = [
         (name, node.name_place, ("products", name)) for name, node in entries(release, "products").items()
     ]
     for key in ("products", "sequence"):
@@ -55,7 +55,7 @@ def _products(tree: Node, release: Node, path: lookup.TreePath) -> Iterator[Prob
             yield problem(place, (*path, *where), f"no product {shown(name)}", hint)
 
 
-def _files(tree: Node, release: Node, path: lookup.TreePath, folder: Path) -> Iterator[Problem]:
+def _files(tree: Node, release: Node, path: TreePath, folder: Path) -> Iterator[Problem]:
     """Lists of orders and sequences that cannot be read, every mistake of each."""
     for key in ("file", "sequence"):
         name = text(release, key)
@@ -82,7 +82,7 @@ def _read(key: str, name: str, folder: Path, tree: Node) -> tuple[list[Mistake],
     return mistakes, any(order.product is not None for order in orders)
 
 
-def _store(tree: Node, release: Node, path: lookup.TreePath) -> Iterator[Problem]:
+def _store(tree: Node, release: Node, path: TreePath) -> Iterator[Problem]:
     """A base stock is kept in a store, of the one product that goes there."""
     node, stores = child(release, "store"), entries(tree, "stores")
     if node is None or not isinstance(node.value, str):

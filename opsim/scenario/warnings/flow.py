@@ -214,7 +214,8 @@ def _no_walking(scenario: Scenario) -> Iterator[str]:
 
 FAR = 20
 """Times as far from everything as places usually are from each other."""
-FAR_M, NEAR_M = 50.0, 1.0
+FAR_M = 50.0
+NEAR_M = 1.0
 MOST_PLACES = 300
 """For which each is compared with every other one."""
 STRAIGHT = 0.99

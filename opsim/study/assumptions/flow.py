@@ -35,7 +35,7 @@ def released(plan: Plan) -> Iterator[tuple[str, str]]:
     """(topic, what is assumed) of each source, and of the loops of cards."""
     sources = [source for source in plan.sources if source.kind != INSIDE]
     for source in sources:
-        said = _said(plan, source)
+        said = _released_how(plan, source)
         if said:
             yield "release", said if len(sources) == 1 else f"{source.name}: {said}"
     for card in plan.cards:
@@ -46,7 +46,7 @@ def released(plan: Plan) -> Iterator[tuple[str, str]]:
         yield "cards", f"{card.name}: at most {card.n} jobs{whose} at once; a job gives its card back {end}, in no time"
 
 
-def _said(plan: Plan, source: SourcePlan) -> str:
+def _released_how(plan: Plan, source: SourcePlan) -> str:
     if source.kind in _HOW:
         rate = f"jobs come {_HOW[source.kind]}, one every {source.every_s:g} s on average; none come in lots"
         several = f"{source.at_once} jobs come at once {_HOW[source.kind]}, every {source.every_s:g} s on average"
@@ -67,7 +67,15 @@ def _said(plan: Plan, source: SourcePlan) -> str:
 def station_model(plan: Plan) -> Iterator[Line]:
     """(topic, what is assumed) of all of them, most weighty first."""
     yield from _absent(plan)
-    for part in (_setups, _queues, _rooms, _assembly, _batches, _quality, _tools):
+    for part in (
+        assumed_setups,
+        assumed_queues,
+        assumed_buffers,
+        assumed_assembly,
+        assumed_batches,
+        assumed_quality,
+        assumed_tools,
+    ):
         yield from part(plan)
 
 
@@ -89,7 +97,7 @@ def _absent(plan: Plan) -> Iterator[Line]:
         yield "stations", (f"no {named}{rework}" if named else rework)
 
 
-def _setups(plan: Plan) -> Iterator[Line]:
+def assumed_setups(plan: Plan) -> Iterator[Line]:
     if plan.setups:
         alone = [plan.stations[one.station].name for one in plan.setups if not one.attended]
         who = f"; at {listed(alone)} without a worker" if alone else ""
@@ -100,7 +108,7 @@ def _setups(plan: Plan) -> Iterator[Line]:
         )
 
 
-def _queues(plan: Plan) -> Iterator[Line]:
+def assumed_queues(plan: Plan) -> Iterator[Line]:
     for rule in dict.fromkeys(queue.rule for queue in plan.queues if queue.rule != FIFO):
         where = listed([plan.stations[queue.station].name for queue in plan.queues if queue.rule == rule])
         yield "sequence", f"{where}: waiting jobs go by {rule.replace('_', ' ')}, higher priorities before it"
@@ -120,7 +128,7 @@ def _queues(plan: Plan) -> Iterator[Line]:
         yield "sequence", f"{listed(dated)}: orders are due when their file says, counted from the start{instead}"
 
 
-def _rooms(plan: Plan) -> Iterator[Line]:
+def assumed_buffers(plan: Plan) -> Iterator[Line]:
     first = [place.name for place in plan.stations if place.place_first]
     if first:
         yield "blocking", f"{listed(first)}: a job is begun only when its place downstream is kept for it"
@@ -129,7 +137,7 @@ def _rooms(plan: Plan) -> Iterator[Line]:
         yield "buffers", f"unlimited in {listed(stores)}"
 
 
-def _assembly(plan: Plan) -> Iterator[Line]:
+def assumed_assembly(plan: Plan) -> Iterator[Line]:
     if plan.kits:
         where = listed(sorted({plan.stations[kit.station].name for kit in plan.kits}))
         yield (
@@ -143,7 +151,7 @@ def _assembly(plan: Plan) -> Iterator[Line]:
         yield "lots", f"{listed(lots)}: a lot moves as one, and is good or bad as one"
 
 
-def _batches(plan: Plan) -> Iterator[Line]:
+def assumed_batches(plan: Plan) -> Iterator[Line]:
     for batch in plan.batches:
         name = plan.stations[batch.station].name
         wait = (
@@ -152,7 +160,7 @@ def _batches(plan: Plan) -> Iterator[Line]:
         yield "batches", f"{name}: {batch.size} jobs at once, {wait}; the time is that of one, however many there are"
 
 
-def _quality(plan: Plan) -> Iterator[Line]:
+def assumed_quality(plan: Plan) -> Iterator[Line]:
     for one in plan.quality:
         name = plan.stations[one.station].name
         if one.yield_share < 1:
@@ -173,7 +181,7 @@ def _quality(plan: Plan) -> Iterator[Line]:
         yield "quality", "throughput counts good jobs only: one that leaves with a defect nobody found is not in it"
 
 
-def _tools(plan: Plan) -> Iterator[Line]:
+def assumed_tools(plan: Plan) -> Iterator[Line]:
     if plan.tools:
         yield "tools", "a tool is where it is needed at once; jobs take all they need together, the first that can"
     if any(task.needs for task in plan.tasks):
