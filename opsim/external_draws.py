@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from opsim.performance import Drawn, OfBlock
-from opsim.plan.workers import EFFECTS, NO_EFFECTS, HumanPlan, parameters
 from opsim.problems import did_you_mean, natural_key, shown
 from opsim.streams import BLOCK, Items, stream
+from opsim.subjects.human.plan import EFFECTS, NO_EFFECTS, HumanPlan, parameters
 from opsim.threads import one_blas_thread
 from opsim.worker_effects import worker_effect
 
@@ -197,8 +197,8 @@ def _not_here(where: str, effect: str) -> str:
 def _read(where: str, words: dict[str, Any]) -> HumanPlan:
     from pydantic import ValidationError
 
-    from opsim.human.catalogue import made
-    from opsim.scenario.schema.human import Human
+    from opsim.subjects.human.catalogue import made
+    from opsim.subjects.human.words import Human
 
     wrong = [_not_here(where, effect) for effect in NEEDS_A_FLOOR if words.pop(effect, None) is not None]
     try:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from opsim.external_draws import OwnLuck
-from opsim.laws import BrokenLog
+from opsim.laws.audit import BrokenLog
 from opsim.log import CAUSES, IDLE, KINDS, NAMED, ORDER, WAIT, WORK, EventLog, LogWriter, event_log, row
 from opsim.performance import Performance
 from opsim.problems import natural_key

@@ -35,9 +35,9 @@ from opsim.external_draws import OwnLuck, human_of
 from opsim.external_log import WorkerLog
 from opsim.libraries import library_tasks, load_library
 from opsim.performance import Performance
-from opsim.plan.workers import HumanPlan
 from opsim.problems import did_you_mean, natural_key, shown
 from opsim.shipped import shipped_folder
+from opsim.subjects.human.plan import HumanPlan
 from opsim.task_model import BODY_KEYS, BODY_RANGES
 from opsim.worker_effects import ACROSS_TASKS
 

@@ -29,8 +29,8 @@ from opsim.engine.shared_resources import SharedParts, SharedResources, SharedTo
 from opsim.log import BAD, FINISH, JOIN, LOST, SCRAP, SPLIT, EventLog, names_of
 from opsim.plan import Plan
 from opsim.plan.plan import until
-from opsim.plan.sources import BASE_STOCK
 from opsim.problems import did_you_mean, shown
+from opsim.subjects.release.plan import BASE_STOCK
 
 WHAT = {FINISH: "finished", SCRAP: "scrapped", JOIN: "joined", SPLIT: "split", LOST: "lost"}
 """What may become of a job, by the kind of its last row; or ``INSIDE``."""

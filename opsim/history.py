@@ -22,12 +22,12 @@ from weakref import ref
 import numpy as np
 
 from opsim.clock import TICKS_PER_S, ticks
-from opsim.human.fatigue import Tired, tired
-from opsim.human.forgetting import Memory, experience_of, first_times
-from opsim.human.muscle_fatigue import Burdens
 from opsim.log import ABSENT, OFF, REPAIR, SETUP, WALK, WORK, WORKER_KINDS, EventLog
 from opsim.plan import Plan
 from opsim.streams import BLOCK, stream
+from opsim.subjects.human.fatigue import Tired, tired
+from opsim.subjects.human.forgetting import Memory, experience_of, first_times
+from opsim.subjects.human.muscle_fatigue import Burdens
 from opsim.threads import one_blas_thread
 
 

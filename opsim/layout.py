@@ -76,7 +76,7 @@ def _as_the_crow_flies(points: tuple[Point, ...], distance: str) -> Matrix:
 
 def road_distances_m(layout: Layout, roads: list) -> Matrix:
     """(P, P) metres between the places of a layout along given roads only (inf: none leads)."""
-    from opsim.scenario.schema.layout import steps_of
+    from opsim.subjects.transport.words import steps_of
 
     return _along(layout.places, steps_of(roads)).distance_m
 

@@ -15,6 +15,9 @@ from pathlib import PurePath
 
 _DIGITS = re.compile(r"(\d+)")
 
+Assumption = tuple[str, str]
+"""A line of the assumption sheet: (topic, what is assumed)."""
+
 
 @lru_cache(maxsize=8192)
 def natural_key(name: str) -> tuple:

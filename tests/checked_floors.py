@@ -8,14 +8,14 @@ from random import Random
 import numpy as np
 from made.floors import FOLDER, text_of
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
 from opsim.kpi.deadlock import locked
-from opsim.laws import CHECKS, audit
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import COLUMNS, EventLog
 from opsim.plan import Plan, compile_plan
+from opsim.plan.warnings import risks_of
 from opsim.scenario.read import Loaded, scenarios_in
-from opsim.scenario.warnings import risks_of
 
 LOCKS = re.compile(r"nothing moves any more|for ever|never fills|cannot be finished")
 """What ``opsim check`` says of a floor that may lock itself."""

@@ -26,7 +26,7 @@ import numpy as np  # noqa: E402 - the path comes first where this is the progra
 from checked_floors import plan_of  # noqa: E402
 from engine_evidence.floors import N_FLOORS, floor_text, replication_of  # noqa: E402
 
-from opsim.engine.floor import run_plan  # noqa: E402
+from opsim.engine.floor.run import run_plan  # noqa: E402
 from opsim.log import EventLog  # noqa: E402
 from opsim.plan import compile_plan  # noqa: E402
 from opsim.scenario.read import scenarios_in  # noqa: E402

@@ -4,9 +4,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from opsim.plan import Plan, compile_plan
-from opsim.plan.workers import NO_EFFECTS
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder
+from opsim.subjects.human.plan import NO_EFFECTS
 
 NEUTRAL = """
 human:

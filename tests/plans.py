@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import EventLog
 from opsim.plan import Plan, compile_plan
 from opsim.problems import ScenarioError

@@ -11,7 +11,7 @@ from contests import stays_on
 from made.floors import text_of
 
 from opsim import log as kinds
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import EventLog
 from opsim.plan import Plan
 

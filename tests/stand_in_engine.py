@@ -5,7 +5,7 @@ import sys
 from dataclasses import replace
 from types import ModuleType
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 NAME = "opsim.engine.fast_engine"
 

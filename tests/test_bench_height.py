@@ -4,7 +4,7 @@ import functools
 
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios

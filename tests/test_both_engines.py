@@ -6,7 +6,7 @@ import pytest
 from both_engines import DIFFERENT, EQUAL, REFUSED, doubled
 from plans import line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 LINE = plan(line(2, 1, horizon="600 s", warm_up="0 s"))
 

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.history import practice
 from opsim.log import FINISH
 from opsim.plan import compile_plan

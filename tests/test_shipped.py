@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from opsim.engine.floor import run_plan
-from opsim.laws import CHECKS, audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import CHECKS, audit
 from opsim.libraries import load_library
 from opsim.log import FINISH
-from opsim.plan import compile_plan, station_loads
+from opsim.plan import compile_plan
+from opsim.plan.loads import station_loads
 from opsim.scenario import read_scenarios
 from opsim.shipped import shipped_folder, shipped_scenarios
 

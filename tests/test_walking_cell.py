@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.walking import walk_again
 from opsim.history import walks_of
 from opsim.kpi import figures

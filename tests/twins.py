@@ -4,7 +4,7 @@ from engine_evidence.rows import first_difference
 from plans import plan
 
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.floor import run_plan as run_simpy
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.log import EventLog
 from opsim.plan import Plan
 

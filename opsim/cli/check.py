@@ -56,10 +56,9 @@ def _checked(loaded: dict[str, Any]) -> tuple[dict[str, Any], dict[str, list[str
     """By variant: the loads of everything, what may go wrong, and the effects that loads know nothing of."""
     from opsim.plan import compile_plan
     from opsim.plan.loads import loads_of, overloads
-    from opsim.plan.model_warnings import stretched, unmoved_bodies, unread, unseen, wide_joins
-    from opsim.plan.sources import late_orders
-    from opsim.plan.warnings import hour_risks
-    from opsim.scenario.warnings import risks_of
+    from opsim.plan.warnings import hour_risks, risks_of
+    from opsim.subjects.release.plan import late_orders
+    from opsim.subjects.tasks.warnings import stretched, unmoved_bodies, unread, unseen, wide_joins
 
     loads, warnings, without = {}, {}, {}
     for name, variant in loaded.items():
@@ -130,8 +129,8 @@ def print_loads(variant: str, loads: Any, without: str = "") -> None:
 
 def left_out(plan: Plan) -> str:
     """Effects on people that are on and that mean times know nothing of; nothing where none is."""
-    from opsim.plan.workers import EFFECTS
     from opsim.report.numbers import listing
+    from opsim.subjects.human.plan import EFFECTS
 
     names = {"rest": "rest by need", "state_pace": "state-dependent pace", "circadian": "the time of day"}
     on = [names.get(effect, effect) for effect in EFFECTS if getattr(plan.human, effect) is not None]

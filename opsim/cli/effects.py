@@ -23,7 +23,7 @@ def command(effect: str | None, as_json: bool) -> None:
     human: {learning: {model: wright, rate: 0.85}, forgetting: {model: lfcm}}
     """
     from opsim.cli.app import print_json
-    from opsim.human.catalogue import EFFECTS, catalogue
+    from opsim.subjects.human.catalogue import EFFECTS, catalogue
 
     if effect is not None and effect not in EFFECTS:
         raise _unknown(effect, EFFECTS)
@@ -45,7 +45,7 @@ def _unknown(effect: str, known: tuple[str, ...]) -> Exception:
 
 def _print_all(found: list[Any]) -> None:
     from opsim.cli.app import print_table
-    from opsim.human.catalogue import parameters_written
+    from opsim.subjects.human.catalogue import parameters_written
 
     rows = [(one.effect, one.model, one.does, parameters_written(one)) for one in found]
     print_table("human effects", ("effect", "model", "what it does", "parameters with defaults"), rows, words=4)
@@ -57,7 +57,7 @@ def _print_all(found: list[Any]) -> None:
 
 def _print_one(found: list[Any]) -> None:
     from opsim.cli.app import print_table
-    from opsim.human.catalogue import as_written, name_written
+    from opsim.subjects.human.catalogue import as_written, name_written
 
     columns = ("parameter", "what it is", "unit", "default", "no effect at")
     for one in found:

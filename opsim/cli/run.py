@@ -247,7 +247,7 @@ def _run(name: str, loaded: Loaded, folder: Path, how: dict[str, Any], said: set
 def failures(kept: str) -> Iterator[None]:
     """What is neither the user's mistake nor to be met with a traceback. Set OPSIM_TRACEBACK=1 to see where."""
     from opsim.engine.endless import EndlessInstant
-    from opsim.laws import BrokenLog
+    from opsim.laws.audit import BrokenLog
     from opsim.pool import ProcessLost
 
     try:

@@ -134,7 +134,7 @@ def runner_of(choice: Choice) -> Run:
     if choice.engine == FAST:
         from opsim.engine.fast_engine import run_plan
     else:
-        from opsim.engine.floor import run_plan
+        from opsim.engine.floor.run import run_plan
     return run_plan
 
 

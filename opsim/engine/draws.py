@@ -7,9 +7,9 @@ from itertools import accumulate
 import numpy as np
 
 from opsim.plan import Plan
-from opsim.plan.sources import ANY, order_of
-from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, Scattered
+from opsim.subjects.release.plan import ANY, order_of
+from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.task_model import TaskModel, seconds_of
 from opsim.threads import one_blas_thread
 

@@ -19,16 +19,16 @@ from opsim.clock import TICKS_PER_S
 from opsim.engine.floor.build import Build
 from opsim.engine.floor.event_list import new_event
 from opsim.engine.floor.flow import new_job
-from opsim.engine.floor.human_state import level
 from opsim.engine.floor.machine import STRUCTS
-from opsim.engine.floor.routing import want_in
 from opsim.engine.floor.run import AFTER_EVERYTHING, run_until
 from opsim.engine.floor.settle import close
-from opsim.engine.floor.worker import human_drawn, stops, works
 from opsim.engine.rules import ARRIVAL
 from opsim.log import ORDER, EventLog, LogWriter, pack_row, row
 from opsim.plan import Plan
-from opsim.plan.sources import INSIDE, SCHEDULE
+from opsim.subjects.human.human_state import level
+from opsim.subjects.people.worker import human_drawn, stops, works
+from opsim.subjects.release.plan import INSIDE, SCHEDULE
+from opsim.subjects.routes.routing import want_in
 
 FIRST, APART = 2**40, 2**32
 """Jobs that are asked for have numbers of their own in their source: the draws of all other jobs stay as they are."""

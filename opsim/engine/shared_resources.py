@@ -12,8 +12,8 @@ from typing import Any
 import simpy
 
 from opsim.engine import rules
-from opsim.engine.floor.assembly import waited_for
 from opsim.engine.floor.event_list import wake
+from opsim.subjects.material.assembly import waited_for
 
 
 class SharedTool:

@@ -7,7 +7,7 @@ _HOMES = {
     "CANONICAL": "opsim.ergonomics.angles",
     "Exposure": "opsim.ergonomics.trunk",
     "Frames": "opsim.ergonomics.shift.frames",
-    "Handling": "opsim.plan.tasks",
+    "Handling": "opsim.subjects.tasks.plan",
     "Movement": "opsim.ergonomics.shift.movement",
     "NeckAngles": "opsim.ergonomics.angles",
     "Options": "opsim.ergonomics.options",

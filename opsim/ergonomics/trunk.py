@@ -20,9 +20,9 @@ from opsim.ergonomics.angles import TRUNK_JOINTS, trunk_flexion_rad
 from opsim.ergonomics.redraw import Pieces, drawn_again, pieces_in_window
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plan.tasks import TaskPlan
 from opsim.plugins.guard import PluginError, blamed
 from opsim.streams import BLOCK
+from opsim.subjects.tasks.plan import TaskPlan
 from opsim.threads import one_blas_thread
 
 RATE_HZ = 10.0

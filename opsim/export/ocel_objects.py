@@ -26,7 +26,7 @@ from opsim.export.tables import FIRST, RunClock
 from opsim.log import CREATE, JOIN, KINDS, TRANSPORT, WORKER_KINDS, EventLog
 from opsim.log import TOOL as HOLDS_TOOL
 from opsim.plan import Plan
-from opsim.plan.stations import STATION
+from opsim.subjects.stations.plan import STATION
 
 WORKER, ORDER, TOOL, VEHICLE = "worker", "order", "tool", "vehicle"
 """Types of objects; beside them the kinds of ``StationPlan`` (station, store, conveyor), and ``job PRODUCT``."""

@@ -23,8 +23,8 @@ import numpy as np
 from scipy.special import digamma, gammainc, gammaln, log_ndtr, ndtr, polygamma
 
 from opsim.streams import stream
+from opsim.subjects.tasks.distributions import balanced_probability, weibull_shape
 from opsim.tasks import Erlang, Exponential, Gamma, Hyperexponential, Lognormal, Normal, Weibull
-from opsim.tasks.distributions import balanced_probability, weibull_shape
 
 __all__ = ["Fitted", "between_share", "fitted"]
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from opsim.kpi.catalogue import Figure, figure
-from opsim.kpi.resources import outage_rows
 from opsim.kpi.window import (
     by_rank,
     changes,
@@ -38,6 +37,7 @@ from opsim.log import (
     EventLog,
 )
 from opsim.plan import Plan
+from opsim.subjects.breakdowns.figures import outage_rows
 
 
 @dataclass(frozen=True, slots=True)

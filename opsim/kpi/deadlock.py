@@ -31,8 +31,8 @@ from opsim.kpi.material_supply import (
 from opsim.kpi.wait_graph import Inside, Pool, Way, circles, inside_at_end, next_steps, pools_of, wanted
 from opsim.log import BATCH, BLOCKED, HELD, NO_PARTS, NO_WORKER, QUEUE, STOCK, TRANSPORT, EventLog
 from opsim.plan import Plan
-from opsim.plan.stations import CONVEYOR, STORE
-from opsim.plan.stores import jobs_on_a_server
+from opsim.subjects.material.plan import jobs_on_a_server
+from opsim.subjects.stations.plan import CONVEYOR, STORE
 
 Waits = dict[str, tuple[Way, ...]]
 END = -1

@@ -34,10 +34,18 @@ from opsim.external_draws import OwnLuck
 from opsim.external_log import WorkerLog
 from opsim.external_worker import Worker
 from opsim.kpi.catalogue import EXPOSURE, SCORED, Figure
-from opsim.kpi.exposure import ASKING, LEVEL_KPIS, bounds_of_level, exposure_levels, mean_score, measured_share, minutes
 from opsim.log import EventLog
 from opsim.performance import Performance
 from opsim.problems import did_you_mean, shown
+from opsim.subjects.exposure.figures import (
+    ASKING,
+    LEVEL_KPIS,
+    bounds_of_level,
+    exposure_levels,
+    mean_score,
+    measured_share,
+    minutes,
+)
 
 Lucks = dict[str, OwnLuck]
 EXPECTED = "a WorkerLog, a list of Performance, or an EventLog with workers=[...]"

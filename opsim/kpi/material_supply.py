@@ -12,9 +12,9 @@ import numpy as np
 
 from opsim.kpi.wait_graph import Inside, Pool, Way
 from opsim.log import BATCH, JOB_KINDS, QUEUE, EventLog
-from opsim.plan import Plan, SourcePlan
-from opsim.plan.sources import BASE_STOCK, INSIDE, SCHEDULE
-from opsim.plan.stores import BatchPlan
+from opsim.plan import Plan
+from opsim.subjects.release.plan import BASE_STOCK, INSIDE, SCHEDULE, SourcePlan
+from opsim.subjects.stations.plan import BatchPlan
 
 TO_FILL = "its batch to fill"
 

@@ -16,14 +16,14 @@ import numpy as np
 
 from opsim import log as kinds
 from opsim.kpi.catalogue import Figure, figure
-from opsim.kpi.lines import possible as why_it_can_stand
-from opsim.kpi.resources import Stretches, outage_rows, outages_of, stops_of
 from opsim.kpi.window import by_rank, changes, closed_hours, inside_s, mean, open_time_s, window_length_s
 from opsim.log import BLOCKED, BREAK, HELD, QUEUE, SETUP, STANDS, WAIT, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.calendar import Spans, either, without
-from opsim.plan.stations import STATION
-from opsim.plan.stores import jobs_on_a_server
+from opsim.subjects.breakdowns.figures import Stretches, outage_rows, outages_of, stops_of
+from opsim.subjects.lines.figures import possible as why_it_can_stand
+from opsim.subjects.material.plan import jobs_on_a_server
+from opsim.subjects.shifts.plan import Spans, either, without
+from opsim.subjects.stations.plan import STATION
 
 STATE_WORK, STATE_WALK, STATE_IDLE = "work", "walk", "wait"
 BY_KIND = {

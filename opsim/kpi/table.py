@@ -6,10 +6,6 @@ import numpy as np
 
 from opsim.kpi.catalogue import POSTURE, TRIPS, Figure
 from opsim.kpi.cycle_times import cycle_times, durations, oee, task_durations, work_by_visit
-from opsim.kpi.exposure import exposure
-from opsim.kpi.lines import crews, lines, quality
-from opsim.kpi.posture import trunk_flexion
-from opsim.kpi.resources import conveyors, outages, stops, stores, tools, transporters
 from opsim.kpi.states import active_time, bottleneck, station_states, worker_states
 from opsim.kpi.throughput import (
     due_dates,
@@ -21,10 +17,20 @@ from opsim.kpi.throughput import (
     times_in_system,
     work_in_progress,
 )
-from opsim.kpi.workers import duty, fatigue, interruptions, learned, trips, walked
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of
+from opsim.subjects.breakdowns.figures import outages, stops
+from opsim.subjects.exposure.figures import exposure
+from opsim.subjects.exposure.trunk_figures import trunk_flexion
+from opsim.subjects.human.figures import fatigue, learned
+from opsim.subjects.lines.figures import crews, lines
+from opsim.subjects.material.figures import stores
+from opsim.subjects.people.figures import trips, walked
+from opsim.subjects.quality.figures import quality
+from opsim.subjects.shifts.figures import duty, interruptions
+from opsim.subjects.tools.figures import tools
+from opsim.subjects.transport.figures import conveyors, transporters
 
 _FUNCTIONS = (
     throughput,

@@ -29,11 +29,12 @@ from opsim.kpi.window import (
     window_length_s,
 )
 from opsim.log import BAD, CREATE, FINISH, LEAVING_KINDS, LOST, EventLog
-from opsim.plan import Plan, station_loads
-from opsim.plan.calendar import Spans, total_s
+from opsim.plan import Plan
 from opsim.plan.compile import finishes
-from opsim.plan.hours import has_hours, scheduled
-from opsim.plan.sources import due_of
+from opsim.plan.loads import station_loads
+from opsim.subjects.release.plan import due_of
+from opsim.subjects.shifts.hours import has_hours, scheduled
+from opsim.subjects.shifts.plan import Spans, total_s
 
 
 def throughput(log: EventLog, plan: Plan) -> Iterator[Figure]:
@@ -162,7 +163,7 @@ def takt(log: EventLog, plan: Plan) -> Iterator[Figure]:
 
     Demand is what the sources release by time or by order, in the whole run; where only the floor decides (saturated
     sources, a base stock) these figures are absent. Where hours are kept, both count the hours for which the floor is
-    scheduled to be open (``opsim.plan.hours``): they are what there is to meet the demand in, and a gap
+    scheduled to be open (``opsim.subjects.shifts.hours``): they are what there is to meet the demand in, and a gap
     between two jobs is the open time between them. What leaves outside of these hours, in overtime or after closing,
     follows no rhythm: it is not counted. The job before may have left ahead of the window.
     Source: Rother & Shook 1999, Learning to See, Lean Enterprise Institute (takt time).

@@ -40,8 +40,8 @@ from opsim.log import (
 )
 from opsim.plan import Plan
 from opsim.plan.compile import has_card
-from opsim.plan.stations import CONVEYOR, STATION, STORE
-from opsim.plan.stores import jobs_on_a_server
+from opsim.subjects.material.plan import jobs_on_a_server
+from opsim.subjects.stations.plan import CONVEYOR, STATION, STORE
 
 Way = tuple[tuple[str, int], ...]
 """(pool, units) of all that is wanted together."""

@@ -15,8 +15,8 @@ import numpy as np
 from opsim.kpi.catalogue import Figure, figure
 from opsim.log import CREATE, EventLog
 from opsim.plan import Plan
-from opsim.plan.calendar import Spans, at_least, both, total_s, without
-from opsim.plan.hours import scheduled
+from opsim.subjects.shifts.hours import scheduled
+from opsim.subjects.shifts.plan import Spans, at_least, both, total_s, without
 
 SECONDS_PER_HOUR = 3600.0
 QUANTILES = {"p10": 0.1, "median": 0.5, "p90": 0.9, "p95": 0.95}
@@ -119,3 +119,11 @@ def elapsed_s(spans: Spans, at_s: np.ndarray) -> np.ndarray:
     edges_s = np.ravel(np.array(spans).reshape(-1, 2))
     until_s = np.cumsum(np.diff(edges_s, prepend=edges_s[:1]) * (np.arange(edges_s.size) % 2))
     return np.interp(at_s, edges_s, until_s) if edges_s.size else np.zeros(np.shape(at_s))
+
+
+def any_s(log: EventLog, plan: Plan, rows: np.ndarray) -> float:
+    """Seconds of the window in which any of some rows is open."""
+    order = rows[np.argsort(log["start_s"][rows], kind="stable")]
+    start_s, end_s = (np.clip(log[edge][order], *plan.window_s) for edge in ("start_s", "end_s"))
+    covered_s = np.maximum.accumulate(np.r_[plan.window_s[0], end_s])[:-1]
+    return float(np.maximum(end_s - np.maximum(start_s, covered_s), 0.0).sum())

@@ -3,15 +3,29 @@
 from collections.abc import Callable, Iterator
 from itertools import chain
 
-from opsim.laws.capacity import away, one_outage_at_a_time, rooms, shared
-from opsim.laws.effects import pace, rests, shifts
-from opsim.laws.hours import closed, duty
-from opsim.laws.jobs import Stays, conserved, heights, integral, one_state, places, progress, tiled
+from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
 from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of
+from opsim.subjects.breakdowns.figures import one_outage_at_a_time, repair_teams_in_use
+from opsim.subjects.human.figures import pace, rests, shifts
+from opsim.subjects.material.figures import cards_in_use
+from opsim.subjects.shifts.laws import away, closed, duty
+from opsim.subjects.stations.figures import rooms
+from opsim.subjects.tasks.figures import heights
+from opsim.subjects.tools.figures import tools_in_use
+from opsim.subjects.transport.figures import vehicles_in_use
 
 Law = Callable[[EventLog, Plan, Stays], Iterator[str]]
+
+
+def shared(log: EventLog, plan: Plan, stays: Stays) -> Iterator[str]:
+    """Everything that several ask for and only so many can have."""
+    yield from tools_in_use(log, plan)
+    yield from repair_teams_in_use(log, plan)
+    yield from vehicles_in_use(log, plan)
+    yield from cards_in_use(plan, stays)
+
 
 LAWS: dict[str, Law] = {
     "every job created is finished, scrapped, joined, split, lost or inside": conserved,

@@ -12,18 +12,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from opsim.layout import distances_m
-from opsim.plan.calendar import plan_shifts
-from opsim.plan.lines import plan_crews, plan_lines, plan_shares
 from opsim.plan.plan import Plan
-from opsim.plan.products import ProductPlan, plan_products, plan_quality, with_detours
-from opsim.plan.resources import plan_breakdowns, plan_maintenance, plan_repair_teams, plan_transporters, repair_tasks
-from opsim.plan.sequence import has_priorities, looks_ahead, plan_queues, work_ahead
-from opsim.plan.sources import plan_sources
-from opsim.plan.stations import STORE, plan_conveyors, plan_stations
-from opsim.plan.stores import CardPlan, plan_assembly, plan_cards
+from opsim.plan.ranks import ranks_of
 from opsim.plan.subjects import plan_subjects
-from opsim.plan.tasks import plan_ergonomics, plan_setups, plan_tasks, plan_tools, ranks_of
-from opsim.plan.workers import plan_human, plan_rotations, plan_walking, plan_workers
+from opsim.subjects.breakdowns.plan import plan_breakdowns, plan_maintenance, plan_repair_teams, repair_tasks
+from opsim.subjects.exposure.plan import plan_ergonomics
+from opsim.subjects.human.plan import plan_human
+from opsim.subjects.lines.plan import plan_crews, plan_lines, plan_shares
+from opsim.subjects.material.plan import CardPlan, plan_assembly, plan_cards
+from opsim.subjects.people.plan import plan_rotations, plan_walking, plan_workers
+from opsim.subjects.quality.plan import plan_quality, with_detours
+from opsim.subjects.release.plan import plan_sources
+from opsim.subjects.routes.plan import ProductPlan, plan_products
+from opsim.subjects.sequencing.plan import (
+    has_priorities,
+    looks_ahead,
+    plan_queues,
+    plan_setups,
+    setup_tasks,
+    work_ahead,
+)
+from opsim.subjects.shifts.plan import plan_shifts
+from opsim.subjects.stations.plan import STORE, plan_stations
+from opsim.subjects.tasks.plan import plan_tasks
+from opsim.subjects.tools.plan import plan_tools
+from opsim.subjects.transport.plan import plan_conveyors, plan_transporters
 
 
 def compile_plan(loaded, *, seed: int | None = None) -> Plan:
@@ -34,7 +47,7 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         return task_model(task, loaded)
 
     scenario = loaded.scenario
-    tasks = plan_tasks(scenario, model_of, repair_tasks(scenario, model_of))
+    tasks = plan_tasks(scenario, model_of, setup_tasks(scenario), repair_tasks(scenario, model_of))
     ranks = ranks_of(scenario, (task.name for task in tasks))
     stations, distance_m = plan_stations(scenario, ranks), distances_m(scenario.layout)
     products = with_detours(scenario, ranks, plan_products(scenario, ranks.stations))

@@ -9,18 +9,22 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from opsim.ergonomics.options import USUAL, Options
-from opsim.plan.calendar import OPEN, Duty, ShiftPlan
-from opsim.plan.lines import CrewPlan, LinePlan, SharePlan
-from opsim.plan.products import ProductPlan, QualityPlan
-from opsim.plan.resources import BreakdownPlan, MaintenancePlan, RepairTeamPlan, TransporterPlan
-from opsim.plan.sequence import SHORTEST_QUEUE, QueuePlan, WorkAhead
-from opsim.plan.sources import SourcePlan
-from opsim.plan.stations import ConveyorPlan, StationPlan
-from opsim.plan.stores import BatchPlan, CardPlan, KitPlan, SplitPlan, StorePlan
 from opsim.plan.subjects import SubjectPlan
-from opsim.plan.tasks import SetupPlan, TaskPlan, ToolPlan
-from opsim.plan.workers import NO_EFFECTS, HumanPlan, RotationPlan, WalkingPlan, WorkerPlan
 from opsim.problems import natural_key
+from opsim.subjects.breakdowns.plan import BreakdownPlan, MaintenancePlan, RepairTeamPlan
+from opsim.subjects.human.plan import NO_EFFECTS, HumanPlan
+from opsim.subjects.lines.plan import CrewPlan, LinePlan, SharePlan
+from opsim.subjects.material.plan import CardPlan, KitPlan, SplitPlan, StorePlan
+from opsim.subjects.people.plan import RotationPlan, WalkingPlan, WorkerPlan
+from opsim.subjects.quality.plan import QualityPlan
+from opsim.subjects.release.plan import SourcePlan
+from opsim.subjects.routes.plan import ProductPlan
+from opsim.subjects.sequencing.plan import SHORTEST_QUEUE, QueuePlan, SetupPlan, WorkAhead
+from opsim.subjects.shifts.plan import OPEN, Duty, ShiftPlan
+from opsim.subjects.stations.plan import BatchPlan, StationPlan
+from opsim.subjects.tasks.plan import TaskPlan
+from opsim.subjects.tools.plan import ToolPlan
+from opsim.subjects.transport.plan import ConveyorPlan, TransporterPlan
 
 FIXED_WORKFORCE = 0
 """The number of the people who work in every replication, where staffing is fixed."""

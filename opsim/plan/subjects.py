@@ -54,7 +54,7 @@ def _task(key: str, name: str, task: Any) -> Any:
 
     from opsim.plugins.guard import blamed, fault
     from opsim.plugins.registry import plugins
-    from opsim.scenario.schema.tasks import Task
+    from opsim.subjects.tasks.kinds import Task
 
     found = plugins(GROUP).found(key)
     if ":" not in name:

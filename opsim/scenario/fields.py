@@ -280,3 +280,50 @@ def _check_length(kind: str, text: object, length: str) -> None:
     except units.UnitError as error:
         hint = f"; {error.hint}" if error.hint else ""
         raise ValueError(f"{kind} {shown(text)}: {error.message}{hint}") from None
+
+
+_FRACTION = re.compile(r"\s*([0-9]{1,9})\s*/\s*([1-9][0-9]{0,8})\s*")
+
+
+def _probability(value: object) -> float:
+    fraction = _FRACTION.fullmatch(value) if isinstance(value, str) else None
+    if fraction is not None:
+        value = int(fraction[1]) / int(fraction[2])
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise plain_error(f"expected a probability, found {shown(value)}", of_per_cent(value) or "such as 0.3 or 1/3")
+    if not 0 <= value <= 1:
+        raise plain_error(f"a probability lies between 0 and 1, found {shown(value)}", _as_share(value))
+    return float(value)
+
+
+def _as_share(value: float) -> str:
+    """What was probably meant: per cent, or an example."""
+    return f"if it is per cent, write {value / 100:g}" if 1.5 < value <= 100 else "such as 0.3 or 1/3"
+
+
+Probability = Annotated[
+    float,
+    BeforeValidator(_probability),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "number", "minimum": 0, "maximum": 1},
+                {"type": "string", "pattern": r"^\s*[0-9]+\s*/\s*[1-9][0-9]*\s*$"},
+            ],
+            "description": "a probability, such as 0.3 or 1/3",
+        }
+    ),
+]
+
+
+MOST_PIECES = 10_000
+"""Pieces of one part in a product, units in a lot, jobs in a batch."""
+
+
+def unlimited(value: object) -> object:
+    """None for 'unlimited'; other text is refused."""
+    if isinstance(value, str):
+        if value != "unlimited":
+            raise plain_error(f"expected a whole number or unlimited, found {shown(value)}")
+        return None
+    return value

@@ -15,13 +15,13 @@ from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario import templates
 from opsim.scenario.fields import of_per_cent
 from opsim.scenario.schema import TASK_KINDS, Block, Path, Place, Scenario, Step
-from opsim.scenario.schema.hands import BY_PRODUCT, HEIGHT, LAYERS, Layers
-from opsim.scenario.schema.human_models import MODEL_TAGS
 from opsim.scenario.schema.subjects import scenario_model
-from opsim.scenario.schema.tasks import CYCLE_KINDS, SO_MANY
-from opsim.scenario.schema.workers import RATING, SKILL, Skill
 from opsim.scenario.tree import Node, Part, child, dotted, problem
 from opsim.scenario.yaml import scalar
+from opsim.subjects.breakdowns.words import CYCLE_KINDS, SO_MANY
+from opsim.subjects.human.effect_blocks import MODEL_TAGS
+from opsim.subjects.people.words import RATING, SKILL, Skill
+from opsim.subjects.tasks.words import BY_PRODUCT, HEIGHT, LAYERS, Layers
 
 _IN_RUN = {"seed": "run.seed", "horizon": "run.horizon", "warm_up": "run.warm_up"}
 _BUY_BACK = {key: f"buy_back.{key}" for key in ("like", "most_workers", "most_skills")}

@@ -12,16 +12,16 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
-from opsim.scenario.checks import check_problems
+from opsim.scenario.checks.table import check_problems
 from opsim.scenario.messages import schema_problems
 from opsim.scenario.schema import Scenario
 from opsim.scenario.schema.subjects import scenario_model, subject_problems
 from opsim.scenario.templates import with_includes, without_likes
 from opsim.scenario.tree import Node, problem, written_paths
 from opsim.scenario.variants import applied, changes_node, variants
-from opsim.scenario.workforce import with_ratings, with_workforce, without_workforce
 from opsim.scenario.yaml import Budget, read_bytes, read_tree
 from opsim.shipped import find_scenario
+from opsim.subjects.people.workforce import with_ratings, with_workforce, without_workforce
 from opsim.threads import without_collecting
 
 T = TypeVar("T")

@@ -17,10 +17,10 @@ from opsim.scenario.fields import is_name, not_a_name
 from opsim.scenario.paths import DEFAULTS, Spot, nearest_path, stands, step, top, words
 from opsim.scenario.schema import Scenario
 from opsim.scenario.schema.subjects import scenario_model
-from opsim.scenario.schema.workers import MOST_WORKERS, Worker
 from opsim.scenario.templates import SECTIONS, WORKFORCE
 from opsim.scenario.tree import Node, Place, Source, child, entries, items, problem, text
 from opsim.scenario.yaml import Budget
+from opsim.subjects.people.words import MOST_WORKERS, Worker
 
 
 def applied(root: Node, override: Node, at: tuple[str, ...] = ()) -> tuple[Node, list[Problem]]:

@@ -210,7 +210,7 @@ def run_one(
     engine: Choice = REFERENCE,
 ) -> Replicated:
     """One replication: run, audited, written; or read, where its file is there already and is the one asked for."""
-    from opsim.laws import audit
+    from opsim.laws.audit import audit
     from opsim.log_parquet import write_events
 
     path = events_file(folder, replication)

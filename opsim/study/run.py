@@ -17,7 +17,7 @@ from opsim.engine.choice import SIMPY, Choice
 from opsim.kpi.catalogue import read_asked
 from opsim.plan import Plan, compile_plan
 from opsim.results import Result, lacking_rows, read_object
-from opsim.study.assumptions.sheet import Asked
+from opsim.study.assumptions import Asked
 from opsim.study.engine_choice import Chosen, compiled_for, engine_of
 from opsim.study.intervals import FEWEST, MOST, Precision, replicate_until
 from opsim.study.replication import Once, Progress, Replicated, missing, replicate, together

@@ -12,13 +12,11 @@ import numpy as np
 from opsim import __version__
 from opsim.kpi.catalogue import headline, needs_postures
 from opsim.kpi.window import open_hours
-from opsim.laws import checks_of
+from opsim.laws.audit import checks_of
 from opsim.log_parquet import name_list, parquet_file
 from opsim.plan import Plan
-from opsim.plan.hours import floor_has_hours
 from opsim.results import Key
-from opsim.study.assumptions.human import walking_source
-from opsim.study.assumptions.sheet import (
+from opsim.study.assumptions import (
     NOTHING_ASKED,
     Asked,
     Assumption,
@@ -29,9 +27,12 @@ from opsim.study.assumptions.sheet import (
 )
 from opsim.study.intervals import CONFIDENCE, Reached, t_interval
 from opsim.study.replication import Replicated
+from opsim.subjects.human.assumptions import walking_source
+from opsim.subjects.shifts.hours import floor_has_hours
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
+
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)
 MOST_BINS = 40

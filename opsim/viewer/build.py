@@ -17,8 +17,8 @@ import numpy as np
 from opsim.layout import ways as ways_of_layout
 from opsim.log import BLOCKED, DOWN, HELD, OFF, QUEUE, REPAIR, SETUP, STOCK, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.stations import STATION, STORE
 from opsim.study.run import Reopened
+from opsim.subjects.stations.plan import STATION, STORE
 from opsim.task_model import behind
 from opsim.viewer.floor import floor_of, roads_of
 from opsim.viewer.playback import FAR_M, with_walking

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from opsim.plan import Plan
-from opsim.plan.stations import CONVEYOR, STATION, STORE
+from opsim.subjects.stations.plan import CONVEYOR, STATION, STORE
 from opsim.viewer.scene import NONE, Belt, Bench, Pile
 
 Point = tuple[float, float]

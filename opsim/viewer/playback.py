@@ -16,8 +16,8 @@ from opsim.ergonomics.walking import drawable, drawn_walks, walk_again
 from opsim.history import walks_of
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plan.workers import WalkingPlan
 from opsim.streams import BLOCK
+from opsim.subjects.people.plan import WalkingPlan
 from opsim.threads import one_blas_thread
 from opsim.viewer.scene import Drawn, Performed
 from opsim.viewer.skeletons import path_of

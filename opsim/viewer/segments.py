@@ -18,7 +18,7 @@ from opsim.history import Whereabouts, walk_rows, walks_of, whereabouts
 from opsim.kpi.states import STATES, states_of_rows
 from opsim.log import IDLE, PICKUP, REPAIR, SETUP, STANDS, TRANSPORT, WALK, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.lines import LinePlan
+from opsim.subjects.lines.plan import LinePlan
 from opsim.viewer.floor import Floor, Point, drawn_as
 from opsim.viewer.playback import Collected, Played, Walked, played, travels_m, walked
 from opsim.viewer.routes import Doing, Routes, Spots, WayList, length_m, placed, spots_of

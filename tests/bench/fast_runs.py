@@ -127,7 +127,7 @@ def _prepared(engine: str, text: str):
     if engine == "fast":
         from opsim.engine.fast_engine import run_plan
     else:
-        from opsim.engine.floor import run_plan
+        from opsim.engine.floor.run import run_plan
     made = _plan(text)
     return lambda number: (number, int(count_nonzero(run_plan(made, number)["kind"] == FINISH)))
 

@@ -5,7 +5,7 @@ import time
 import pytest
 from plans import line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import WORK
 
 ROUNDS, TARGET = 5, 1.2

@@ -10,7 +10,7 @@ import tracemalloc
 
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.export.ocel import object_log, write_ocel_json, write_ocel_sqlite
 from opsim.export.tables import RunClock
 from opsim.plan import compile_plan

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bench.cpu import best_s
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics import trunk_exposure
 from opsim.ergonomics.shift.day import fold
 from opsim.ergonomics.shift.ledger import Booking
@@ -19,7 +19,7 @@ from opsim.kpi.window import inside_s
 from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
-from opsim.study.assumptions.sheet import _has_body
+from opsim.study.assumptions import _has_body
 
 MOST_S_PER_1000, FASTER_THAN_WORK, MOST_MB, MOST_TIMES = 0.2, 10_000, 64, 12
 DAY_AND_NIGHT_S = 24 * 3600.0

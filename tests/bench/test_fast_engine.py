@@ -19,7 +19,7 @@ from opsim.engine.fast_engine import run_plan as run_fast
 from opsim.engine.fast_engine.numbers import NAMED
 from opsim.engine.fast_engine.run import machine_of
 from opsim.engine.fast_engine.streams.of_plan import BlockDraws
-from opsim.engine.floor import run_plan as run_simpy
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.plan import Plan, compile_plan
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder

@@ -7,11 +7,11 @@ import pytest
 from bench.cpu import best_s
 from human_plans import LINE, planned, shipped
 
-from opsim.engine.floor import run_plan
-from opsim.human.fatigue import Lffrm
-from opsim.human.muscle_fatigue import Burdens, ThreeCompartment
+from opsim.engine.floor.run import run_plan
 from opsim.log import COLUMNS
-from opsim.plan.workers import NO_EFFECTS, HumanPlan
+from opsim.subjects.human.fatigue import Lffrm
+from opsim.subjects.human.muscle_fatigue import Burdens, ThreeCompartment
+from opsim.subjects.human.plan import NO_EFFECTS, HumanPlan
 
 MOST_MORE = 0.30
 MOST_BURDEN_MS = 100.0

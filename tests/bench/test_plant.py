@@ -4,7 +4,7 @@ import pytest
 from bench.cpu import best_s
 from plans import line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 N_STATIONS, N_WORKERS, N_SKILLS = 50, 30, 4
 LEAST = 0.6

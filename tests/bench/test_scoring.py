@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from bench.cpu import best_s
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.measures import measures_of, n_cells
 from opsim.ergonomics.shift.day import fold
 from opsim.ergonomics.shift.ledger import Booking

@@ -13,7 +13,7 @@ from engine_evidence.floors import floor_text, replication_of
 from engine_evidence.rows import first_difference
 from engine_evidence.ties import contested_ties
 
-from opsim.engine.floor import run_plan as run_simpy
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.plan import Plan, compile_plan
 
 REPLICATIONS = (0, 1)

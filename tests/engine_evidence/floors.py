@@ -31,7 +31,7 @@ from made.floors import text_of
 from made.lines import line_scenario
 from made.people_blocks import ALWAYS, PEOPLE, people_floor_with
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import FINISH
 from opsim.plan import Plan
 from opsim.problems import ScenarioError

@@ -153,7 +153,7 @@ def _of_both(number: int, plan: Any, replication: int, log: Any, faulty: Any) ->
 def _run(plan: Any, replication: int) -> tuple[Any, str]:
     """The log by SimPy's driver, looked at; and what goes wrong, in words."""
     from opsim import audit
-    from opsim.engine.floor import run_plan
+    from opsim.engine.floor.run import run_plan
 
     try:
         log = run_plan(plan, replication)

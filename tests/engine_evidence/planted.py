@@ -20,13 +20,15 @@ from typing import Any
 
 from pytest import MonkeyPatch
 
+import opsim
+from opsim.engine.fast_engine.lowering import written
 from opsim.engine.fast_engine.machine import code_cache, table
 from opsim.engine.fast_engine.machine.code_cache import source_of
 from opsim.engine.fast_engine.machine.compiler import Module
 from opsim.engine.fast_engine.run import built
 from opsim.plan import Plan
 
-FAST, SIMPY = "opsim.engine.fast_engine", "opsim.engine.floor"
+FAST, SIMPY = "opsim.engine.fast_engine", "SimPy"
 
 
 def plant(place: str, old: str, new: str) -> Callable:
@@ -70,13 +72,19 @@ def is_sanitized() -> bool:
 def _with_words(package: str, place: str, old: str, new: str) -> tuple[Any, Any, str]:
     """The module of a ``file.name`` in a package, its function, and the text of it with other words."""
     module_name, _, name = place.rpartition(".")
-    module = import_module(f"{package}.{module_name}")
+    module = import_module(f"{FAST}.{module_name}" if package == FAST else _in_python(module_name))
     function = _written(getattr(module, name)) if package == FAST else getattr(module, name)
     lines = textwrap.dedent(inspect.getsource(function)).splitlines(keepends=True)
     text = "".join(lines[_line_of(function) - function.__code__.co_firstlineno :])
     if text.count(old) != 1:
         raise ValueError(f"{place} has {text.count(old)} times {old!r}: the fault has to be written anew")
     return module, function, text.replace(old, new)
+
+
+def _in_python(rule: str) -> str:
+    """The module in which a rule is written, by its name alone."""
+    path = written()[rule].relative_to(Path(opsim.__file__).parents[1])
+    return ".".join(path.with_suffix("").parts)
 
 
 def _line_of(function: Any) -> int:

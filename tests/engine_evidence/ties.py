@@ -10,7 +10,7 @@ from opsim import log as kinds
 from opsim.engine.rules import BY_DUE_DATE
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plan.workers import WorkerPlan
+from opsim.subjects.people.plan import WorkerPlan
 
 BY_TIME = {"poisson", "renewal", "schedule"}
 WAITS = (kinds.QUEUE, kinds.HELD, kinds.BLOCKED)

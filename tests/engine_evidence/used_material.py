@@ -7,8 +7,8 @@ from itertools import pairwise
 from math import isfinite
 
 from opsim.plan import Plan
-from opsim.plan.sources import ANY
-from opsim.plan.stations import STORE
+from opsim.subjects.release.plan import ANY
+from opsim.subjects.stations.plan import STORE
 
 MATERIAL_WORDS = (
     *(f"source: {kind}" for kind in ("saturated", "poisson", "renewal", "schedule", "base_stock", "inside")),

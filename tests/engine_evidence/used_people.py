@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from engine_evidence.used_times import used_tasks
 
 from opsim.engine.rules import ALLOCATION_RULES, INTERRUPTION_RULES, ROTATION_RULES
-from opsim.human.catalogue import catalogue
 from opsim.plan import Plan
+from opsim.subjects.human.catalogue import catalogue
 
 PRIORITIES = {
     (): "none",

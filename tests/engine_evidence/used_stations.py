@@ -10,8 +10,8 @@ from engine_evidence.used_material import reached
 
 from opsim.engine.rules import SEQUENCING_RULES
 from opsim.plan import Plan
-from opsim.plan.products import NOWHERE
-from opsim.plan.stations import STATION, StationPlan
+from opsim.subjects.quality.plan import NOWHERE
+from opsim.subjects.stations.plan import STATION, StationPlan
 
 STATION_WORDS = (
     *("station: servers", "station: unlimited buffer", "station: no buffer", "station: buffer_after"),

@@ -9,8 +9,8 @@ from engine_evidence.used_material import reached
 
 from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.plan import Plan
-from opsim.plan.tasks import TaskPlan
 from opsim.scenario.schema import DISTRIBUTIONS
+from opsim.subjects.tasks.plan import TaskPlan
 
 LAWS = ("Fixed", *(kind.__name__ for kind in DISTRIBUTIONS.values()))
 FROM_FILES = ("recorded, resampled", "recorded, trace", "emulated", "motions")

@@ -14,11 +14,11 @@ from known_answers.case import HERE
 from recordings import reference
 
 from opsim.engine.choice import SIMPY, able_to, runner_of
-from opsim.kpi.lines import HandOvers, hand_overs
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import FINISH
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
+from opsim.subjects.lines.figures import HandOvers, hand_overs
 
 WORK_S = 36_000.0
 VELOCITIES = {"three": "[1, 2, 3]", "two": "[1, 1.5]", "four": "[0.8, 1, 1.2, 1.5]"}

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from opsim.kpi.lines import lines
 from opsim.log import ABSENT, BLOCKED, CREATE, DOWN, FINISH, JOB_KINDS, QUEUE, REPAIR, STOCK, EventLog
 from opsim.plan import Plan
+from opsim.subjects.lines.figures import lines
 
 
 def machines_down(log: EventLog, plan: Plan) -> float:

@@ -11,7 +11,7 @@ from known_answers.from_log import FROM_LOG
 
 from opsim.engine.choice import SIMPY, Run, able_to, runner_of
 from opsim.kpi import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.plan import Plan, compile_plan
 from opsim.scenario import read_scenarios
 

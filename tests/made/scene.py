@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 from plans import loaded as loaded_text
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.shipped import find_scenario

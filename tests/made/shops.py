@@ -1,7 +1,7 @@
 """Small shops whose orders come at given times, for tests of the sequence of work."""
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import KINDS
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in

@@ -7,7 +7,7 @@ import numpy as np
 
 from emulator.skeleton import standard_skeleton
 from opsim.ergonomics.angles import CANONICAL
-from opsim.plan.workers import WalkingPlan
+from opsim.subjects.people.plan import WalkingPlan
 from tests.opsim.ergonomics.made_work import leaning
 
 SKELETON = standard_skeleton()

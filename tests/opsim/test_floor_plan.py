@@ -21,8 +21,8 @@ from opsim.external_worker import library_model
 from opsim.history import NOWHERE, unaccounted, whereabouts
 from opsim.layout import distances_m, given_out, reached, reverse, rings, turns_away, ways
 from opsim.log import EventLog
-from opsim.plan.workers import Body
 from opsim.scenario.schema import Layout
+from opsim.subjects.people.plan import Body
 from opsim.task_model import BODY_KEYS, BODY_RANGES, keys_read
 from opsim.tasks import Fixed, Lognormal, switched
 
@@ -276,7 +276,7 @@ def test_a_floor_without_workers_has_nothing_to_account_for():
 
 @pytest.mark.parametrize("variant", ["base", "flu"])
 def test_every_second_of_everybody_in_the_shipped_plant_is_accounted_for(variant):
-    from opsim.engine.floor import run_plan
+    from opsim.engine.floor.run import run_plan
     from opsim.plan import compile_plan
     from opsim.scenario import read_scenarios
 

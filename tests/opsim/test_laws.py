@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan, queue
 
-from opsim.engine.floor import run_plan
-from opsim.laws import CHECKS, BrokenLog, audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import CHECKS, BrokenLog, audit
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, QUEUE, WAIT, WALK, WORK, EventLog
 
 

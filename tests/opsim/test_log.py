@@ -16,11 +16,11 @@ from opsim import read_events as read_events_of_worker_log
 from opsim import write_events as write_events_of_worker_log
 from opsim.clock import on_grid
 from opsim.csv_input import RecordedError, read_times, resolve_times
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.external_log import CHECKS, audit_work
 from opsim.files import write_text
 from opsim.history import FATES, job_pieces, on_grid_each, walks_of
-from opsim.laws import BrokenLog
+from opsim.laws.audit import BrokenLog
 from opsim.log import COLUMNS, NAMED, ORDER, SETUP, WAIT, WALK, WORK, EventLog, event_log, row
 from opsim.log_parquet import connect, one_database, read_events, write_events
 from opsim.plan import compile_plan

@@ -9,9 +9,9 @@ import simpy
 
 from opsim import Worker, exposure_of, run_plan
 from opsim.kpi.catalogue import SCORED
-from opsim.kpi.exposure import exposure
 from opsim.log import WORK
-from opsim.plan.workers import HumanPlan
+from opsim.subjects.exposure.figures import exposure
+from opsim.subjects.human.plan import HumanPlan
 from opsim.tasks import Fixed, Lognormal
 from tests.plans import plan
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.history import own_rows, practice
 
 FORGETFUL = """

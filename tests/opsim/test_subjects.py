@@ -11,16 +11,16 @@ from plans import answer, loaded, plan, ran
 from opsim.cli import main
 from opsim.engine.choice import NotFast, able_to
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
 from opsim.kpi.catalogue import CATALOGUE
-from opsim.laws import CHECKS, BrokenLog, audit
+from opsim.laws.audit import CHECKS, BrokenLog, audit
 from opsim.log import SETUP, WORK
 from opsim.plugins import PluginError
 from opsim.plugins.subjects import installed, subjects_of
 from opsim.scenario.json_schema import json_schema
 from opsim.scenario.schema.subjects import scenario_model
-from opsim.study.assumptions.sheet import assumptions_of, task_sources
+from opsim.study.assumptions import assumptions_of, task_sources
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "opsim_example_plugin"
 OURS = dict(CATALOGUE)

@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 
 from opsim.external_draws import human_of
 from opsim.files import NotInside, inside
-from opsim.human.fatigue import Lffrm, RestByNeed
-from opsim.plan.workers import NO_EFFECTS, HumanPlan
 from opsim.problems import MOST_SHOWN, Problem, ScenarioError, did_you_mean, natural_key, nearest, nearest_file, shown
+from opsim.subjects.human.fatigue import Lffrm, RestByNeed
+from opsim.subjects.human.plan import NO_EFFECTS, HumanPlan
 from opsim.units import UNITS, UnitError, parse, written
 
 

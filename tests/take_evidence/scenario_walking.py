@@ -18,7 +18,7 @@ Line = tuple[str, str, bool]
 
 def evidence(motion: Path, out: Path) -> Iterator[Line]:
     """(claim, found, holds); pictures of a walk of each worker go into ``out``."""
-    from opsim.engine.floor import run_plan
+    from opsim.engine.floor.run import run_plan
     from opsim.plan import compile_plan
     from opsim.scenario import read_scenarios
 
@@ -33,7 +33,7 @@ def evidence(motion: Path, out: Path) -> Iterator[Line]:
 
 
 def _rows(plan: Any, logs: list[Any]) -> Iterator[Line]:
-    from opsim.engine.floor import run_plan
+    from opsim.engine.floor.run import run_plan
 
     without = [run_plan(replace(plan, walking=None), log.replication) for log in logs]
     same = all(
@@ -136,7 +136,7 @@ def _feet(plan: Any, log: Any, out: Path) -> Iterator[Line]:
 
 
 def _cost(plan: Any) -> Iterator[Line]:
-    from opsim.engine.floor import run_plan
+    from opsim.engine.floor.run import run_plan
     from opsim.kpi import figures
     from opsim.kpi.catalogue import POSTURE
 

@@ -161,7 +161,7 @@ def _loaded_in(block: Any, n: int, cells: int, loaded: Any, mark_names: tuple[st
     """Of each draw, in which of its parts hands may be full; None where nobody said when."""
 
     from opsim.ergonomics.shift.day import hands_full
-    from opsim.plan.tasks import Handling
+    from opsim.subjects.exposure.plan import Handling
 
     if loaded is None:
         return [None] * n

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from opsim.plan.tasks import FORCES, FOREARMS, GRIPS, LEGS
+from opsim.subjects.exposure.plan import FORCES, FOREARMS, GRIPS, LEGS
 
 EXAMPLE = "such as 'grasp..1.0', from a mark or a share of the movement to a later one"
 Said = str | float
@@ -38,7 +38,7 @@ class LoadedTime:
 
     def moments(self, mark_names: Sequence[str]) -> tuple[Any, Any]:
         """Both as ``plan.tools.Moment``. Raises ValueError for another name."""
-        from opsim.plan.tasks import moment_of
+        from opsim.subjects.tools.plan import moment_of
 
         names = tuple(mark_names)
         return moment_of(self.start, names), moment_of(self.end, names)
@@ -117,7 +117,7 @@ class Asked:
 def asked_of(given: Mapping[str, Any]) -> tuple[Asked, list[str]]:
     """What the command line's words mean, and what is wrong with them, each with its option and the nearest word."""
     from opsim.ergonomics.options import USUAL
-    from opsim.plan.tasks import NOT_SAID
+    from opsim.subjects.exposure.plan import NOT_SAID
 
     wrong: list[str] = []
     handling = _handling(given, wrong)
@@ -140,8 +140,8 @@ def wrong_out(out: Path | None, source: str) -> list[str]:
 
 
 def _handling(given: Mapping[str, Any], wrong: list[str]) -> Any:
-    from opsim.plan.tasks import Handling
     from opsim.scenario.fields import MOST_LOAD_KG
+    from opsim.subjects.exposure.plan import Handling
 
     said: dict[str, Any] = {name: _word(name, given[name], known, wrong) for name, known in HANDS.items()}
     for name in FLAGS:

@@ -1,4 +1,4 @@
-"""Models of human effects, compiled as ``opsim.human`` has them; and what Python is asked about bodies in a run.
+"""Models of human effects, compiled as ``subjects.human`` has them; and what Python is asked about bodies in a run.
 
 How heavy tasks are on people, and how fast they gather dose, is looked at when it is asked for, as in the reference
 engine: by draws of task models, which are Python's.
@@ -22,11 +22,11 @@ from opsim.engine.fast_engine.machine.expressions import METHODS
 from opsim.engine.fast_engine.machine.intrinsics import call_floats
 from opsim.engine.fast_engine.machine.structs import LAYOUTS
 from opsim.engine.fast_engine.state import Station, Worker
-from opsim.human.catalogue import catalogue
-from opsim.human.fatigue import Lffrm, piece
-from opsim.human.learning import Curve, DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
-from opsim.human.muscle_fatigue import JOINTS, PARTS, ThreeCompartment
-from opsim.plan.workers import EFFECTS
+from opsim.subjects.human.catalogue import catalogue
+from opsim.subjects.human.fatigue import Lffrm, piece
+from opsim.subjects.human.learning import Curve, DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
+from opsim.subjects.human.muscle_fatigue import JOINTS, PARTS, ThreeCompartment
+from opsim.subjects.human.plan import EFFECTS
 
 CURVES: tuple[Any, ...] = (Wright, Plateau, DeJong, StanfordB, Hyperbolic, DualPhase)
 """By their numbers, ``model.kind``."""
@@ -127,7 +127,7 @@ class Bodies:
             self._forget()
 
     def _forget(self) -> None:
-        from opsim.human.muscle_fatigue import Burdens
+        from opsim.subjects.human.muscle_fatigue import Burdens
 
         self.heaviness[:] = self.rates[:] = np.nan
         self.courses[:] = UNKNOWN

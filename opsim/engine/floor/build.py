@@ -6,42 +6,30 @@ from collections.abc import Callable
 from math import nan
 from typing import Any
 
-from opsim.engine.floor import (
-    allocation,
-    assembly,
-    batches,
-    bucket_brigades,
-    buffers,
-    calendar,
-    cards,
-    conveyors,
-    failures,
-    flow,
-    human_effects,
-    indexed_and_moving_lines,
-    interruption,
-    levels,
-    quality,
-    rotations,
-    sequencing,
-    settle,
-    setups,
-    sources,
-    stores,
-    tools,
-    transporters,
-    work_sharing,
-)
+from opsim.engine.floor import flow, settle
 from opsim.engine.floor.floor_state import FIRST_ROTATION
 from opsim.engine.floor.keys import have_room, use_rule
 from opsim.engine.floor.machine import Arena, Handle, Step, line_of, step_of
-from opsim.engine.floor.sources import BY_FLOOR, BY_ORDER, BY_TIME
 from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.log import IDLE, IS_DOWN, WAIT
 from opsim.plan import Plan
-from opsim.plan.calendar import OPEN
-from opsim.plan.sources import POISSON, RENEWAL, SATURATED, SCHEDULE
 from opsim.plugins.subjects import subjects_of
+from opsim.subjects.breakdowns import failures
+from opsim.subjects.human import human_effects
+from opsim.subjects.lines import bucket_brigades, indexed_and_moving_lines, work_sharing
+from opsim.subjects.material import assembly, cards, stores
+from opsim.subjects.people import allocation, rotations
+from opsim.subjects.quality import quality
+from opsim.subjects.release import sources
+from opsim.subjects.release.plan import POISSON, RENEWAL, SATURATED, SCHEDULE
+from opsim.subjects.release.sources import BY_FLOOR, BY_ORDER, BY_TIME
+from opsim.subjects.sequencing import sequencing, setups
+from opsim.subjects.shifts import calendar, interruption
+from opsim.subjects.shifts.plan import OPEN
+from opsim.subjects.stations import batches, buffers
+from opsim.subjects.tasks import levels
+from opsim.subjects.tools import tools
+from opsim.subjects.transport import conveyors, transporters
 
 BLOCKS: tuple[Callable[[Any], None], ...] = (
     *(levels.install, allocation.install_preferences, stores.install),

@@ -19,7 +19,10 @@ from opsim.engine.floor.machine import (
     inlined,
     step,
 )
-from opsim.engine.floor.routing import (
+from opsim.engine.floor.state import Ahead, Job, JobBlocks, Station, Worker
+from opsim.log import BAD, BLOCKED, CREATE, FINISH, GATE, HELD, QUEUE, TRANSPORT
+from opsim.subjects.people.worker import set_free, walk
+from opsim.subjects.routes.routing import (
     aim,
     first_step,
     give_up_claims,
@@ -31,10 +34,7 @@ from opsim.engine.floor.routing import (
     stir_gate,
     want_in,
 )
-from opsim.engine.floor.state import Ahead, Job, JobBlocks, Station, Worker
-from opsim.engine.floor.station import arrive, fill_servers, seat
-from opsim.engine.floor.worker import set_free, walk
-from opsim.log import BAD, BLOCKED, CREATE, FINISH, GATE, HELD, QUEUE, TRANSPORT
+from opsim.subjects.stations.station import arrive, fill_servers, seat
 
 _walks_to_carry = inlined(rules.walks_to_carry)
 

@@ -6,19 +6,19 @@ What happens to events, and one settle step an instant that does everything else
 from __future__ import annotations
 
 from opsim.engine.endless import MOST_ROUNDS
-from opsim.engine.floor.allocation import send_workers
-from opsim.engine.floor.buffers import admit, release_saturated, turn_away
 from opsim.engine.floor.event_list import forget_event, is_last_of_instant, wake
 from opsim.engine.floor.floor_state import ENDLESS, Floor
 from opsim.engine.floor.flow import operation_done, put_down
 from opsim.engine.floor.log_rows import flush_all, log_job, log_worker
 from opsim.engine.floor.machine import NOTHING, here, inlined, step
-from opsim.engine.floor.sources import open_source, source_happens
 from opsim.engine.floor.state import Event, Job, Worker
-from opsim.engine.floor.station import next_task, perform, proceed
-from opsim.engine.floor.worker import ended, hold, set_free, task_done
 from opsim.engine.rules import ARRIVAL
 from opsim.log import AFTER, BLOCKED, SETUP, TRANSPORT, WALK
+from opsim.subjects.people.allocation import send_workers
+from opsim.subjects.people.worker import ended, hold, set_free, task_done
+from opsim.subjects.release.sources import open_source, source_happens
+from opsim.subjects.stations.buffers import admit, release_saturated, turn_away
+from opsim.subjects.stations.station import next_task, perform, proceed
 
 
 @step

@@ -10,7 +10,7 @@ from numba import carray
 from opsim.ergonomics.kernels.compiled import called_from_c, compiled
 
 TRACKING_PER_S = 10.0
-"""As ``opsim.human.muscle_fatigue``; a test compares them."""
+"""As ``opsim.subjects.human.muscle_fatigue``; a test compares them."""
 
 
 @compiled(error_model="numpy", nogil=True)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from opsim.ergonomics.options import CHOICES, PAPER, Thresholds
 from opsim.ergonomics.scores.scoring import angles_checked, choice_checked
 from opsim.ergonomics.scores.tables import RULA_A, RULA_B, RULA_C, rula_force, rula_level
-from opsim.plan.tasks import FORCES
+from opsim.subjects.exposure.plan import FORCES
 
 
 @dataclass(frozen=True, slots=True)

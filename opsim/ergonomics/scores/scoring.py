@@ -30,8 +30,8 @@ from opsim.ergonomics.scores.tables import (
     reba_load,
     rula_force,
 )
-from opsim.plan.tasks import FORCES, GRIPS, NOT_SAID, Handling
 from opsim.problems import did_you_mean, shown
+from opsim.subjects.exposure.plan import FORCES, GRIPS, NOT_SAID, Handling
 
 Pair = tuple[int, int]
 EITHER: Pair = (0, 1)

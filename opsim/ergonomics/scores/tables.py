@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.plan.tasks import FORCES
 from opsim.problems import did_you_mean, shown
+from opsim.subjects.exposure.plan import FORCES
 
 
 def _table(text: str, *shape: int) -> np.ndarray:

@@ -42,8 +42,9 @@ from opsim.ergonomics.strain.static_holds import marked
 from opsim.ergonomics.trunk import named_by
 from opsim.log import WAIT, EventLog
 from opsim.plan import Plan
-from opsim.plan.tasks import Handling, Moment
 from opsim.streams import BLOCK
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.tools.plan import Moment
 from opsim.threads import one_blas_thread
 
 

@@ -16,11 +16,12 @@ from opsim.external_draws import OwnLuck
 from opsim.log import CAUSES, KINDS, NAMED, OFF, ORDER, WORK, WORKER_KINDS, EventLog, event_log, row
 from opsim.performance import Performance
 from opsim.plan import Plan
-from opsim.plan.tasks import NOT_SAID, Handling, TaskPlan
-from opsim.plan.workers import Body, WorkerPlan
 from opsim.problems import natural_key
+from opsim.subjects.exposure.plan import NOT_SAID, Handling
+from opsim.subjects.people.plan import Body, WorkerPlan
+from opsim.subjects.tasks.model import TimeModel
+from opsim.subjects.tasks.plan import TaskPlan
 from opsim.task_model import BODY_KEYS
-from opsim.tasks.model import TimeModel
 
 
 def natural(names: Iterable[str]) -> tuple[str, ...]:

@@ -22,8 +22,9 @@ from opsim.ergonomics.angles import ANGLES, AT, COLUMNS
 from opsim.ergonomics.redraw import Pieces
 from opsim.ergonomics.trunk import spread
 from opsim.log import EventLog
-from opsim.plan.tasks import FORCES, FOREARMS, GRIPS, LEGS, NOT_SAID, Handling, Moment, moment_of
 from opsim.problems import did_you_mean, shown
+from opsim.subjects.exposure.plan import FORCES, FOREARMS, GRIPS, LEGS, NOT_SAID, Handling
+from opsim.subjects.tools.plan import Moment, moment_of
 
 WALKING, WAITING = -1, -2
 """In place of a task: nobody performs one."""

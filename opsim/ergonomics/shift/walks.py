@@ -21,9 +21,9 @@ from opsim.ergonomics.walking import drawable, drawn_walks, said_by, stood_for
 from opsim.history import Walks, walk_rows, walks_of
 from opsim.log import TRANSPORT, EventLog
 from opsim.plan import Plan
-from opsim.plan.tasks import Handling
-from opsim.plan.workers import WalkingPlan
 from opsim.streams import BLOCK, stream
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.people.plan import WalkingPlan
 
 EMPTY_HANDS = "who walks has empty hands, but for the job of a product that is carried, held without a shock"
 """For the assumption sheet."""

@@ -9,13 +9,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from opsim.plan.calendar import total_s
-from opsim.plan.hours import floor_has_hours, scheduled
 from opsim.plan.loads.flows import Flows, flows_of, visits_of
 from opsim.plan.loads.people import Crew, SkillLoad, crew_load, skill_loads
 from opsim.plan.loads.utilisation import REPAIR_TEAM, SharedLoad, StationLoad, shared_loads, station_loads
 from opsim.plan.loads.work_times import WorkTimes
 from opsim.plan.plan import Plan
+from opsim.subjects.shifts.hours import floor_has_hours, scheduled
+from opsim.subjects.shifts.plan import total_s
 
 
 @dataclass(frozen=True, slots=True)

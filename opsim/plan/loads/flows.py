@@ -11,8 +11,9 @@ from math import inf
 from typing import NamedTuple
 
 from opsim.plan.plan import Plan
-from opsim.plan.products import NOWHERE, ProductPlan, QualityPlan
-from opsim.plan.sources import BASE_STOCK, SATURATED
+from opsim.subjects.quality.plan import NOWHERE, QualityPlan
+from opsim.subjects.release.plan import BASE_STOCK, SATURATED
+from opsim.subjects.routes.plan import ProductPlan
 
 MOST_REWORKS = 8
 """Reworks of a job that are told apart; where more are allowed there is no limit."""

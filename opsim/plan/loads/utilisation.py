@@ -15,8 +15,8 @@ from math import inf
 from opsim.plan.loads.flows import Flow, Flows, flows_of
 from opsim.plan.loads.work_times import WorkTimes, batch_size
 from opsim.plan.plan import Plan
-from opsim.plan.resources import BUSY, CLOCK, BreakdownPlan
-from opsim.plan.stations import CONVEYOR, STORE
+from opsim.subjects.breakdowns.plan import BUSY, CLOCK, BreakdownPlan
+from opsim.subjects.stations.plan import CONVEYOR, STORE
 
 
 def down_per_up(plan: Plan, stop: BreakdownPlan, visit_s: float) -> float:

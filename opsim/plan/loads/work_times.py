@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable
 from itertools import pairwise
 from statistics import fmean
 
-from opsim.plan.hours import Hours
-from opsim.plan.levels import for_product, performed_ranks
-from opsim.plan.lines import SharePlan
 from opsim.plan.loads.flows import Flow
 from opsim.plan.plan import Plan
-from opsim.plan.tasks import NO_SETUP, SetupPlan, TaskPlan
+from opsim.subjects.lines.plan import SharePlan
+from opsim.subjects.sequencing.plan import NO_SETUP, SetupPlan
+from opsim.subjects.shifts.hours import Hours
+from opsim.subjects.tasks.plan import TaskPlan, for_product, performed_ranks
 from opsim.task_model import keys_read
 
 LEAST_SETUP = "least_setup"

@@ -22,10 +22,10 @@ from opsim.ergonomics.scores.scoring import bounds_of
 from opsim.ergonomics.scores.tables import OWAS_LEVELS, REBA, RULA, Level
 from opsim.ergonomics.shift.movement import ALIKE_DEG, ScoredMovement, alike, movement_figures, worst_postures
 from opsim.files import write_text
-from opsim.plan.tasks import Handling
 from opsim.report.page import asset, need_matplotlib, template
 from opsim.report.plot.plotly import GRID, INK, MUTED
 from opsim.report.plot.posture import posture_svg, room_of, warm
+from opsim.subjects.exposure.plan import Handling
 
 WIDE_IN, SLIM_IN, PANEL_IN, ROW_IN = 10.6, 4.6, 0.95, 0.17
 """SLIM_IN is for telephones: labels stay as large as they are."""

@@ -21,11 +21,12 @@ from opsim.history import NOWHERE, on_grid_each, ways_m, whereabouts
 from opsim.kpi.parts import PART_NAMES
 from opsim.kpi.window import SECONDS_PER_HOUR, duty_hours, in_window, inside_s, open_hours, open_time_s, window_length_s
 from opsim.log import REPAIR, SETUP, WALK, WORK, EventLog
-from opsim.plan import Plan, ProductPlan
-from opsim.plan.calendar import either
-from opsim.plan.hours import floor_has_hours, scheduled
-from opsim.plan.stations import STATION
+from opsim.plan import Plan
 from opsim.report.numbers import is_number
+from opsim.subjects.routes.plan import ProductPlan
+from opsim.subjects.shifts.hours import floor_has_hours, scheduled
+from opsim.subjects.shifts.plan import either
+from opsim.subjects.stations.plan import STATION
 
 ENDS = ("mean", "low", "high", "half_width")
 LEAST_H = 1e-6

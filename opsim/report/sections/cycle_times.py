@@ -13,13 +13,13 @@ import numpy as np
 
 from opsim.kpi.window import in_window
 from opsim.log import LEAVING_KINDS
-from opsim.plan.stations import STORE
 from opsim.report.material import Material
 from opsim.report.numbers import digits, quantity, rough, scale_of
 from opsim.report.page import Block, Bullets, Chart, Folded, Grid, LegendEntry, Section, Words
 from opsim.report.plot.plotly import ACCENT, FONT, INK, label, layout_of
 from opsim.report.sections.common import worked_on
 from opsim.report.sections.wip import jobs_inside
+from opsim.subjects.stations.plan import STORE
 
 Row = Mapping[str, Any]
 TELLING = 20

@@ -12,7 +12,6 @@ from itertools import combinations
 from math import hypot, isfinite, sqrt
 from typing import TYPE_CHECKING, Any
 
-from opsim.plan.model_warnings import has_body
 from opsim.report.material import Material
 from opsim.report.numbers import digits, half_digits, listing
 from opsim.report.page import Section, Svg, Words
@@ -20,6 +19,7 @@ from opsim.report.plot.floor_plan import FOOT, FloorMap, around, floor_map, pict
 from opsim.report.plot.plotly import INK, MUTED
 from opsim.report.plot.svg_chart import Box, shared, shortened
 from opsim.report.sections.exposure_summary import FIVE, NOWHERE, PERHAPS, SEVEN, Bar, bars_by
+from opsim.subjects.tasks.warnings import has_body
 
 if TYPE_CHECKING:
     from opsim.plan import Plan

@@ -300,7 +300,7 @@ def limit_sentences(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
     rows : of the summary; at most ``MOST`` sentences of each kind, and how many more there would be
     """
-    from opsim.kpi.strain import energy_sentences, hold_sentences, lifting_sentences
+    from opsim.subjects.exposure.strain_figures import energy_sentences, hold_sentences, lifting_sentences
 
     figures = {(row["kpi"], row["subject"], row["part"]): float(row["mean"]) for row in rows if is_number(row["mean"])}
     kinds = [list(kind(figures)) for kind in (lifting_sentences, hold_sentences, energy_sentences)]

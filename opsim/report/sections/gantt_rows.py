@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from opsim.kpi.resources import outage_rows
 from opsim.kpi.states import STATES, states_of_rows
 from opsim.kpi.window import changes, closed_hours
 from opsim.log import BATCH, BLOCKED, CAUSES, DOWN, HELD, SETUP, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.calendar import both
+from opsim.subjects.breakdowns.figures import outage_rows
+from opsim.subjects.shifts.plan import both
 
 STATE_OF = {WORK: "work", SETUP: "setup", BLOCKED: "blocked", HELD: "held"}
 """Kinds of rows of a job that is on a server."""

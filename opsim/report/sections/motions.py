@@ -83,7 +83,7 @@ def _strip(material: Material, key: tuple[str, str], task: Task) -> bytes:
 def _drawn(loaded: Loaded, task: Task) -> bytes:
     from opsim.libraries import load_library, resolve_library
     from opsim.scenario.schema import Motions
-    from opsim.tasks.from_scenario import motions_model
+    from opsim.subjects.tasks.from_scenario import motions_model
 
     said = loaded.scenario.tasks[task["task"]]
     if isinstance(said, Motions):

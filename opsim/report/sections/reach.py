@@ -12,14 +12,14 @@ from opsim.ergonomics.angles import trunk_flexion_rad, upper_arm_angles
 from opsim.ergonomics.measures import has_body
 from opsim.ergonomics.redraw import luck_of
 from opsim.libraries import HandTarget
-from opsim.plan.levels import performed_tasks, task_said
 from opsim.problems import natural_key
 from opsim.report.material import Material
 from opsim.report.numbers import digits
 from opsim.report.page import Block, Grid, Panels, Section, Svg, Words
 from opsim.report.plot.posture import posture_svg, room_of
 from opsim.report.sections.exposure_summary import bars_by
-from opsim.tasks.from_scenario import hand_targets
+from opsim.subjects.tasks.from_scenario import hand_targets
+from opsim.subjects.tasks.plan import performed_tasks, task_said
 
 DEGREE = "\N{DEGREE SIGN}"
 N_SEEN = 16

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from opsim.plan.model_warnings import has_body
 from opsim.report.material import Material, Same
 from opsim.report.numbers import digits, is_number, scale_of
 from opsim.report.page import Block, Bullets, Grid, Panels, Section, Svg, Words
@@ -28,6 +27,7 @@ from opsim.results import Key, figures_of
 from opsim.study.intervals import CONFIDENCE, Interval, paired, t_interval
 from opsim.study.labour.budget import BETWEEN, LEFT, WITHIN, FigureBudget
 from opsim.study.results_folder import RESOLVED
+from opsim.subjects.tasks.warnings import has_body
 from opsim.task_model import log_variance, within_cv
 
 if TYPE_CHECKING:

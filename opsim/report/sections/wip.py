@@ -17,8 +17,6 @@ import numpy as np
 
 from opsim.log import CREATE, JOB_KINDS, LEAVING_KINDS, EventLog
 from opsim.plan import Plan
-from opsim.plan.sources import SATURATED
-from opsim.plan.stations import STORE
 from opsim.report.material import Material
 from opsim.report.numbers import clock, digits, listing, percent, three_digits
 from opsim.report.page import Block, Bullets, Chart, Section
@@ -26,6 +24,8 @@ from opsim.report.plot.plotly import ACCENT, FONT, GRID, INK, SHADE, at_ms, cloc
 from opsim.report.sections.common import flow_order
 from opsim.report.sections.summary import find, with_interval
 from opsim.report.sections.yamazumi import in_hover
+from opsim.subjects.release.plan import SATURATED
+from opsim.subjects.stations.plan import STORE
 
 
 @dataclass(frozen=True, eq=False)

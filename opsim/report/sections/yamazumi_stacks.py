@@ -16,12 +16,12 @@ from opsim.kpi.cycle_times import cycle_times
 from opsim.kpi.window import SECONDS_PER_HOUR, duty_hours, in_window, inside_s, is_in, open_hours
 from opsim.log import FINISH, SETUP, WALK, WORK, EventLog
 from opsim.plan import Plan
-from opsim.plan.levels import performed_ranks
 from opsim.plan.loads.flows import flows_of
 from opsim.report.material import Material
 from opsim.report.numbers import is_number, listing, three_digits
 from opsim.report.sections.common import worked_on
 from opsim.report.sections.summary import find, with_interval
+from opsim.subjects.tasks.plan import performed_ranks
 
 TAKT, LINE, PACE = "takt", "takt of the line", "pace"
 """What a station is held against: what demand asks, what its line moves by, or what the floor reached."""

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from opsim.csv_input import Mistake
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.schema.routing import OUT, START
 from opsim.scenario.tree import Node, Part, Place, Source, TreePath, child, entries, items, problem, text
+from opsim.subjects.routes.words import OUT, START
 
 POINTS = ("stations", "stores", "conveyors")
 

@@ -26,9 +26,10 @@ from opsim.kpi.catalogue import KPIS, AskedFigure, read_asked, subject_of
 from opsim.libraries import LibraryMissing, library_tasks, resolve_library
 from opsim.problems import Problem, did_you_mean, nearest, shown
 from opsim.scenario.checks.lookup import POINTS, emulators, in_the_file, releases, says_products, visited
-from opsim.scenario.checks.sequence import setup_times, stop_times
 from opsim.scenario.fields import Moved, read_any_moved, read_moved, to_sum_to_1
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
+from opsim.subjects.breakdowns.checks import stop_times
+from opsim.subjects.sequencing.checks import setup_times
 
 
 def addition_problems(tree: Node, base: Node) -> Iterator[Problem]:

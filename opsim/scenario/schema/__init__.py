@@ -1,6 +1,18 @@
 """What a scenario may say: one frozen model a block. The YAML key is the alias; the attribute carries the SI unit."""
 
-from opsim.scenario.schema.distributions import (
+from opsim.scenario.schema.run import Run
+from opsim.scenario.schema.scenario import BLOCKS, Scenario
+from opsim.scenario.tree import Block
+from opsim.subjects.breakdowns.words import Breakdown, GeometricCycles, Maintenance, RepairTeam, UniformCycles
+from opsim.subjects.lines.words import Crew
+from opsim.subjects.material.words import Card, Store
+from opsim.subjects.people.words import Allocation, Worker, Workforce
+from opsim.subjects.release.words import Release
+from opsim.subjects.routes.words import Product
+from opsim.subjects.sequencing.words import Flow, Setup
+from opsim.subjects.shifts.words import Shift
+from opsim.subjects.stations.words import Batch, Station
+from opsim.subjects.tasks.distribution_words import (
     Beta,
     Empirical,
     Erlang,
@@ -14,29 +26,9 @@ from opsim.scenario.schema.distributions import (
     Uniform,
     Weibull,
 )
-from opsim.scenario.schema.layout import Layout, Path, Place
-from opsim.scenario.schema.lines import Crew, Flow, Setup
-from opsim.scenario.schema.run import Run, Shift
-from opsim.scenario.schema.scenario import BLOCKS, Scenario
-from opsim.scenario.schema.sources import Card, Release
-from opsim.scenario.schema.stations import Batch, Product, Station, Store
-from opsim.scenario.schema.task_block import Emulated, Fixed, Plugged, Recorded, TaskBlock
-from opsim.scenario.schema.tasks import (
-    DISTRIBUTIONS,
-    KIND_KEYS,
-    TASK_KINDS,
-    Breakdown,
-    GeometricCycles,
-    Maintenance,
-    Motions,
-    RepairTeam,
-    Step,
-    Task,
-    UniformCycles,
-    Walking,
-)
-from opsim.scenario.schema.workers import Allocation, Worker, Workforce
-from opsim.scenario.tree import Block
+from opsim.subjects.tasks.kinds import DISTRIBUTIONS, KIND_KEYS, TASK_KINDS, Motions, Step, Task, Walking
+from opsim.subjects.tasks.words import Emulated, Fixed, Plugged, Recorded, TaskBlock
+from opsim.subjects.transport.words import Layout, Path, Place
 
 __all__ = [
     "BLOCKS",

@@ -9,18 +9,24 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from opsim.kpi.catalogue import KPIS, USUAL, read_asked
 from opsim.problems import did_you_mean, shown
 from opsim.scenario.fields import Name, plain_error
-from opsim.scenario.schema.human import Ergonomics, Human
-from opsim.scenario.schema.layout import Conveyor, Layout, Transporter
-from opsim.scenario.schema.lines import Crew, Flow, Line, Rotation
-from opsim.scenario.schema.run import Run, Shift
-from opsim.scenario.schema.sources import Card, Release
-from opsim.scenario.schema.stations import Product, Station, Store
+from opsim.scenario.schema.run import Run
 from opsim.scenario.schema.studies import Studies
 from opsim.scenario.schema.sweep import WayFigureText
-from opsim.scenario.schema.tasks import RepairTeam, Task, Walking
-from opsim.scenario.schema.tools import Tool
-from opsim.scenario.schema.workers import Allocation, SkillLevels, Worker, Workforce
 from opsim.scenario.tree import Block
+from opsim.subjects.breakdowns.words import RepairTeam
+from opsim.subjects.exposure.words import Ergonomics
+from opsim.subjects.human.words import Human
+from opsim.subjects.lines.words import Crew, Line
+from opsim.subjects.material.words import Card, Store
+from opsim.subjects.people.words import Allocation, Rotation, SkillLevels, Worker, Workforce
+from opsim.subjects.release.words import Release
+from opsim.subjects.routes.words import Product
+from opsim.subjects.sequencing.words import Flow
+from opsim.subjects.shifts.words import Shift
+from opsim.subjects.stations.words import Station
+from opsim.subjects.tasks.kinds import Task, Walking
+from opsim.subjects.tools.words import Tool
+from opsim.subjects.transport.words import Conveyor, Layout, Transporter
 
 
 def _known_output(value: object) -> object:

@@ -16,8 +16,8 @@ from opsim.plugins.subjects import STATION, Subject, installed
 from opsim.problems import Problem
 from opsim.scenario.fields import Name
 from opsim.scenario.schema.scenario import Scenario as OurScenario
-from opsim.scenario.schema.stations import Station as OurStation
 from opsim.scenario.tree import Node, child, problem
+from opsim.subjects.stations.words import Station as OurStation
 
 
 @cache

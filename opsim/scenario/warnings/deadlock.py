@@ -19,9 +19,8 @@ from itertools import chain, pairwise, permutations
 from math import gcd, inf
 
 from opsim.layout import reached, reverse, rings
-from opsim.problems import natural_key
+from opsim.problems import enumerated, natural_key
 from opsim.scenario.schema import Product, Scenario
-from opsim.scenario.schema.lines import Rotation
 from opsim.scenario.warnings.routes import (
     Ways,
     between,
@@ -29,12 +28,12 @@ from opsim.scenario.warnings.routes import (
     first_of,
     keeps_place,
     last_of,
-    listed,
     needs_card,
     points_of,
     way_of,
     ways,
 )
+from opsim.subjects.people.words import Rotation
 
 
 def held_risks(scenario: Scenario) -> Iterator[str]:
@@ -52,7 +51,7 @@ def held_risks(scenario: Scenario) -> Iterator[str]:
         near = _holders(name, people, ahead, stays, scenario)
         before = near or _holders(name, people, full, stays, scenario)
         if before and any(ahead & stays.get(one, set()) for one in people.keys() - {name}):
-            who, where = (listed(sorted(names, key=natural_key)) for names in (people[name], before))
+            who, where = (enumerated(sorted(names, key=natural_key)) for names in (people[name], before))
             who = f"those of {who} whose post it is" if _rotations(name, scenario) else who
             waits = f"{name} is full and" if name in full else f"work at {name}"
             yield (
@@ -305,8 +304,8 @@ def _rings_of_room(scenario: Scenario) -> Iterator[str]:
         if len(names) > 1:  # a job that comes back to its own station keeps its place there
             before = " (a place is kept before they begin)" if any(keeps_place(scenario, n) for n in names) else ""
             yield (
-                f"{listed(names)} send jobs round in a circle through buffers with limits{before}: when all are full, "
-                f"nothing moves any more; give one of them 'buffer: unlimited'"
+                f"{enumerated(names)} send jobs round in a circle through buffers with limits{before}: when all are "
+                f"full, nothing moves any more; give one of them 'buffer: unlimited'"
             )
 
 

@@ -1,75 +1,13 @@
-"""Risks of material: batches that never fill, products that are never made, never finished or pile up; keys that change
-nothing, of people and outputs too; distances that are likely slips.
-"""
+"""Products that are never made, never finished or pile up; keys that change nothing, of people and outputs too."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from itertools import combinations
-from math import dist, inf
-from statistics import median
+from collections.abc import Iterator
 
 from opsim.kpi.catalogue import EXPOSURE, POSTURE, WALKING
-from opsim.problems import natural_key
-from opsim.scenario.schema import Product, Release, Scenario, Station
-from opsim.scenario.warnings.routes import between, first_of, last_of, listed, points_of, way_of, ways
-
-
-def batch_risks(scenario: Scenario) -> Iterator[str]:
-    """Stations where jobs of each kind may all be one short of a batch, or that those on a server come back to."""
-    yield from _back_at_once(scenario)
-    for name in sorted(scenario.stations, key=natural_key):
-        station = scenario.stations[name]
-        if station.batch is None or station.batch.most_wait_s is not None:
-            continue
-        most = _kinds(name, station, scenario) * (station.batch.size - 1)
-        remedy = "give the batch a 'most_wait'"
-        if station.buffer is not None and station.buffer <= most and most >= station.batch.size:
-            yield (
-                f"{name} may fill up with jobs of different kinds, up to {most} of them, none of which is a batch of "
-                f"{station.batch.size}: then nothing moves any more; {remedy}, or more room"
-            )
-        for card in sorted(scenario.cards, key=natural_key):
-            if scenario.cards[card].n <= most and _inside(name, card, scenario):
-                yield (
-                    f"{scenario.cards[card].n} cards of {card} may all wait at {name} for a batch of "
-                    f"{station.batch.size} that never fills; {remedy}, or more cards"
-                )
-
-
-def _back_at_once(scenario: Scenario) -> Iterator[str]:
-    """Who shares a server cannot keep its place for the next visit: it needs one in the buffer."""
-    onward = ways(scenario)
-    for name in sorted(scenario.stations, key=natural_key):
-        station = scenario.stations[name]
-        shared = station.batch is not None or any(name in made.split for made in scenario.products.values())
-        if shared and station.buffer is not None and name in onward.get(name, ()):
-            yield (
-                f"jobs that share a server of {name} come back to it at once: when its buffer is full, nothing moves "
-                "any more; give it 'buffer: unlimited'"
-            )
-
-
-def _kinds(name: str, station: Station, scenario: Scenario) -> int:
-    """How many kinds of jobs come by that do not go together in a batch."""
-    assert station.batch is not None
-    passing = {product for product, made in scenario.products.items() if name in points_of(made)}
-    if station.batch.of == "family":
-        return len({scenario.products[product].family or product for product in passing})
-    return len(passing) if station.batch.of == "product" else 1
-
-
-def _inside(name: str, card: str, scenario: Scenario) -> bool:
-    """Whether every job that comes to a station holds a card of a loop."""
-    loop = scenario.cards[card]
-    passing = [product for product, made in scenario.products.items() if name in points_of(made)]
-    for product in passing:
-        made = scenario.products[product]
-        if loop.products is not None and product not in loop.products:
-            return False
-        if name not in between(way_of(made, scenario), loop.begin or first_of(made), loop.end or last_of(made)):
-            return False
-    return bool(passing)
+from opsim.problems import enumerated, natural_key
+from opsim.scenario.schema import Product, Release, Scenario
+from opsim.scenario.warnings.routes import last_of, points_of, ways
 
 
 def unfinished_risks(scenario: Scenario) -> Iterator[str]:
@@ -152,7 +90,7 @@ def _points(scenario: Scenario) -> Iterator[str]:
     sections = (scenario.stations, scenario.stores, scenario.conveyors)
     idle = sorted({name for section in sections for name in section} - come_by, key=natural_key)
     if idle:
-        yield f"no product comes to {listed(idle)}: nothing will happen there"
+        yield f"no product comes to {enumerated(idle)}: nothing will happen there"
 
 
 def _resources(scenario: Scenario) -> Iterator[str]:
@@ -168,7 +106,7 @@ def _resources(scenario: Scenario) -> Iterator[str]:
     ):
         idle = sorted(set(there) - used, key=natural_key)
         if idle:
-            yield f"{what} {listed(idle)}: nothing needs {'it' if len(idle) == 1 else 'them'}"
+            yield f"{what} {enumerated(idle)}: nothing needs {'it' if len(idle) == 1 else 'them'}"
 
 
 def _legs(scenario: Scenario) -> Iterator[str]:
@@ -178,13 +116,13 @@ def _legs(scenario: Scenario) -> Iterator[str]:
         legs = scenario.transporters[name].legs
         idle = [f"from {before} to {after}" for before, after in legs if after not in onward.get(before, ())]
         if idle:
-            yield f"no product goes {listed(idle)}: {name} has nothing to bring there"
+            yield f"no product goes {enumerated(idle)}: {name} has nothing to bring there"
 
 
 def _patrols(scenario: Scenario) -> Iterator[str]:
     walkers = [name for name, worker in scenario.workers.items() if worker.patrol is not None]
     if walkers and scenario.allocation.idle != "patrol":
-        who = f"{walkers[0]} has a patrol" if len(walkers) == 1 else f"{listed(walkers)} have patrols"
+        who = f"{walkers[0]} has a patrol" if len(walkers) == 1 else f"{enumerated(walkers)} have patrols"
         yield f"{who}, which means nothing while idle workers {scenario.allocation.idle}"
 
 
@@ -199,7 +137,7 @@ def _no_bodies(scenario: Scenario) -> Iterator[str]:
     kinds = ("emulator", "motions", "plugin")
     may_have = [task for task in scenario.tasks.values() if any(hasattr(task, kind) for kind in kinds)]
     if asked and not may_have and scenario.walking is None:
-        yield f"outputs: {listed(asked)} made from postures, and no task has an emulator: nothing will be measured"
+        yield f"outputs: {enumerated(asked)} made from postures, and no task has an emulator: nothing will be measured"
 
 
 def _no_walking(scenario: Scenario) -> Iterator[str]:
@@ -207,70 +145,6 @@ def _no_walking(scenario: Scenario) -> Iterator[str]:
     asked = [name for name in scenario.outputs if name in WALKING]
     if asked and scenario.walking is None:
         yield (
-            f"outputs: {listed(asked)} made from postures of walking, and nothing says how people walk: add "
+            f"outputs: {enumerated(asked)} made from postures of walking, and nothing says how people walk: add "
             "'libraries: {walking: libraries/walking.npz}' and 'walking: {emulator: walking/walk}'"
         )
-
-
-FAR = 20
-"""Times as far from everything as places usually are from each other."""
-FAR_M = 50.0
-NEAR_M = 1.0
-MOST_PLACES = 300
-"""For which each is compared with every other one."""
-STRAIGHT = 0.99
-"""Of the straight line: what is shorter cannot be walked."""
-LONG = 10
-Places = Mapping[str, tuple[float, float]]
-
-
-def distance_risks(scenario: Scenario) -> Iterator[str]:
-    """Places far away or in one point, a layout the size of a table, ways of an impossible length."""
-    places = scenario.layout.places
-    if len(places) <= MOST_PLACES:
-        yield from _far(places)
-        yield from _one_point(places)
-        yield from _tiny(places)
-    yield from _lengths(scenario)
-
-
-def _far(places: Places) -> Iterator[str]:
-    nearest = {
-        name: min((dist(at, places[o]) for o in places if o != name), default=0.0) for name, at in places.items()
-    }
-    usual = median(nearest.values()) if nearest else 0.0
-    for name in sorted(places, key=natural_key):
-        if nearest[name] > max(FAR * usual, FAR_M) and usual > 0:
-            yield f"{name} is {nearest[name]:g} m from the nearest other place, others {usual:g} m: is it in metres?"
-
-
-def _one_point(places: Places) -> Iterator[str]:
-    names_at: dict[tuple[float, float], list[str]] = {}
-    for name in sorted(places, key=natural_key):
-        x, y = places[name]
-        names_at.setdefault((x, y), []).append(name)
-    for names in names_at.values():
-        if len(names) > 1:
-            yield f"{listed(names)} are in one and the same point: no way between them"
-
-
-def _tiny(places: Places) -> Iterator[str]:
-    widest = max((dist(a, b) for a, b in combinations(places.values(), 2)), default=inf)
-    if len(places) > 2 and 0 < widest < NEAR_M:
-        yield f"all places lie within {widest:g} m: are they in metres?"
-
-
-def _lengths(scenario: Scenario) -> Iterator[str]:
-    """Lengths that are given, against the straight line between the ends."""
-    places = scenario.layout.places
-    given = [("the path", way.start, way.end, way.length_m) for way in scenario.layout.path_steps]
-    given += [(f"conveyor {name},", belt.start, belt.end, belt.length_m) for name, belt in scenario.conveyors.items()]
-    for what, start, end, length_m in given:
-        if length_m is None:
-            continue
-        straight_m = dist(places[start], places[end])
-        said = f"{what} from {start} to {end} is {length_m:g} m long, the straight line {straight_m:g} m"
-        if length_m < STRAIGHT * straight_m:
-            yield f"{said}: nothing is shorter than straight"
-        elif length_m > LONG * straight_m > 0:
-            yield f"{said}: is it in metres?"

@@ -1,8 +1,6 @@
 """The ways of products through the points of a scenario: stations, stores and conveyors.
 
 Points that can be full, and who keeps a place before he begins.
-
-Names as a sentence lists them.
 """
 
 from __future__ import annotations
@@ -12,12 +10,8 @@ from itertools import pairwise, product
 from math import inf
 
 from opsim.layout import reached, reverse
-from opsim.problems import enumerated as listed
 from opsim.scenario.schema import Card, Product, Scenario
-from opsim.scenario.schema.routing import OUT, START
-
-__all__ = ["listed"]
-
+from opsim.subjects.routes.words import OUT, START
 
 Ways = dict[str, set[str]]
 """Where jobs may go from each point."""

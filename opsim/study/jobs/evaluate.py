@@ -59,7 +59,7 @@ def evaluate(source: Source, job: Job, engine: str = SIMPY) -> list[Figure]:
     it, BrokenLog where a run contradicts itself.
     """
     from opsim.kpi import figures
-    from opsim.laws import audit
+    from opsim.laws.audit import audit
 
     key = _key(source, job.point)
     plan = _plan(*key) if job.workforce is None else _staffed(job.workforce, *key)

@@ -19,11 +19,11 @@ import numpy as np
 from opsim.clock import DAY_S
 from opsim.kpi.targets import Target, read_target
 from opsim.plan import Plan
-from opsim.plan.calendar import total_s
-from opsim.plan.hours import scheduled
 from opsim.results import Key
 from opsim.study.intervals import CONFIDENCE
 from opsim.study.labour.variance_components import DAY, NESTED, STAFFING, variance_parts
+from opsim.subjects.shifts.hours import scheduled
+from opsim.subjects.shifts.plan import total_s
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from opsim.kpi.catalogue import LESS, AskedFigure, read_asked
-from opsim.kpi.workers import DRIVEN, EMPTY_HANDED, WITH_A_JOB, ends_of_trip
 from opsim.layout import Ways
 from opsim.study.compare import holm, paired
 from opsim.study.intervals import CONFIDENCE, Interval, t_interval
@@ -22,6 +21,7 @@ from opsim.study.jobs import Answers, Job
 from opsim.study.layout.floor import Floor, Movable
 from opsim.study.layout.moves import Candidate, changes_of
 from opsim.study.layout.quadratic_assignment import Assignment, assigned, changes_step_by_step
+from opsim.subjects.people.figures import DRIVEN, EMPTY_HANDED, WITH_A_JOB, ends_of_trip
 
 WALKED, EACH, SHARE = "walked_m_per_h", "walked_m_per_part", "walking_share"
 BEST, EXPOSURE, EXPOSURE_EACH = "best", "exposure", "exposure_per_part"

@@ -45,6 +45,7 @@ from opsim.study.layout.moves import Candidate, clash, what_ifs
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
 
+
 MOST_SAID, MOVE = 4, "move "
 
 

@@ -12,7 +12,7 @@ from plans import queue as queue_text
 
 from opsim.clock import on_grid
 from opsim.engine.draws import Draws
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import CREATE, FINISH
 from opsim.plan import Plan
 

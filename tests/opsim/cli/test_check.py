@@ -268,7 +268,7 @@ def test_what_neither_engine_comes_to_an_end_of_is_told_as_of_any_run(tmp_path, 
         raise EndlessInstant("t = 60.0 s: over 10000 rounds")
 
     stand_in(monkeypatch).run_plan = endless
-    monkeypatch.setattr("opsim.engine.floor.run_plan", endless)
+    monkeypatch.setattr("opsim.engine.floor.run.run_plan", endless)
     code, _, complaint = opsim("doctor", "engines", line(tmp_path))
     assert code == 1 and "does not move on in time" in complaint and "t = 60.0 s" in complaint
 

@@ -3,10 +3,10 @@ import json
 import pytest
 
 from opsim.cli.compare import check_asked, frontier_texts
-from opsim.human.catalogue import EFFECTS, catalogue
 from opsim.plan import compile_plan
-from opsim.plan.workers import NO_EFFECTS
 from opsim.scenario.read import scenarios_in
+from opsim.subjects.human.catalogue import EFFECTS, catalogue
+from opsim.subjects.human.plan import NO_EFFECTS
 from tests.human_plans import LINE as LINE_of_compare_asked
 from tests.opsim.cli.calls import LINE, line, opsim
 

@@ -12,7 +12,7 @@ from opsim.cli.app import print_json, print_table
 from opsim.cli.progress import progress
 from opsim.cli.run import matters, print_results, without_repeats
 from opsim.engine.endless import EndlessInstant
-from opsim.laws import BrokenLog
+from opsim.laws.audit import BrokenLog
 from opsim.pool import ProcessLost
 from tests.made.result import kpi
 from tests.opsim.cli.calls import LINE, line, opsim

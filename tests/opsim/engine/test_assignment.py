@@ -5,13 +5,13 @@ import pytest
 import simpy
 from plans import plan, ran
 
-from opsim.engine.floor import FloorOfPlan
-from opsim.engine.floor.allocation import _walk_on
 from opsim.engine.floor.floor_state import DUTY
+from opsim.engine.floor.run import FloorOfPlan
 from opsim.engine.floor.state import Claim
-from opsim.engine.floor.worker import leave_those
 from opsim.kpi import figures
 from opsim.log import BAD, FINISH, WALK, WORK
+from opsim.subjects.people.allocation import _walk_on
+from opsim.subjects.people.worker import leave_those
 
 TWO = """
 opsim: 1

@@ -8,7 +8,7 @@ from plans import loaded
 from opsim import log as kinds
 from opsim.clock import on_grid
 from opsim.engine.rules import batch_begins
-from opsim.scenario.warnings import risks_of
+from opsim.plan.warnings import risks_of
 
 OVEN = """
 opsim: 1

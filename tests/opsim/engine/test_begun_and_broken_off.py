@@ -5,9 +5,9 @@ import pytest
 from human_plans import planned
 from made.shops import ran, spans
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.history import practice
-from opsim.laws import CHECKS, audit
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import NO_TOOL, WAIT, WORK
 
 TIRES = "human: {fatigue: {model: lffrm, tires_half_in: 1 min, recovers_half_in: 1 min, slows: 0.5}}\n"

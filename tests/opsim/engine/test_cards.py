@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import cards as card_gates
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, LOST, NO_CARD, REWORK, WORK
+from opsim.subjects.material import cards as card_gates
 from tests.opsim.kpi.locking import LOOPS
 
 HEAD = """

@@ -8,7 +8,7 @@ from stand_in_engine import install_rule, stand_in
 
 from opsim.engine import choice
 from opsim.engine.choice import NotFast, Refusal, able_to, known, make_ready, runner_of, worth
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 SHORT = line(2, 1, horizon="1 h")
 LONG = queue(horizon="2000 h")

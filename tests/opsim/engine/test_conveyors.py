@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
-from opsim.laws import CHECKS, audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import BLOCKED, CREATE, FINISH, QUEUE, TRANSPORT
 
 BELT = """

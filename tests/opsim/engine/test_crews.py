@@ -5,8 +5,8 @@ import pytest
 from plans import plan, ran
 
 from opsim.engine.draws import Draws
-from opsim.kpi.lines import hand_overs
 from opsim.log import FINISH, KINDS, WORK
+from opsim.subjects.lines.figures import hand_overs
 
 BENCH = """
 opsim: 1

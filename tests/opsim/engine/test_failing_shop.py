@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import DOWN, FINISH, HELD, IS_DOWN, REPAIR, SCRAP, WORK, EventLog
 
 SHOP = """

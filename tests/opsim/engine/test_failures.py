@@ -3,8 +3,8 @@
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import BREAKDOWN, DOWN, FINISH, HELD, IS_DOWN, MAINTENANCE, NO_TOOL, NO_WORKER, REPAIR, SCRAP, WAIT, WORK
 
 ONE = """

@@ -12,10 +12,10 @@ from made.brigades import scenario as brigade
 from made.floors import text_of
 from made.people_blocks import people_floor_with
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.history import tiredness
 from opsim.kpi import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import FINISH, NO_TOOL, SETUP, WAIT, WORK
 
 LFFRM = "human: {fatigue: {model: lffrm, slows: 0}, rest: {above: 1, until: 0.5}}"

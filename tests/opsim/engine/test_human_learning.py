@@ -5,10 +5,10 @@ import pytest
 from human_plans import LINE, planned, shipped, without_effects
 
 from opsim.clock import on_grid
-from opsim.engine.floor import run_plan
-from opsim.human.catalogue import entry, models_of
+from opsim.engine.floor.run import run_plan
 from opsim.log import FINISH, WORK
-from opsim.plan.workers import HumanPlan
+from opsim.subjects.human.catalogue import entry, models_of
+from opsim.subjects.human.plan import HumanPlan
 
 ONE = """
 opsim: 1

@@ -6,10 +6,10 @@ from checked_floors import differ
 from human_plans import LINE, NEUTRAL, planned, shipped, without_effects
 
 from opsim.clock import on_grid
-from opsim.engine.floor import run_plan
-from opsim.human.catalogue import entry
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import BAD, BLOCKED, FINISH, QUEUE, REWORK, WORK
+from opsim.subjects.human.catalogue import entry
 
 TWO = """
 opsim: 1

@@ -13,10 +13,10 @@ from made.brigades import scenario as brigade
 from made.floors import text_of
 from made.people_blocks import people_floor_with
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.history import tiredness
 from opsim.kpi import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import BREAK, OFF, REST, WORK
 
 TIRED = "fatigue: {model: lffrm, tires_half_in: 10 min, recovers_half_in: 5 min}"

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.deadlock import locked
-from opsim.laws import CHECKS, audit
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import BLOCKED, FINISH, WAIT, WALK, WORK
 
 ROUND = """

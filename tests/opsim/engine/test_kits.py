@@ -7,7 +7,7 @@ from made import shops as made_shops
 from plans import plan
 
 from opsim import log as kinds
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 BIKES = """
 opsim: 1

@@ -9,13 +9,12 @@ import simpy
 from checked_floors import differ
 from made.pool import POOL
 
-from opsim.engine.floor import FloorOfPlan, run_plan
-from opsim.engine.floor.human_effects import stops, works
-from opsim.engine.floor.human_state import Dose, dose_so_far
-from opsim.engine.floor.run import run_until
+from opsim.engine.floor.run import FloorOfPlan, run_plan, run_until
 from opsim.ergonomics.shift.worst import DoseRates
 from opsim.log import FINISH, SETUP, WORK
 from opsim.scenario import read_scenarios
+from opsim.subjects.human.human_effects import stops, works
+from opsim.subjects.human.human_state import Dose, dose_so_far
 
 TURN = (
     "allocation: {rule: least_exposed}",

@@ -13,12 +13,12 @@ from twins import of_both
 
 from opsim.ergonomics.redraw import performance_again
 from opsim.history import drawn_s
-from opsim.laws import BrokenLog, audit
+from opsim.laws.audit import BrokenLog, audit
 from opsim.log import WORK, EventLog
-from opsim.plan.levels import for_product, performed_ranks
 from opsim.plan.loads.work_times import ANYBODY, WorkTimes
 from opsim.report.sections.variability import spreads
-from opsim.study.assumptions.sheet import assumptions_of
+from opsim.study.assumptions import assumptions_of
+from opsim.subjects.tasks.plan import for_product, performed_ranks
 
 PALLET = """
 opsim: 1

@@ -7,9 +7,9 @@ from naive.line import Line, grid
 from plans import plan, ran
 
 from opsim.engine.draws import Draws
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.table import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import FINISH, QUEUE, SENT_ON, STANDS, WALK, WORK
 
 N = 40

@@ -189,8 +189,8 @@ def test_a_saturated_source_asks_for_room_in_its_hours_alone():
 
 
 def test_orders_of_closed_hours_come_when_the_source_opens(tmp_path):
-    from opsim.engine.floor import run_plan
-    from opsim.laws import audit
+    from opsim.engine.floor.run import run_plan
+    from opsim.laws.audit import audit
     from opsim.plan import compile_plan
     from opsim.scenario.read import scenarios_in
 

@@ -5,9 +5,9 @@ import pytest
 from plans import plan
 
 from opsim.engine.draws import Draws
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import BAD, COLUMNS, CREATE, FALSE_ALARM, FINISH, REWORK, SCRAP, WORK
 
 LINE = """

@@ -30,10 +30,10 @@ from made.lines import line_scenario
 from plans import plan
 
 from opsim import log as kinds
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
 from opsim.kpi.table import figures as figures_of
-from opsim.laws import CHECKS, audit
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import COLUMNS, FINISH, JOB_KINDS, SENT_ON, STANDS, WORK, EventLog
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in

@@ -47,8 +47,8 @@ from naive.people import jumps, unjoined
 from plans import plan, ran
 from shown_blocks import shown
 
-from opsim.engine.floor import run_plan
-from opsim.laws import CHECKS, audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import (
     CLOSED,
     COLUMNS,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import COLUMNS, CREATE, FINISH
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in

@@ -18,10 +18,12 @@ from opsim.clock import on_grid
 from opsim.engine.choice import simpy_s, visits
 from opsim.engine.draws import Draws
 from opsim.engine.endless import EndlessInstant, endless_instant
-from opsim.engine.floor import build, routing, run_plan, settle
+from opsim.engine.floor import build, settle
+from opsim.engine.floor.run import run_plan
 from opsim.engine.floor.settle import ENDLESS, dispatch
 from opsim.kpi import figures
 from opsim.log import BLOCKED, COLUMNS, CREATE, FINISH, HELD, JOB_BLOCKED, LOST, WAIT, WALK, WORK
+from opsim.subjects.routes import routing
 
 
 def naive_line(times, buffers):

@@ -9,8 +9,8 @@ import pytest
 from made.shops import HEAD, begun, ran, spans
 from plans import plan
 
-from opsim.engine.floor import run_plan
-from opsim.laws import audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit
 from opsim.log import CREATE, FINISH, SCRAP, WORK
 
 STOCK = """

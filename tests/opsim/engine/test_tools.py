@@ -4,9 +4,9 @@ import plans
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import BLOCKED, HELD, NO_TOOL, TOOL, WORK
 
 CELL = """

@@ -6,13 +6,13 @@ from plans import HERE, loaded
 
 from opsim.clock import on_grid
 from opsim.engine.draws import Draws
-from opsim.engine.floor import run_plan
-from opsim.laws import CHECKS, audit
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import CHECKS, audit
 from opsim.log import WORK
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
+from opsim.subjects.tasks.variability import Switched
 from opsim.tasks import Gamma
-from opsim.tasks.variability import Switched
 
 MIXED = """
 opsim: 1

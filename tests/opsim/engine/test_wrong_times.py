@@ -8,7 +8,7 @@ import pytest
 from plans import plan
 
 from opsim.engine import fast_engine
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 
 LINE = """
 opsim: 1

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from opsim.ergonomics.angles import ANGLES, AT, COLUMNS
 from opsim.ergonomics.scores.scoring import ASKED, bounds_of
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.plan import Handling
 
 EDGES = (0.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 76.0, 100.0)
 ANGLE = st.one_of(st.sampled_from([*EDGES, *(-edge for edge in EDGES)]), st.floats(-170, 170))

@@ -10,7 +10,7 @@ import pytest
 from plans import loaded, ran
 
 from opsim.clock import on_grid
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics import trunk as bodies
 from opsim.ergonomics.angles import CANONICAL
 from opsim.ergonomics.redraw import drawn_again, performance_again, pieces_in_window

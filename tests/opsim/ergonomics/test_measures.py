@@ -18,8 +18,8 @@ from opsim.ergonomics.options import USUAL
 from opsim.libraries import load_library
 from opsim.shipped import shipped_folder
 from opsim.streams import BLOCK, stream
+from opsim.subjects.tasks.variability import retimed
 from opsim.tasks import TimePerformances
-from opsim.tasks.variability import retimed
 from tests.opsim.ergonomics.made_work import SKELETON, Bends, BendsApart, up_and_down
 
 LIBRARIES = shipped_folder() / "libraries"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics import walking as looking
 from opsim.ergonomics.trunk import trunk_exposure
 from opsim.ergonomics.walking import drawable, drawn_walks, walk_again, walker, walking_exposure

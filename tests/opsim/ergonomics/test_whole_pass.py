@@ -10,7 +10,7 @@ import pytest
 from human_plans import shipped
 from plans import plan, ran
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics import trunk as exposure
 from opsim.ergonomics.angles import AT
 from opsim.ergonomics.measures import measures_of_positions, n_cells
@@ -20,11 +20,11 @@ from opsim.ergonomics.shift.day import fold
 from opsim.ergonomics.shift.ledger import Booking
 from opsim.ergonomics.strain.posture_limits import repeated_rows
 from opsim.external_draws import OwnLuck, takes_shift
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import SETUP, WORK
 from opsim.streams import BLOCK
-from opsim.tasks.distributions import Fixed
-from opsim.tasks.variability import switched
+from opsim.subjects.tasks.distributions import Fixed
+from opsim.subjects.tasks.variability import switched
 
 CELL = """
 opsim: 1

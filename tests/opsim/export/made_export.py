@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.export.ocel import object_log
 from opsim.export.tables import RunClock
 from opsim.plan import compile_plan

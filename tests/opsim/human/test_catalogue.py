@@ -5,7 +5,7 @@ from math import inf, nan
 
 import pytest
 
-from opsim.human.catalogue import (
+from opsim.subjects.human.catalogue import (
     EFFECTS,
     Checked,
     Parameter,
@@ -20,8 +20,8 @@ from opsim.human.catalogue import (
     parameters_of,
     parameters_written,
 )
-from opsim.human.learning import DeJong
-from opsim.plan.workers import HumanPlan
+from opsim.subjects.human.learning import DeJong
+from opsim.subjects.human.plan import HumanPlan
 
 ENTRIES = list(catalogue())
 
@@ -51,9 +51,8 @@ def test_an_effect_of_one_model_needs_no_name_for_it():
 
 
 def test_the_catalogue_imports_no_numpy():
-    code = (
-        "import sys; from opsim.human.catalogue import catalogue; list(catalogue()); assert 'numpy' not in sys.modules"
-    )
+    names = "import sys; from opsim.subjects.human.catalogue import catalogue"
+    code = f"{names}; list(catalogue()); assert 'numpy' not in sys.modules"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

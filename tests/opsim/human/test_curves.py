@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from naive.learning import exponent, remembered
 
-from opsim.human.fatigue import Circadian, ErrorsByFatigue, Schultz
-from opsim.human.forgetting import LearnForgetCurve
-from opsim.human.learning import DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
+from opsim.subjects.human.fatigue import Circadian, ErrorsByFatigue, Schultz
+from opsim.subjects.human.forgetting import LearnForgetCurve
+from opsim.subjects.human.learning import DeJong, DualPhase, Hyperbolic, Plateau, StanfordB, Wright
 
 HOUR_S = 3600.0
 

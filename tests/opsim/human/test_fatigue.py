@@ -8,9 +8,9 @@ from plans import plan
 
 from opsim.ergonomics.joint_loads import JOINTS as JOINTS_of_burden
 from opsim.ergonomics.kernels import muscles as kernel
-from opsim.human import muscle_fatigue as burden
-from opsim.human.fatigue import Lffrm, Tired
-from opsim.human.muscle_fatigue import (
+from opsim.subjects.human import muscle_fatigue as burden
+from opsim.subjects.human.fatigue import Lffrm, Tired
+from opsim.subjects.human.muscle_fatigue import (
     DRAWS,
     ENDURANCE,
     JOINTS,

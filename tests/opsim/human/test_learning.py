@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from naive.learning import TWINS
 from scipy.integrate import solve_ivp
 
-from opsim.human.catalogue import entry, models_of
-from opsim.human.fatigue import Lffrm, RestByNeed
-from opsim.human.forgetting import LearnForgetCurve, Memory
-from opsim.human.learning import Wright
+from opsim.subjects.human.catalogue import entry, models_of
+from opsim.subjects.human.fatigue import Lffrm, RestByNeed
+from opsim.subjects.human.forgetting import LearnForgetCurve, Memory
+from opsim.subjects.human.learning import Wright
 
 MODELS = models_of("learning")
 RATES, SHARES, COUNTS = st.floats(0.51, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1e4)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.states import Periods, active_periods, active_time, bottleneck, longest_under_way
 from opsim.log import WORK
 from tests.opsim.kpi.made_logs import made, work

@@ -13,12 +13,13 @@ import pytest
 
 from opsim.kpi import figures
 from opsim.kpi.catalogue import ENERGY, HELD, LIFTED, REST
-from opsim.kpi.strain import energy_sentences as sentences
-from opsim.kpi.strain import hold_sentences as sentences_of_holds
-from opsim.kpi.strain import lifting_sentences as sentences_of_lifting
 from opsim.log import BREAK, OFF, WALK
-from opsim.plan.tasks import Handling, Moment
-from opsim.plan.workers import Body
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.exposure.strain_figures import energy_sentences as sentences
+from opsim.subjects.exposure.strain_figures import hold_sentences as sentences_of_holds
+from opsim.subjects.exposure.strain_figures import lifting_sentences as sentences_of_lifting
+from opsim.subjects.people.plan import Body
+from opsim.subjects.tools.plan import Moment
 from tests.opsim.ergonomics.made_work import BEND, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import found, made, row, work
 

@@ -6,16 +6,24 @@ import numpy as np
 import pytest
 from plans import loaded, ran
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.options import Options
 from opsim.ergonomics.shift.ledger import AT_MOST, BINS, Booking, Ledger
-from opsim.kpi import exposure, figures
+from opsim.kpi import figures
 from opsim.kpi.catalogue import EXPOSURE, KPIS, POSTURE, SCORED, USUAL, headline, needs_postures
-from opsim.kpi.exposure import LEVEL_KPIS as LEVELS
-from opsim.kpi.exposure import bounds_of_level, exposure_levels, mean_score, measured_share, minutes, quantile
 from opsim.log import OFF, WAIT, WORK
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
+from opsim.subjects.exposure import figures as exposure
+from opsim.subjects.exposure.figures import LEVEL_KPIS as LEVELS
+from opsim.subjects.exposure.figures import (
+    bounds_of_level,
+    exposure_levels,
+    mean_score,
+    measured_share,
+    minutes,
+    quantile,
+)
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, made_plan
 from tests.opsim.ergonomics.shift.test_booking import frames, scores
 from tests.opsim.kpi.made_logs import made, row, work
@@ -189,7 +197,7 @@ def test_without_postures_nothing_is_looked_at_and_the_rows_are_the_same(cell, m
     log, plan, _ = cell
     blind = replace(plan, posture=False)
     monkeypatch.setattr(exposure, "fold", lambda *_: pytest.fail("looked"))
-    monkeypatch.setattr("opsim.kpi.posture.trunk_exposure", lambda *_: pytest.fail("looked"))
+    monkeypatch.setattr("opsim.subjects.exposure.trunk_figures.trunk_exposure", lambda *_: pytest.fail("looked"))
     assert not {f.kpi for f in figures(log, blind, [*POSTURE, *EXPOSURE])} & {*POSTURE, *EXPOSURE}
     other = run_plan(blind)
     assert all(np.array_equal(log[name], other[name], equal_nan=True) for name in log.columns)

@@ -20,14 +20,14 @@ from hypothesis import strategies as st
 from made.shops import HEAD
 from plans import CELL, line, plan, queue
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.catalogue import AskedFigure as Asked
-from opsim.kpi.exposure import gini
 from opsim.kpi.targets import LimitText, amount, bounds, check_indifference, percent, read_limit, read_target, unit_of
 from opsim.kpi.throughput import _takt_s, due_dates, takt, time_in_system, work_in_progress
 from opsim.log import CREATE, FINISH
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
+from opsim.subjects.exposure.figures import gini
 from tests.opsim.kpi.made_logs import found, made, row
 
 TWO = """

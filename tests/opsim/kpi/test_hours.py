@@ -8,7 +8,6 @@ import pytest
 from plans import plan
 
 from opsim.kpi.window import duty_hours, elapsed_s, is_in, open_hours, station_hours
-from opsim.kpi.workers import present_s
 from opsim.log import (
     ABSENT,
     BREAK,
@@ -25,7 +24,8 @@ from opsim.log import (
     WAIT,
     WALK,
 )
-from opsim.plan.hours import has_hours, scheduled
+from opsim.subjects.shifts.figures import present_s
+from opsim.subjects.shifts.hours import has_hours, scheduled
 from tests.opsim.kpi.made_logs import found, made, row, work
 
 H = 3600.0

@@ -5,12 +5,12 @@ import pytest
 from human_plans import LINE, planned
 from plans import plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import KPIS, figures
 from opsim.kpi.catalogue import CATALOGUE
 from opsim.kpi.catalogue import KPIS as KPIS_of_fatigue
-from opsim.kpi.workers import learned
 from opsim.log import SETUP
+from opsim.subjects.human.figures import learned
 from tests.opsim.kpi.made_logs import found, made, row, work
 from tests.opsim.laws.test_laws import PROGRESS_FLOOR as FLOOR
 from tests.opsim.laws.test_laws import piece

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import KPIS, figures, samples
 from opsim.kpi.catalogue import CATALOGUE, DECLARED, KINDS, LESS, MORE, USUAL, better_of, read_asked, subject_of
 from opsim.kpi.catalogue import AskedFigure as Asked
 from opsim.log import BLOCKED, CREATE, FINISH, HELD, IDLE, QUEUE, WAIT, WALK
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.plan import Handling
 from tests.opsim.kpi.made_logs import found, made, row, tiled, work
 from tests.opsim.made_walks import walking
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from plans import plan, ran
 
-from opsim.kpi.lines import crews, hand_overs
 from opsim.kpi.table import figures
 from opsim.log import WORK, event_log, names_of, row
+from opsim.subjects.lines.figures import crews, hand_overs
 
 TEXT = """
 opsim: 1

@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 from plans import CELL, line, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.deadlock import Locked, locked
-from opsim.laws import audit
+from opsim.laws.audit import audit
 from opsim.log import BATCH, BLOCKED, HELD, IDLE, JOB_BLOCKED, NO_PARTS, NO_WORKER, QUEUE, SETUP, WAIT, WORK
-from opsim.plan.sources import SCHEDULE, OrderPlan
+from opsim.subjects.release.plan import SCHEDULE, OrderPlan
 from tests.opsim.kpi.locking import ALL as ALL_of_locked_by_all
 from tests.opsim.kpi.locking import CARDS, STORE
 from tests.opsim.kpi.made_logs import made, row

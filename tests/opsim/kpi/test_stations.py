@@ -19,13 +19,13 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim import log as kinds
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.cycle_times import cycle_times, task_durations, visits
-from opsim.kpi.resources import Stretches, stops
 from opsim.kpi.states import possible_states as possible
 from opsim.kpi.states import station_states
 from opsim.kpi.throughput import line_balance
 from opsim.log import BLOCKED, BREAKDOWN, CREATE, DOWN, HELD, MAINTENANCE, REPAIR, SCRAP, SETUP, WORK
+from opsim.subjects.breakdowns.figures import Stretches, stops
 from tests.opsim.kpi.made_logs import found, made, row, work
 
 ONE = """

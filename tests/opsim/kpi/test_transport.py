@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from plans import plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
-from opsim.kpi.resources import transporters
-from opsim.kpi.workers import ends_of_trip, subject_of_trip
 from opsim.log import BLOCKED, CREATE, FINISH, JOIN, QUEUE, STOCK, TRANSPORT, WALK
+from opsim.subjects.people.figures import ends_of_trip, subject_of_trip
+from opsim.subjects.transport.figures import transporters
 from tests.opsim.kpi.made_logs import found as found_of_stores
 from tests.opsim.kpi.made_logs import found as found_of_walking
 from tests.opsim.kpi.made_logs import made, row

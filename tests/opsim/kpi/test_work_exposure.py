@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from plans import plan as plan_of_posture_walking
 
 from opsim import Worker, WorkerLog, exposure_of, read_events, run_plan, write_events
-from opsim.engine.floor import run_plan as run_plan_of_posture_walking
+from opsim.engine.floor.run import run_plan as run_plan_of_posture_walking
 from opsim.ergonomics import Handling, Options
 from opsim.kpi import figures
 from opsim.kpi.catalogue import EXPOSURE, POSTURE, SCORED, WALKING, headline
-from opsim.kpi.exposure import exposure
 from opsim.log import WALK
+from opsim.subjects.exposure.figures import exposure
 from opsim.tasks import Fixed
 from tests.opsim.ergonomics.made_work import Bending, Bends, BendsApart
 from tests.opsim.kpi.made_logs import made, row, work

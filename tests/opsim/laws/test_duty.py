@@ -3,9 +3,9 @@
 import pytest
 from plans import plan
 
-from opsim.laws.hours import duty
 from opsim.laws.jobs import Stays
 from opsim.log import ABSENT, BREAK, IDLE, OFF, WAIT, WALK
+from opsim.subjects.shifts.laws import duty
 from tests.opsim.kpi.made_logs import made, row, work
 
 H = 3600

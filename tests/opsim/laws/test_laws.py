@@ -21,12 +21,8 @@ from human_plans import LINE, planned, shipped, without_effects
 from plans import plan
 from plans import ran as ran_of_progress
 
-from opsim.engine.floor import run_plan
-from opsim.human.catalogue import made as made_of_pace
-from opsim.laws import audit
-from opsim.laws.capacity import away, outages, rooms, shared
-from opsim.laws.effects import pace, rests, shifts
-from opsim.laws.hours import closed
+from opsim.engine.floor.run import run_plan
+from opsim.laws.audit import audit, shared
 from opsim.laws.jobs import Stays, progress
 from opsim.log import (
     AFTER,
@@ -56,6 +52,11 @@ from opsim.log import (
     WORK,
     EventLog,
 )
+from opsim.subjects.breakdowns.figures import one_outage_at_a_time
+from opsim.subjects.human.catalogue import made as made_of_pace
+from opsim.subjects.human.figures import pace, rests, shifts
+from opsim.subjects.shifts.laws import away, closed
+from opsim.subjects.stations.figures import rooms
 from tests.opsim.kpi.made_logs import made, row, work
 
 BEGUN = work(0, 4, 0, worker=0, task=0, k=0, progress=(0, 0.4))
@@ -261,7 +262,7 @@ DOWN_20_TO_50 = [row(DOWN, 20, 30, station=0, cause=BREAKDOWN), row(REPAIR, 30, 
 def outages_found(*rows):
     p = plan(ONE)
     log = made([*DOWN_20_TO_50, *rows], p)
-    return list(outages(log, p, Stays(log)))
+    return list(one_outage_at_a_time(log, p, Stays(log)))
 
 
 @pytest.mark.parametrize("begin, end", [(10, 20), (50, 60), (0, 5)])

@@ -13,13 +13,14 @@ import pytest
 from plans import plan, ran
 
 from opsim.ergonomics.options import USUAL, Thresholds
-from opsim.human.catalogue import entry
 from opsim.log import BREAK, OFF
-from opsim.plan.calendar import at_least, both, either, next_open, together, total_s, without
-from opsim.plan.hours import Hours, chance_of
 from opsim.plan.loads import crew_load, overloads, skill_loads, station_loads
-from opsim.plan.tasks import NOT_SAID, Handling, Moment
-from opsim.plan.workers import NO_EFFECTS
+from opsim.subjects.exposure.plan import NOT_SAID, Handling
+from opsim.subjects.human.catalogue import entry
+from opsim.subjects.human.plan import NO_EFFECTS
+from opsim.subjects.shifts.hours import Hours, chance_of
+from opsim.subjects.shifts.plan import at_least, both, either, next_open, together, total_s, without
+from opsim.subjects.tools.plan import Moment
 
 DAY = """
 opsim: 1

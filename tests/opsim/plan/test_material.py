@@ -16,10 +16,18 @@ from plans import CELL, line, plan
 
 from opsim.engine.rules import source_in_turn, stock_wanted
 from opsim.plan.compile import has_card
-from opsim.plan.sequence import work_ahead
-from opsim.plan.sources import INSIDE, SATURATED, SCHEDULE, OrderPlan, SourcePlan, due_of, late_orders, order_of
-from opsim.plan.stores import jobs_on_a_server
-from opsim.plan.tasks import NO_SETUP
+from opsim.subjects.material.plan import jobs_on_a_server
+from opsim.subjects.release.plan import (
+    INSIDE,
+    SATURATED,
+    SCHEDULE,
+    OrderPlan,
+    SourcePlan,
+    due_of,
+    late_orders,
+    order_of,
+)
+from opsim.subjects.sequencing.plan import NO_SETUP, work_ahead
 
 ROUTED = line(3, 1, horizon="1 h").replace("buffer: 1", "buffer: unlimited").replace("saturated", "poisson, every: 5 s")
 

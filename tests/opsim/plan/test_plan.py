@@ -20,19 +20,20 @@ import plans
 import pytest
 from plans import CELL, HERE, loaded, plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.angles import CANONICAL
 from opsim.ergonomics.redraw import drawn_again, pieces_in_window
 from opsim.log import WORK
-from opsim.plan import Plan, compile_plan, station_loads
-from opsim.plan.model_warnings import lacking, unread, unseen
-from opsim.plan.products import NOWHERE
-from opsim.plan.resources import NO_TEAM
-from opsim.plan.tasks import Moment
+from opsim.plan import Plan, compile_plan
+from opsim.plan.loads import station_loads
 from opsim.plan.warnings import hour_risks
 from opsim.scenario.read import scenarios_in
+from opsim.subjects.breakdowns.plan import NO_TEAM
+from opsim.subjects.quality.plan import NOWHERE
+from opsim.subjects.tasks.model import UniformCount
+from opsim.subjects.tasks.warnings import lacking, unread, unseen
+from opsim.subjects.tools.plan import Moment
 from opsim.tasks import Exponential, Fixed, Geometric
-from opsim.tasks.model import UniformCount
 
 
 def staffed(how):

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 from plans import loaded
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi import figures
 from opsim.kpi.table import samples
 from opsim.plan import compile_plan

@@ -8,9 +8,7 @@ import pytest
 from plans import CELL, line, plan, ran
 
 from opsim.kpi.states import STATES, states_of_rows
-from opsim.laws.capacity import ON_SERVER
 from opsim.log import BLOCKED, CREATE, DOWN, HELD, IDLE, JOB_KINDS, LEAVING_KINDS, NO_WORKER, WAIT, WALK
-from opsim.plan.stores import jobs_on_a_server
 from opsim.report.plot.plotly import at_ms
 from opsim.report.sections.gantt import MOST_BARS, shown_s
 from opsim.report.sections.gantt import gantt_section as section
@@ -18,6 +16,8 @@ from opsim.report.sections.gantt_rows import NOT_DRAWN, of_workers, on_servers, 
 from opsim.report.sections.variability import switched_variants
 from opsim.report.sections.wip import Steps, jobs_at, jobs_inside, share_full, steps_of, thinned
 from opsim.study.resolved_scenario import resolved_text
+from opsim.subjects.material.plan import jobs_on_a_server
+from opsim.subjects.stations.figures import ON_SERVER
 from tests.made.result import BOLD, SCRIPT
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.report.made_floor import bars, charts, floor, renamed, strings, words

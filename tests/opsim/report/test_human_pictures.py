@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.scores.scoring import NOTHING_OPEN
 from opsim.ergonomics.shift.movement import scored_movements
 from opsim.history import practice, tiredness

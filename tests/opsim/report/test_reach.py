@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.plan import compile_plan
 from opsim.report.page import Grid, Panels
 from opsim.report.plot.posture import posture_svg

@@ -20,7 +20,6 @@ from emulator.skeleton import Skeleton, standard_skeleton
 from opsim.ergonomics.options import USUAL
 from opsim.ergonomics.scores.scoring import bounds_of
 from opsim.ergonomics.shift.movement import scored_movements
-from opsim.plan.tasks import Handling
 from opsim.report.motion.cleaning import VERDICTS, CleanedView, Finding, Mended, TakeCard, _liveliest, _moments
 from opsim.report.motion.cleaning_charts import MOST_ROWS, cleaned_bytes, ink_on, rows_of, shade, write_cleaned
 from opsim.report.motion.importing import Shown, _apart, _clear_frames, draw_import, drawable
@@ -28,6 +27,7 @@ from opsim.report.motion.scoring import LEVELS, Said, _badge, page, write_scored
 from opsim.report.motion.segmentation import CutTake, apart, draw_cuts, spread
 from opsim.report.plot.animation import animated_html, write_animated
 from opsim.report.sections.motions import Card
+from opsim.subjects.exposure.plan import Handling
 from tests.emulator.recordings.body import body
 from tests.emulator.segmenting.made_movements import walking
 from tests.made.cards import SKELETON as SKELETON_of_animated

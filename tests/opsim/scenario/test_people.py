@@ -17,13 +17,13 @@ from plans import HERE as HERE_of_workforce
 from plans import loaded
 
 from opsim.engine.draws import Draws
-from opsim.human.catalogue import catalogue
 from opsim.plan import compile_plan
+from opsim.plan.warnings import risks_of
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
-from opsim.study.assumptions.sheet import assumptions_of
+from opsim.study.assumptions import assumptions_of
 from opsim.study.resolved_scenario import resolved_text
+from opsim.subjects.human.catalogue import catalogue
 
 HERE = Path(__file__).parent
 EVERYTHING, GOOD = (

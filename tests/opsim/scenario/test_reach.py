@@ -6,8 +6,8 @@ from plans import answer, loaded, plan
 from twins import of_both
 
 from opsim.layout import distances_m
-from opsim.plan.model_warnings import stretched
-from opsim.study.assumptions.sheet import assumptions_of
+from opsim.study.assumptions import assumptions_of
+from opsim.subjects.tasks.warnings import stretched
 
 GOOD = """
 opsim: 1

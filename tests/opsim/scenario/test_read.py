@@ -9,12 +9,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from opsim import libraries
-from opsim.plan import compile_plan, station_loads
+from opsim.plan import compile_plan
+from opsim.plan.loads import station_loads
+from opsim.plan.warnings import risks_of
 from opsim.problems import ScenarioError
 from opsim.scenario import Scenario, read_scenarios
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.tree import child
-from opsim.scenario.warnings import risks_of
 from opsim.scenario.yaml import read_tree, scalar
 from opsim.tasks import Erlang, Lognormal, Recorded, task_model, time_model
 

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
+from opsim.plan.warnings import risks_of
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
 
 LINE = """
 opsim: 1

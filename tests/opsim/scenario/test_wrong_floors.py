@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from opsim.plan.warnings import risks_of
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
 
 BIKES = """
 opsim: 1

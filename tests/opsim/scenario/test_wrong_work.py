@@ -14,11 +14,11 @@ from pathlib import Path
 import plans
 import pytest
 
-from opsim.human.catalogue import catalogue
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
 from opsim.scenario.schema import Scenario
-from opsim.scenario.schema.human import Human
+from opsim.subjects.human.catalogue import catalogue
+from opsim.subjects.human.words import Human
 
 GOOD = """
 opsim: 1

@@ -12,6 +12,8 @@ import pytest
 from scipy import stats
 
 from opsim.scenario.schema import GeometricCycles, UniformCycles
+from opsim.subjects.tasks.distributions import balanced_probability, normal_cut, weibull_shape
+from opsim.subjects.tasks.model import UniformCount, count_model
 from opsim.tasks import (
     Beta,
     Empirical,
@@ -27,8 +29,6 @@ from opsim.tasks import (
     Uniform,
     Weibull,
 )
-from opsim.tasks.distributions import balanced_probability, normal_cut, weibull_shape
-from opsim.tasks.model import UniformCount, count_model
 
 
 @pytest.mark.parametrize("cv", [1e-3, 0.05, 0.3, 1.0, 3.0, 10.0])

@@ -14,6 +14,7 @@ import pytest
 from opsim.external_worker import library_model
 from opsim.performance import Drawn
 from opsim.scenario.read import scenarios_in
+from opsim.subjects.tasks.variability import retimed
 from opsim.tasks import (
     Beta,
     Empirical,
@@ -31,7 +32,6 @@ from opsim.tasks import (
     Weibull,
     task_model,
 )
-from opsim.tasks.variability import retimed
 from tests.opsim.tasks.models import CV_OF, MODELS, SHARED
 
 

@@ -5,18 +5,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.ergonomics.trunk import trunk_exposure
-from opsim.laws import CHECKS, audit
+from opsim.laws.audit import CHECKS, audit
 from opsim.plan import compile_plan
-from opsim.plan.model_warnings import unread, wide_joins
+from opsim.plan.warnings import risks_of
 from opsim.problems import ScenarioError
 from opsim.scenario import read_scenarios
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
 from opsim.streams import stream
-from opsim.study.assumptions.sheet import assumptions_of, task_sources
-from opsim.tasks.from_scenario import emulators_of, same_task
+from opsim.study.assumptions import assumptions_of, task_sources
+from opsim.subjects.tasks.from_scenario import emulators_of, same_task
+from opsim.subjects.tasks.warnings import unread, wide_joins
 from opsim.worker_effects import worker_effect
 
 KIT = """
@@ -133,7 +133,7 @@ def test_a_join_of_postures_far_apart_is_warned_of_in_degrees(plan):
 
 
 def test_motions_of_other_bodies_are_refused_where_they_stand(monkeypatch):
-    from opsim.scenario.checks import motions
+    from opsim.subjects.tasks import checks as motions
 
     monkeypatch.setattr(
         motions, "library_skeletons", lambda path: {"reach": (("a", "b"), (-1, 0)), "pick": (("a", "c"), (-1, 0))}

@@ -14,9 +14,9 @@ from page_twin import Twin
 
 from opsim.libraries import load_library
 from opsim.log import QUEUE, STOCK, WORK, WORKER_KINDS
-from opsim.plan.stations import STATION, STORE
 from opsim.report.page import policy
 from opsim.shipped import shipped_folder
+from opsim.subjects.stations.plan import STATION, STORE
 from opsim.viewer.build import scene_of
 from opsim.viewer.frame_codec import between, chosen, control_points, folded, frames_of, pack_frames, second_differences
 from opsim.viewer.playback import rows_of

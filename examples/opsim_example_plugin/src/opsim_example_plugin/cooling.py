@@ -17,13 +17,13 @@ from pydantic import Field
 from opsim.engine.floor.floor_state import Floor
 from opsim.engine.floor.machine import step, struct
 from opsim.engine.floor.state import Job, Station
-from opsim.engine.floor.station import begin_setup
 from opsim.kpi.catalogue import LESS, STATIONS, Figure, Kpi, figure
 from opsim.log import HELD, PICKUP, SETUP, WORK, EventLog
 from opsim.plan import Plan, Ranks
 from opsim.plugins import Subject
 from opsim.scenario.fields import Seconds
 from opsim.scenario.tree import Block
+from opsim.subjects.stations.station import begin_setup
 
 
 class Cooling(Block):

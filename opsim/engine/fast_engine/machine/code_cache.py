@@ -22,9 +22,12 @@ from uuid import uuid4
 import llvmlite
 import llvmlite.binding as llvm
 
+from opsim.engine.fast_engine.lowering import SUBJECTS, written
+
 ENGINE = Path(__file__).parents[1]
 OPSIM = ENGINE.parents[1]
-COMPILED_TOO = (ENGINE.parent, OPSIM / "human", OPSIM / "plan", OPSIM / "ergonomics" / "kernels")
+COMPILED_TOO = (ENGINE.parent, OPSIM / "plan", SUBJECTS / "human", OPSIM / "ergonomics" / "kernels")
+"""With all that the subjects' rules and plans say."""
 SINGLE = tuple(OPSIM / f"{name}.py" for name in ("clock", "layout", "log", "streams", "threads"))
 """Whose functions are compiled into steps as they are written, or whose constants are, such as kinds of rows."""
 SEEN_FROM_PYTHON = ("arena.py", "calling.py", "code_cache.py", "__init__.py")
@@ -33,7 +36,8 @@ SEEN_FROM_PYTHON = ("arena.py", "calling.py", "code_cache.py", "__init__.py")
 
 def sources() -> list[Path]:
     """The files that count."""
-    found = [path for folder in COMPILED_TOO for path in folder.rglob("*.py")]
+    found = {path for folder in COMPILED_TOO for path in folder.rglob("*.py")}
+    found |= {*written().values(), *SUBJECTS.glob("*/plan.py")}
     here = {ENGINE / "machine" / name for name in SEEN_FROM_PYTHON}
     return sorted(path for path in (*found, *SINGLE) if path not in here)
 

@@ -17,8 +17,8 @@ import numpy as np
 from numba import config
 
 from opsim.engine.fast_engine.streams.generators import ManyBlocks
-from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, _generator, _hashed, _key
+from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.task_model import seconds_of
 
 _LOOKED_AT = (*range(10), 1500, 99_999)
@@ -133,8 +133,8 @@ class HeldAtShares:
 
 def of_model(model: Any, effect: Any) -> Drawn:
     """Times of a model of this package that makes each of the luck of its own place, for a worker of this effect."""
-    from opsim.tasks.distributions import Fixed
-    from opsim.tasks.model import ByNumbers, SharedTime
+    from opsim.subjects.tasks.distributions import Fixed
+    from opsim.subjects.tasks.model import ByNumbers, SharedTime
 
     if isinstance(model, Fixed):
         return NoLuck(OfAKind(id(model), lambda n, rng: model.sample(n, rng).duration_s))
@@ -185,7 +185,7 @@ def in_one_call(model: Any) -> bool:
 
 def is_ours(model: Any) -> bool:
     """Whether a model is of this package: it draws from its generator and nothing else, and changes no effect."""
-    return type(_within(model)).__module__.startswith(("opsim.tasks.", "emulator."))
+    return type(_within(model)).__module__.startswith(("opsim.subjects.tasks.", "emulator."))
 
 
 def _within(model: Any) -> Any:
@@ -236,7 +236,7 @@ def _items(block: int) -> np.ndarray:
 @cache
 def _singly() -> frozenset[type]:
     from opsim import tasks
-    from opsim.tasks.model import UniformCount
+    from opsim.subjects.tasks.model import UniformCount
 
     simple = (tasks.Fixed, tasks.Exponential, tasks.Geometric, tasks.Erlang, tasks.Uniform, tasks.Triangular)
     shared = (tasks.Lognormal, tasks.Gamma, tasks.Weibull, tasks.Hyperexponential, tasks.Normal, tasks.Beta)
@@ -245,7 +245,7 @@ def _singly() -> frozenset[type]:
 
 @cache
 def _switches() -> frozenset[type]:
-    from opsim.tasks.variability import BetweenOnly, NoSpread, Shuffled, WithinOnly
+    from opsim.subjects.tasks.variability import BetweenOnly, NoSpread, Shuffled, WithinOnly
 
     return frozenset((WithinOnly, BetweenOnly, NoSpread, Shuffled))
 

@@ -25,10 +25,11 @@ from opsim.engine.fast_engine.streams.blocks import (
     ranks_by_number,
     uniforms,
 )
-from opsim.plan import BreakdownPlan, MaintenancePlan, Plan
-from opsim.plan.sources import ANY
-from opsim.plan.tasks import HoldPlan
+from opsim.plan import Plan
 from opsim.streams import _hashed, _words
+from opsim.subjects.breakdowns.plan import BreakdownPlan, MaintenancePlan
+from opsim.subjects.release.plan import ANY
+from opsim.subjects.tools.plan import HoldPlan
 from opsim.task_model import TaskModel
 
 _KEPT = 4
@@ -134,7 +135,7 @@ def _products(source: Any) -> Drawn:
 
 
 def _ordered(orders: tuple) -> Callable[[np.ndarray], np.ndarray]:
-    """As ``opsim.plan.sources.order_of``, of many jobs: the last order that begins at a job or before, or the first."""
+    """As ``release.plan.order_of``, of many jobs: the last order that begins at a job or before, or the first."""
     firsts = np.array([order.first for order in orders], np.int64)
     products = np.array([order.product for order in orders], np.int64)
     return lambda k: products[np.maximum(np.searchsorted(firsts, k, side="right") - 1, 0)]

@@ -18,7 +18,7 @@ from engine_evidence.rows import first_difference
 from engine_evidence.sample import SAMPLE
 from engine_evidence.ties import contested_ties
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import EventLog
 from opsim.scenario.schema import DISTRIBUTIONS
 

@@ -10,9 +10,9 @@ from twins import of_both
 
 from opsim.engine.fast_engine import run_plan
 from opsim.engine.fast_engine.run import Machine
-from opsim.engine.floor import run_plan as run_simpy
-from opsim.human import muscle_fatigue as burden
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.log import BREAK, REST, WORK
+from opsim.subjects.human import muscle_fatigue as burden
 
 FLOOR = """
 opsim: 1

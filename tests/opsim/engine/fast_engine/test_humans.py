@@ -23,8 +23,8 @@ from twins import of_both, twins
 
 from opsim.engine.fast_engine import run_plan
 from opsim.ergonomics.shift.worst import DoseRates
-from opsim.human.catalogue import models_of
 from opsim.log import BAD, BREAK, FINISH, HELD, OFF, REST, REWORK, WORK
+from opsim.subjects.human.catalogue import models_of
 
 ALL = """
 human:

@@ -27,7 +27,7 @@ from known_answers.simulate import plan_of, simulate
 
 from opsim.engine.choice import FAST
 from opsim.engine.fast_engine import run_plan as run_fast
-from opsim.engine.floor import run_plan as run_simpy
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.plan import compile_plan
 from opsim.scenario.read import scenarios_in
 from opsim.shipped import shipped_folder

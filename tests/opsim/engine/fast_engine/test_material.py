@@ -22,7 +22,7 @@ from plans import plan
 from twins import twins
 
 from opsim.engine.fast_engine.run import Machine
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.log import AFTER as AFTER_of_places
 from opsim.log import (
     BAD,

@@ -10,7 +10,7 @@ from plans import plan
 from opsim.engine.fast_engine import numbers
 from opsim.engine.fast_engine.random_numbers import DURATION, HOLD
 from opsim.engine.fast_engine.run import Machine
-from opsim.engine.floor import run_plan as run_simpy
+from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.log import COLUMNS
 from opsim.tasks import TimePerformances
 

@@ -18,8 +18,8 @@ from opsim.engine.fast_engine.streams.blocks import (
     held,
     uniforms,
 )
-from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, _hashed, _key
+from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, TimePerformances
 
 HOLD = HoldPlan(0, Moment(share=0.25), Moment(share=0.5))

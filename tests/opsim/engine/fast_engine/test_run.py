@@ -13,7 +13,7 @@ from plans import plan, queue
 from opsim.engine.fast_engine import log_rows, run
 from opsim.engine.fast_engine.log_rows import lent
 from opsim.engine.fast_engine.streams.blocks import Stream
-from opsim.engine.floor import run_plan as simpy_run
+from opsim.engine.floor.run import run_plan as simpy_run
 
 TESTS = Path(__file__).parents[3]
 STOPPED = """

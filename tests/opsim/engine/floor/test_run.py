@@ -11,11 +11,12 @@ from engine_evidence.floors import floor_text, replication_of
 from stand_in_engine import install_rule
 
 from opsim.engine.difference import difference
-from opsim.engine.floor import FloorOfPlan, allocation, run_plan
-from opsim.human.fatigue import Lffrm, Schultz
+from opsim.engine.floor.run import FloorOfPlan, run_plan
 from opsim.log import WORK
 from opsim.plan import Plan, compile_plan
 from opsim.scenario import read_scenarios
+from opsim.subjects.human.fatigue import Lffrm, Schultz
+from opsim.subjects.people import allocation
 
 
 def shipped(name: str, **changes: str) -> Plan:

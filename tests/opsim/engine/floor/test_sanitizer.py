@@ -13,8 +13,8 @@ from engine_evidence.planted import planted_in_simpy
 from engine_evidence.sample import SAMPLE
 from golden_logs import Golden, written
 
-from opsim.engine.floor import run_plan
 from opsim.engine.floor.machine import Arena
+from opsim.engine.floor.run import run_plan
 from opsim.engine.floor.state import Job
 
 TESTS = Path(__file__).parents[3]

@@ -35,7 +35,7 @@ from opsim.engine.rules import (
     whose_it_is,
     works_on,
 )
-from opsim.scenario.schema.run import RULES
+from opsim.subjects.shifts.words import RULES
 
 A = {"n_waiting": 3, "oldest_since_s": 20.0, "walk_s": 8.0, "rating": 1.0, "station_rank": 0, "worker_rank": 0}
 B = {"n_waiting": 1, "oldest_since_s": 20.0, "walk_s": 8.0, "rating": 1.0, "station_rank": 1, "worker_rank": 1}

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from opsim.ergonomics.anthropometry import FEMALE, MALE, segments_of, strength_nm
 from opsim.ergonomics.joint_loads import JOINTS, G, shares, torques_nm
-from opsim.human import muscle_fatigue as three_compartment
+from opsim.subjects.human import muscle_fatigue as three_compartment
 
 MAN = SimpleNamespace(height_m=1.75, mass_kg=80.0, age_years=40.0, sex="m")
 AT = {name: place for place, name in enumerate(JOINTS)}

@@ -14,7 +14,7 @@ from opsim.ergonomics.angles import AT, COLUMNS
 from opsim.ergonomics.options import USUAL, Options, Thresholds
 from opsim.ergonomics.scores.explain import explain
 from opsim.ergonomics.scores.scoring import ASKED, EITHER, NOTHING_OPEN, WALKING, Bounds, bounds_of, score
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.plan import Handling
 from tests.opsim.ergonomics.made_measures import frames, said, upright
 from tests.opsim.ergonomics.naive_scores import naive_scores
 

@@ -25,7 +25,7 @@ from opsim.ergonomics.shift.frames import STANDING, WAITING, Frames
 from opsim.ergonomics.shift.frames import WALKING as WALKS
 from opsim.ergonomics.shift.ledger import BINS, KEY, Booking
 from opsim.ergonomics.shift.worst import DoseRates, WorstSeen, clock_of, dose_rates_of, worst_frames
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.plan import Handling
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import made, work
 

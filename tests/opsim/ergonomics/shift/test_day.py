@@ -14,7 +14,8 @@ from opsim.ergonomics.shift.day import days, hours_s
 from opsim.ergonomics.shift.frames import STANDING, WAITING, WALKING
 from opsim.ergonomics.trunk import trunk_exposure
 from opsim.log import BREAK, SETUP, WAIT, WALK, WORK
-from opsim.plan.tasks import Handling, Moment
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.tools.plan import Moment
 from tests.opsim.ergonomics.made_work import BEND, COUNT, Bending, Bends, made_plan
 from tests.opsim.kpi.made_logs import made, row, work
 from tests.opsim.made_walks import Walk, walking

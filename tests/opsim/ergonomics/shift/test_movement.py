@@ -22,8 +22,8 @@ from opsim.ergonomics.shift.movement import (
     unknown_share,
     worst_postures,
 )
-from opsim.kpi.exposure import exposure
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.figures import exposure
+from opsim.subjects.exposure.plan import Handling
 from tests.opsim.ergonomics.bodies import bent, standing
 
 

@@ -20,7 +20,8 @@ from opsim.ergonomics.shift.walks import carried_kg, carries
 from opsim.external_draws import OwnLuck
 from opsim.history import walk_rows
 from opsim.log import COLUMNS, OFF, TRANSPORT, WAIT, WALK, WORK
-from opsim.plan.tasks import NOT_SAID, Handling, Moment
+from opsim.subjects.exposure.plan import NOT_SAID, Handling
+from opsim.subjects.tools.plan import Moment
 from opsim.tasks import Fixed
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 from tests.opsim.ergonomics.shift.test_booking import frames

@@ -25,8 +25,9 @@ from opsim.ergonomics.strain.energy import (
     price_relaxation,
     rohmert_rest_share,
 )
-from opsim.plan.tasks import Handling, Moment
-from opsim.plan.workers import Body
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.people.plan import Body
+from opsim.subjects.tools.plan import Moment
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT
 from tests.opsim.ergonomics.strain.test_lifting import loaded_plan, made_lifts

@@ -25,7 +25,7 @@ from opsim.ergonomics.strain.static_holds import (
     hold_share,
     marked,
 )
-from opsim.plan.workers import Body
+from opsim.subjects.people.plan import Body
 from tests.opsim.ergonomics.holding import Stretch, frames, naive_held, naive_parts
 from tests.opsim.ergonomics.made_frames import made_frames
 

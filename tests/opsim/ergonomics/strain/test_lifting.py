@@ -19,8 +19,8 @@ from opsim.ergonomics.angles import AT
 from opsim.ergonomics.strain.lifting import Lifted, Lifts, composite_of, indices, too_often
 from opsim.ergonomics.strain.lifting_pattern import Kind, composite_range, duration_hours, least_multiplier, pattern
 from opsim.ergonomics.strain.niosh import Lift, composite, composite_index, lifting_index
-from opsim.plan.calendar import Duty
-from opsim.plan.tasks import Handling
+from opsim.subjects.exposure.plan import Handling
+from opsim.subjects.shifts.plan import Duty
 from tests.opsim.ergonomics.made_frames import hands, made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan
 

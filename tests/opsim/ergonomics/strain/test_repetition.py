@@ -32,8 +32,8 @@ from opsim.ergonomics.strain.posture_limits import (
     zoned_angles_deg,
 )
 from opsim.ergonomics.strain.static_holds import Movements, arm_angle_deg, movements
-from opsim.kpi.strain import repetitions
 from opsim.log import COLUMNS, SETUP, WAIT
+from opsim.subjects.exposure.strain_figures import repetitions
 from tests.opsim.ergonomics.bodies import arm, bent, standing, turn
 from tests.opsim.ergonomics.made_frames import made_frames
 from tests.opsim.ergonomics.made_work import BEND, COUNT, made_plan

@@ -4,10 +4,10 @@ from pathlib import Path
 
 from plans import plan
 
-from opsim.engine.floor import run_plan
+from opsim.engine.floor.run import run_plan
 from opsim.kpi.deadlock import locked
+from opsim.plan.warnings import risks_of
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
 
 HEAD = """
 opsim: 1

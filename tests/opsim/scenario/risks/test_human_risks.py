@@ -3,8 +3,8 @@
 import plans
 import pytest
 
-from opsim.plan.model_warnings import unmoved_bodies
-from opsim.scenario.warnings import risks_of
+from opsim.plan.warnings import risks_of
+from opsim.subjects.tasks.warnings import unmoved_bodies
 
 GOOD = """
 opsim: 1

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from opsim.plan.warnings import risks_of
 from opsim.scenario.read import scenarios_in
-from opsim.scenario.warnings import risks_of
 
 BASE = """
 opsim: 1

@@ -3,7 +3,7 @@
 import pytest
 from plans import loaded
 
-from opsim.scenario.warnings.people import shift_risks
+from opsim.subjects.shifts.checks import shift_risks
 
 TEXT = """
 opsim: 1

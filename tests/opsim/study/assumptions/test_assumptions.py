@@ -15,11 +15,13 @@ from plans import CELL, line, loaded, plan
 from opsim.plan import compile_plan
 from opsim.scenario import read_scenarios
 from opsim.study import run_scenario as run_scenario_of_released
-from opsim.study.assumptions.flow import flow, lines, released, station_model, stopped
-from opsim.study.assumptions.people import people
-from opsim.study.assumptions.sheet import assumptions_of, task_sources
+from opsim.study.assumptions import assumptions_of, flow, station_model, task_sources
 from opsim.study.results_folder import OtherRun
 from opsim.study.run import run_scenario
+from opsim.subjects.breakdowns.checks import stopped
+from opsim.subjects.lines.warnings import lines
+from opsim.subjects.people.assumptions import people
+from opsim.subjects.release.checks import released
 
 
 def sheet(text):

@@ -14,10 +14,10 @@ from opsim.ergonomics.options import NOT_SEEN, RULES
 from opsim.plan import compile_plan
 from opsim.results import Result
 from opsim.study import Precision, run_scenario
-from opsim.study.assumptions.ergonomics import ergonomics
-from opsim.study.assumptions.human import human
-from opsim.study.assumptions.sheet import assumptions_of
+from opsim.study.assumptions import assumptions_of
 from opsim.study.compare import NotComparable, compare
+from opsim.subjects.exposure.assumptions import ergonomics
+from opsim.subjects.human.assumptions import human
 
 CELL = """
 opsim: 1

@@ -22,10 +22,10 @@ from opsim.plan import compile_plan
 from opsim.problems import ScenarioError
 from opsim.scenario.read import scenarios_in
 from opsim.study import run_scenario
-from opsim.study.assumptions.assignment import assignment, crews, qualities, rotations
-from opsim.study.assumptions.flow import station_model
-from opsim.study.assumptions.people import working_time
-from opsim.study.assumptions.sheet import assumptions_of
+from opsim.study.assumptions import assumptions_of, station_model
+from opsim.subjects.lines.warnings import crews
+from opsim.subjects.people.assumptions import assignment, qualities, rotations
+from opsim.subjects.shifts.assumptions import working_time
 from tests.opsim.made_walks import made_library
 
 TEXT = """
@@ -296,7 +296,7 @@ def test_what_the_emulator_cannot_do_is_said_before_the_run(tmp_path, monkeypatc
 
 def test_a_speed_that_nobody_says_is_checked_too(tmp_path, monkeypatch):
     made_library(tmp_path, monkeypatch)
-    monkeypatch.setattr("opsim.scenario.checks.motions.USUAL_M_PER_S", 2.6)
+    monkeypatch.setattr("opsim.subjects.tasks.checks.USUAL_M_PER_S", 2.6)
     with pytest.raises(ScenarioError, match=r"workers.ana.*cannot walk at 2\.6 m/s"):
         read(WALKING_CELL.replace("walk: 1 m/s, ", ""), tmp_path)
 

@@ -12,7 +12,7 @@ from plans import plan
 
 from opsim.engine.fast_engine import ready, run_plan
 from opsim.engine.fast_engine.machine import table
-from opsim.engine.floor import run_plan as simpy_run
+from opsim.engine.floor.run import run_plan as simpy_run
 from opsim.log import COLUMNS
 
 FLOOR = """

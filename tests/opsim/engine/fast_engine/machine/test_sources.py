@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from opsim.engine.fast_engine.lowering import written
 from opsim.engine.fast_engine.machine import code_cache
 from opsim.engine.fast_engine.machine.code_cache import ENGINE, sources
 
@@ -32,7 +33,7 @@ def _spec(name):
 
 
 def test_every_file_that_steps_take_names_from_counts():
-    files = [*ENGINE.rglob("*.py"), *(ENGINE.parent / "floor").rglob("*.py")]
+    files = [*ENGINE.rglob("*.py"), *written().values()]
     steps = [path for path in files if "@step" in path.read_text(encoding="utf-8")]
     assert len(steps) > 30
     known = set(sources())

@@ -17,7 +17,7 @@ from opsim.engine.fast_engine.human_state import Model
 from opsim.engine.fast_engine.human_models import CURVES, multiplier_of, work_of
 from opsim.engine.fast_engine.machine import Arena, cast, inlined
 from opsim.engine.fast_engine.random_numbers import place_of
-from opsim.human.catalogue import entry, models_of
+from opsim.subjects.human.catalogue import entry, models_of
 
 _as_model = cast(Model)
 

@@ -20,12 +20,12 @@ from opsim.engine.fast_engine.streams import generators, of_plan
 from opsim.engine.fast_engine.streams.of_plan import BlockDraws, Whole
 from opsim.engine.fast_engine.streams.seeds import product_high
 from opsim.plan import compile_plan
-from opsim.plan.resources import BreakdownPlan
-from opsim.plan.sources import ANY, OrderPlan
-from opsim.plan.tasks import HoldPlan, Moment
 from opsim.scenario.read import read_scenarios
 from opsim.shipped import shipped_folder
 from opsim.streams import BLOCK
+from opsim.subjects.breakdowns.plan import BreakdownPlan
+from opsim.subjects.release.plan import ANY, OrderPlan
+from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.tasks import TimePerformances
 
 N = 3

@@ -5,11 +5,11 @@ import pytest
 
 from opsim.engine.draws import _held, _performed
 from opsim.engine.fast_engine.streams.blocks import durations, held, in_one_call
-from opsim.plan.tasks import HoldPlan, Moment
 from opsim.streams import BLOCK, Items, _key
+from opsim.subjects.tasks.model import UniformCount
+from opsim.subjects.tasks.variability import switched
+from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.tasks import Fixed, Gamma, Lognormal, Recorded, TimePerformances
-from opsim.tasks.model import UniformCount
-from opsim.tasks.variability import switched
 from tests.opsim.tasks.models import MODELS as TIMES
 
 TRACE = Recorded(tuple(np.linspace(1.0, 9.0, 37)), by_index=True)

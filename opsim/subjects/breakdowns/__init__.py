@@ -1,0 +1,1 @@
+"""What stops stations, and who puts it right: breakdowns, planned maintenance, repair teams."""

@@ -1,0 +1,1 @@
+"""Lines that people share: paced lines and their andon, crews, work sharing."""

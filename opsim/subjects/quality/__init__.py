@@ -1,0 +1,1 @@
+"""Defects: what work leaves wrong, what inspections find, scrap and rework."""

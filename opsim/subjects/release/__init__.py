@@ -1,0 +1,1 @@
+"""What comes in: sources, schedules of orders, base stock."""

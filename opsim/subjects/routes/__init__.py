@@ -1,0 +1,1 @@
+"""Products and their ways from station to station."""

@@ -1,0 +1,1 @@
+"""When people and stations are there: shifts, breaks, absence, overtime; and work that is broken off."""

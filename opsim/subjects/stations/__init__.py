@@ -1,0 +1,1 @@
+"""Stations: their servers, the room before and behind them, batches."""

@@ -1,0 +1,1 @@
+"""Tasks: how long a piece of work takes, and by which movement; heights of hands."""

@@ -1,0 +1,1 @@
+"""Tools and fixtures that stations and tasks share."""
