@@ -148,6 +148,21 @@ def test_imports_of_opsim_go_down_only():
     assert not up, up
 
 
+KINDS = {"words": 0, "plan": 1} | dict.fromkeys(("checks", "warnings", "assumptions", "figures", "laws"), 2)
+"""Files of a subject by their names: what each may know of the others, its own subject's or another's."""
+
+
+def test_files_of_subjects_know_only_kinds_below_theirs():
+    known = {name: path for name, path in modules("opsim").items() if ".subjects." in name}
+    up = [
+        f"{name} imports {other}"
+        for name, path in known.items()
+        for other in needed(path, known)
+        if KINDS.get(other.rpartition(".")[2], 0) > KINDS.get(name.rpartition(".")[2], 9)
+    ]
+    assert not up, up
+
+
 def needed(path: Path, known: Collection[str]) -> set[str]:
     """The modules that a file imports at its top level or for type checkers; ``from a import b`` needs a.b."""
     names = {name if name in known else name.rpartition(".")[0] for name in imports_of(path).taken}
