@@ -1,4 +1,4 @@
-"""Three muscle compartments under constant loads, in closed form. Twin: tests/opsim/human/compartments.py."""
+"""Three muscle compartments under constant loads, in closed form. Twin: tests/opsim/subjects/human/compartments.py."""
 
 from __future__ import annotations
 

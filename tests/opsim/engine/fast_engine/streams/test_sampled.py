@@ -10,7 +10,7 @@ from opsim.subjects.tasks.model import UniformCount
 from opsim.subjects.tasks.variability import switched
 from opsim.subjects.tools.plan import HoldPlan, Moment
 from opsim.tasks import Fixed, Gamma, Lognormal, Recorded, TimePerformances
-from tests.opsim.tasks.models import MODELS as TIMES
+from tests.opsim.subjects.tasks.models import MODELS as TIMES
 
 TRACE = Recorded(tuple(np.linspace(1.0, 9.0, 37)), by_index=True)
 MODELS = [*TIMES, UniformCount(2, 9), TRACE]

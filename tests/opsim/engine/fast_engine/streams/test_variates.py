@@ -28,7 +28,7 @@ from opsim.engine.fast_engine.streams.seeds import BLOCK_HASHES, STATE_WORDS
 from opsim.streams import BLOCK, _key
 from opsim.subjects.tasks.variability import switched
 from opsim.tasks import Exponential, Fixed, Gamma, Lognormal, Recorded, Uniform, Weibull
-from tests.opsim.tasks.models import MODELS, SHARED
+from tests.opsim.subjects.tasks.models import MODELS, SHARED
 
 EXPONENTIAL, NORMAL = tables.exponential(), tables.normal()
 KINDS = {

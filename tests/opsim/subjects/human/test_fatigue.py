@@ -22,7 +22,7 @@ from opsim.subjects.human.muscle_fatigue import (
     endurance_s,
     endurance_seen_s,
 )
-from tests.opsim.human.compartments import naive_course, naive_held
+from tests.opsim.subjects.human.compartments import naive_course, naive_held
 
 SHOULDER = MUSCLES["shoulder"]
 F, R = SHOULDER.tires_per_s, SHOULDER.recovers_per_s

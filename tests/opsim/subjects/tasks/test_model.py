@@ -32,7 +32,7 @@ from opsim.tasks import (
     Weibull,
     task_model,
 )
-from tests.opsim.tasks.models import CV_OF, MODELS, SHARED
+from tests.opsim.subjects.tasks.models import CV_OF, MODELS, SHARED
 
 
 @pytest.mark.parametrize("model", MODELS, ids=repr)
@@ -124,7 +124,7 @@ def test_log_time_of_a_lognormal_worker_is_normal_about_his_own_mean():
     assert logs.mean() == pytest.approx(log(20.0) - log1p(0.16) / 2 + 0.3, abs=4 * 0.28 / 50_000**0.5)
 
 
-GOOD = (Path(__file__).parents[1] / "scenario/good.yaml").read_text(encoding="utf-8")
+GOOD = (Path(__file__).parents[2] / "scenario/good.yaml").read_text(encoding="utf-8")
 KINDS = [
     ("fixed: 3 s", Fixed(3.0), "fixed, 3 s"),
     ("dist: exponential, mean: 3 s", Exponential(3.0), "exponential, mean 3 s"),
