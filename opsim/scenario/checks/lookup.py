@@ -1,4 +1,6 @@
-"""The way of a product as it stands in the tree: the stations of a route, or those of a routing by probability.
+"""What stands in the tree, read as the schema reads it: quantities, whole numbers, blocks.
+
+The way of a product as it stands in the tree: the stations of a route, or those of a routing by probability.
 
 A name that is used must be the name of something.
 
@@ -11,13 +13,39 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
+from pydantic import ValidationError
+
+from opsim import units
 from opsim.csv_input import Mistake
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.tree import Node, Part, Place, Source, TreePath, child, entries, items, problem, text
+from opsim.scenario.tree import Block, Node, Part, Place, Source, TreePath, child, entries, items, problem, text
 from opsim.subjects.routes.words import OUT, START
 
+Read = TypeVar("Read", bound=Block)
 POINTS = ("stations", "stores", "conveyors")
+
+
+def quantity(node: Node | None, kind: str) -> float | None:
+    """A quantity in SI units, kind : of ``opsim.units``; None where nothing is said, or the schema refuses it."""
+    try:
+        return None if node is None else units.parse(node.value, kind)
+    except units.UnitError:
+        return None
+
+
+def whole_number(node: Node | None) -> int | None:
+    """A whole number; None where nothing is said, or the schema refuses it."""
+    return node.value if node is not None and type(node.value) is int else None
+
+
+def block_read(model: type[Read], node: Node) -> Read | None:
+    """A block as the schema reads it; None where the schema refuses it."""
+    try:
+        return model.model_validate(node.plain())
+    except ValidationError:
+        return None
 
 
 def visited(tree: Node) -> set[str]:

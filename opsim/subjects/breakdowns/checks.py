@@ -8,14 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from pydantic import ValidationError
-
 from opsim.plan import Plan
 from opsim.problems import Assumption, Problem, did_you_mean, listed, shown
+from opsim.scenario.checks.lookup import block_read, quantity
 from opsim.scenario.tree import Node, Part, child, entries, problem
 from opsim.subjects.breakdowns.plan import BUSY, CLOCK, CYCLES, NO_TEAM
 from opsim.subjects.breakdowns.words import Maintenance
-from opsim.units import UnitError, parse
 
 KINDS = ("breakdowns", "maintenance")
 
@@ -60,10 +58,10 @@ def _one_name(station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
 
 def _time_left(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:
     """A stop that outlasts the run, and stops that together take all the time."""
-    horizon_s = _seconds(child(tree, "run", "horizon"))
+    horizon_s = quantity(child(tree, "run", "horizon"), "time") or math.inf
     share = 0.0
     for name, node in entries(station, "maintenance").items():
-        read = _read(node)
+        read = block_read(Maintenance, node)
         if read is None or read.lasts_s is None:
             continue
         share += read.lasts_s / read.every_s
@@ -75,21 +73,6 @@ def _time_left(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Pr
         found = f"these together take {share:.0%} of the time: the station would never work"
         node = station.value["maintenance"]
         yield problem(node.name_place, (*path, "maintenance"), found, "make them shorter, or rarer")
-
-
-def _read(node: Node) -> Maintenance | None:
-    """A maintenance as the schema reads it; None where the schema refuses it."""
-    try:
-        return Maintenance.model_validate(node.plain())
-    except ValidationError:
-        return None
-
-
-def _seconds(node: Node | None) -> float:
-    try:
-        return math.inf if node is None else parse(node.value, "time")
-    except UnitError:
-        return math.inf
 
 
 _COUNTED = {

@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from opsim import units
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.lookup import named, one_of, onward
+from opsim.scenario.checks.lookup import named, one_of, onward, quantity
 from opsim.scenario.tree import Node, Part, TreePath, child, entries, items, problem, text
 from opsim.subjects.lines.words import INDEXED, MOVING
 from opsim.subjects.people.words import USUAL_WALK_M_PER_S
@@ -112,7 +111,7 @@ def _too_slow(tree: Node, line: Node, on_it: list[str], path: TreePath) -> Itera
     speed = _speed_m_per_s(line)
     for name, worker in entries(tree, "workers").items():
         said = child(worker, "walk")
-        walk = USUAL_WALK_M_PER_S if said is None else _quantity(said, "speed")
+        walk = USUAL_WALK_M_PER_S if said is None else quantity(said, "speed")
         if speed and walk and walk <= speed and set(on_it) & set(entries(worker, "skills")):
             found = f"{name} walks {walk:g} m/s, and the line moves {speed:g} m/s"
             place = worker.name_place if said is None else said.place
@@ -122,16 +121,9 @@ def _too_slow(tree: Node, line: Node, on_it: list[str], path: TreePath) -> Itera
 def _speed_m_per_s(line: Node) -> float | None:
     said = child(line, "speed")
     if said is not None:
-        return _quantity(said, "speed")
-    length, takt = _quantity(child(line, "length"), "length"), _quantity(child(line, "takt"), "time")
+        return quantity(said, "speed")
+    length, takt = quantity(child(line, "length"), "length"), quantity(child(line, "takt"), "time")
     return length / takt if length and takt else None
-
-
-def _quantity(node: Node | None, kind: str) -> float | None:
-    try:
-        return None if node is None else units.parse(node.value, kind)
-    except units.UnitError:
-        return None
 
 
 Step = tuple[str, str, Node]

@@ -15,7 +15,7 @@ from itertools import pairwise
 from opsim.layout import reached, rings
 from opsim.plan import Plan
 from opsim.problems import Assumption, Problem, did_you_mean, listed, natural_key, shown
-from opsim.scenario.checks.lookup import first_of, named, one_of, onward, stations_of
+from opsim.scenario.checks.lookup import first_of, named, one_of, onward, stations_of, whole_number
 from opsim.scenario.checks.lookup import points as points_of
 from opsim.scenario.tree import Node, Place, child, entries, items, problem
 from opsim.subjects.routes.words import OUT, START
@@ -121,10 +121,10 @@ def _initial(name: str, store: Node, ends: list[str]) -> Iterator[Problem]:
         if product not in ends:
             found = f"no way of {shown(product)} ends in {shown(name)}"
             yield problem(number.name_place, (*path, product), found, did_you_mean(product, ends, otherwise="those do"))
-    numbers = [node.value for node in by_product.values()] or [initial.value]
-    known = capacity is not None and all(_whole(number) for number in (capacity.value, *numbers))
-    if known and sum(numbers) > capacity.value:  # type: ignore[union-attr]
-        found = f"{sum(numbers)} lie here at the start, and {capacity.value} have room"  # type: ignore[union-attr]
+    said = [whole_number(node) for node in by_product.values() or [initial]]
+    numbers, room = [number for number in said if number is not None], whole_number(capacity)
+    if room is not None and len(numbers) == len(said) and sum(numbers) > room:
+        found = f"{sum(numbers)} lie here at the start, and {room} have room"
         yield problem(initial.place, path, found, "raise the capacity, or begin with less")
 
 
@@ -143,10 +143,6 @@ def _middle(product: Node, stores: dict[str, Node], path: tuple[str, ...]) -> It
         if name in stores and any(True for _ in onward(row)):
             found = f"what lies in the store {shown(name)} is taken as a part: no way leads on from it"
             yield problem(row.name_place, (*path, "routing", name), found, "remove the line")
-
-
-def _whole(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
 
 
 def card_problems(tree: Node) -> Iterator[Problem]:
@@ -261,8 +257,9 @@ def _initial_stock(tree: Node, store: str, block: Node) -> Iterator[tuple[str, i
     ends = [name for name, product in entries(tree, "products").items() if store in stations_of(product)]
     said = entries(initial) or dict.fromkeys(ends[:1], initial)
     for product, node in said.items():
-        if isinstance(node.value, int) and not isinstance(node.value, bool):
-            yield product, node.value, node
+        pieces = whole_number(node)
+        if pieces is not None:
+            yield product, pieces, node
 
 
 def assumed_assembly(plan: Plan) -> Iterator[Assumption]:

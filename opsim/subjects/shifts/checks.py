@@ -10,11 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from pydantic import ValidationError
-
 from opsim.clock import DAY_S, DAYS, WEEK_S, on_the_clock
 from opsim.problems import Problem, did_you_mean, enumerated, natural_key, shown
-from opsim.scenario.checks.lookup import named
+from opsim.scenario.checks.lookup import block_read, named
 from opsim.scenario.schema import Scenario
 from opsim.scenario.tree import Node, TreePath, child, entries, items, problem
 from opsim.subjects.shifts.words import Pause, Shift
@@ -102,7 +100,7 @@ def _at(node: Node, key: str):
 def shift_problems(tree: Node) -> Iterator[Problem]:
     """Shifts that do not exist, breaks outside their shift or at the same time, workers in two shifts at once."""
     nodes, places = entries(tree, "shifts"), entries(tree, "layout", "places")
-    shifts = {name: shift for name, node in nodes.items() if (shift := _read(node)) is not None}
+    shifts = {name: shift for name, node in nodes.items() if (shift := block_read(Shift, node)) is not None}
     for owner, path in _owners(tree):
         yield from _unknown(owner, nodes, path)
     for name, node in nodes.items():
@@ -113,14 +111,6 @@ def shift_problems(tree: Node) -> Iterator[Problem]:
             yield from pause_problems(node, shifts[name], ("shifts", name))
     for name, worker in entries(tree, "workers").items():
         yield from _in_two(worker, shifts, nodes, ("workers", name, "shift"))
-
-
-def _read(node: Node) -> Shift | None:
-    """A shift as the schema reads it; None where the schema refuses it."""
-    try:
-        return Shift.model_validate(node.plain())
-    except ValidationError:
-        return None
 
 
 def _owners(tree: Node) -> Iterator[tuple[Node, TreePath]]:

@@ -10,7 +10,7 @@ from math import inf
 
 from opsim.plan import Plan
 from opsim.problems import Assumption, Problem, listed, natural_key, shown
-from opsim.scenario.checks.lookup import stations_of
+from opsim.scenario.checks.lookup import stations_of, whole_number
 from opsim.scenario.schema import Scenario, Station
 from opsim.scenario.tree import Node, Part, child, entries, problem
 from opsim.scenario.warnings.routes import between, first_of, last_of, points_of, way_of, ways
@@ -23,10 +23,10 @@ def batch_problems(tree: Node) -> Iterator[Problem]:
         batch, buffer = child(station, "batch"), child(station, "buffer")
         if batch is None:
             continue
-        size = child(batch, "size")
-        if _is_whole(size) and _is_whole(buffer) and buffer.value < size.value:  # type: ignore[union-attr]
-            found = f"a batch of {size.value} never comes together in a buffer of {buffer.value}"  # type: ignore[union-attr]
-            hint = f"give the buffer at least {size.value} places"  # type: ignore[union-attr]
+        size, places = whole_number(child(batch, "size")), whole_number(buffer)
+        if size is not None and places is not None and places < size:
+            found = f"a batch of {size} never comes together in a buffer of {places}"
+            hint = f"give the buffer at least {size} places"
             yield problem(batch.name_place, ("stations", name, "batch"), found, hint)
         yield from _carried(tree, name)
 
@@ -38,10 +38,6 @@ def _carried(tree: Node, name: str) -> Iterator[Problem]:
             found = f"{shown(product)} comes to {shown(name)}, whose batches nobody can carry on"
             hint = "remove 'carried', or give the station no batch"
             yield problem(carried.place, ("products", product, "carried"), found, hint)
-
-
-def _is_whole(node: Node | None) -> bool:
-    return node is not None and isinstance(node.value, int) and not isinstance(node.value, bool)
 
 
 def batch_before_problems(tree: Node, station: Node, path: tuple[Part, ...]) -> Iterator[Problem]:

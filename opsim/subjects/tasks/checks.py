@@ -11,7 +11,6 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from opsim import units
 from opsim.libraries import (
     LibraryMissing,
     library_marks,
@@ -21,7 +20,7 @@ from opsim.libraries import (
     resolve_library,
 )
 from opsim.problems import Problem, did_you_mean, shown
-from opsim.scenario.checks.lookup import motion_emulators
+from opsim.scenario.checks.lookup import motion_emulators, quantity
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 from opsim.subjects.people.words import Person
 
@@ -172,17 +171,9 @@ def walking_emulator_problems(tree: Node, folder: Path) -> Iterator[Problem]:
 def _speeds(tree: Node, slowest: float, fastest: float) -> Iterator[Problem]:
     for name, worker in entries(tree, "workers").items():
         said = child(worker, "walk")
-        speed = _m_per_s(said)
+        speed = USUAL_M_PER_S if said is None else quantity(said, "speed")
         if speed is not None and not slowest <= speed <= fastest:
             found = f"people of {shown(text(tree, 'walking', 'emulator'))} cannot walk at {speed:g} m/s"
             place = worker.name_place if said is None else said.place
             hint = f"they walk at {slowest:g} to {fastest:g} m/s"
             yield problem(place, ("workers", name, "walk"), found, hint)
-
-
-def _m_per_s(said: Node | None) -> float | None:
-    """The speed of a worker, that of the schema where he says none; None where it cannot be read."""
-    try:
-        return USUAL_M_PER_S if said is None else units.parse(said.value, "speed")
-    except units.UnitError:
-        return None

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from pydantic_core import PydanticCustomError
 
-from opsim import units
 from opsim.libraries import (
     REFUSED,
     WRISTS,
@@ -20,7 +19,7 @@ from opsim.libraries import (
     resolve_library,
 )
 from opsim.problems import Problem, did_you_mean, nearest, shown
-from opsim.scenario.checks.lookup import named, rework_at, stations_of
+from opsim.scenario.checks.lookup import named, quantity, rework_at, stations_of
 from opsim.scenario.fields import DEEPEST_M, HIGHEST_M
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 from opsim.subjects.sequencing.checks import setup_times
@@ -213,8 +212,5 @@ def _height(node: Node) -> float | tuple[str, str] | None:
 
 def _metres(node: Node | None, most_m: float = HIGHEST_M) -> float | None:
     """None where nothing is said, or the schema refuses it."""
-    try:
-        found_m = None if node is None else units.parse(node.value, "length")
-    except units.UnitError:
-        return None
+    found_m = quantity(node, "length")
     return found_m if found_m is not None and 0 <= found_m <= most_m else None

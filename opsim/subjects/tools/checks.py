@@ -11,7 +11,7 @@ from pathlib import Path
 
 from opsim.plan import Plan
 from opsim.problems import Assumption, Problem, listed, shown
-from opsim.scenario.checks.lookup import named
+from opsim.scenario.checks.lookup import named, whole_number
 from opsim.scenario.tree import Node, child, entries, items, problem, text
 from opsim.subjects.tasks.checks import moment_problems
 
@@ -33,7 +33,7 @@ def tool_problems(tree: Node, folder: Path) -> Iterator[Problem]:
 
 def _too_few(tree: Node) -> Iterator[Problem]:
     """A station where one job would need more of a tool than there are: it would wait for ever."""
-    counts = {tool: _whole(child(node, "n"), 1) for tool, node in entries(tree, "tools").items()}
+    counts = {tool: whole_number(child(node, "n")) or 1 for tool, node in entries(tree, "tools").items()}
     there = {tool: n for tool, n in counts.items() if n > 0}  # the others are told of by the schema
     for name, station in entries(tree, "stations").items():
         for task, wanted in _wanted(tree, station):
@@ -58,11 +58,7 @@ def _wanted(tree: Node, station: Node) -> Iterator[tuple[str | None, Counter[str
 
 
 def _needs(block: Node) -> Counter[str]:
-    return Counter({tool: _whole(number, 0) for tool, number in entries(block, "needs").items()})
-
-
-def _whole(node: Node | None, otherwise: int) -> int:
-    return node.value if node is not None and type(node.value) is int else otherwise
+    return Counter({tool: whole_number(number) or 0 for tool, number in entries(block, "needs").items()})
 
 
 def _are(n: int) -> str:

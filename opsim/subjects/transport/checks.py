@@ -14,11 +14,10 @@ from itertools import combinations, pairwise
 from math import dist, hypot, inf
 from statistics import median
 
-from opsim import units
 from opsim.layout import Graph, reached, reverse, rings
 from opsim.plan import Plan
 from opsim.problems import Assumption, Problem, enumerated, listed, natural_key, shown
-from opsim.scenario.checks.lookup import named, one_of, onward, path_problems, points, rework_at, stations_of
+from opsim.scenario.checks.lookup import named, one_of, onward, path_problems, points, quantity, rework_at, stations_of
 from opsim.scenario.schema import Scenario
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, text
 from opsim.subjects.routes.words import OUT, START
@@ -103,7 +102,7 @@ def conveyor_problems(tree: Node) -> Iterator[Problem]:
     for name, belt in entries(tree, "conveyors").items():
         for end in ("from", "to"):
             yield from named(child(belt, end), places, "place", ("conveyors", name, end))
-        straight_m, pitch_m = _straight_m(belt, places), _metres(child(belt, "pitch"))
+        straight_m, pitch_m = _straight_m(belt, places), quantity(child(belt, "pitch"), "length")
         if child(belt, "length") is None and straight_m is not None and pitch_m is not None and straight_m < pitch_m:
             found = f"from {shown(text(belt, 'from'))} to {shown(text(belt, 'to'))} it is {straight_m:g} m: no room"
             yield problem(
@@ -115,31 +114,24 @@ def _straight_m(belt: Node, places: dict[str, Node]) -> float | None:
     """The length of the straight line between the ends; None where it cannot be known."""
     at = [places.get(text(belt, end) or "") for end in ("from", "to")]
     ends = [items(place) or items(place, "at") for place in at]
-    points = [[_metres(coordinate) for coordinate in end] for end in ends]
+    points = [[quantity(coordinate, "length") for coordinate in end] for end in ends]
     if any(len(point) != 2 or None in point for point in points):
         return None
     (x, y), (u, v) = points
     return hypot(x - u, y - v)  # type: ignore[operator]
 
 
-def _metres(node: Node | None) -> float | None:
-    try:
-        return None if node is None else units.parse(node.value, "length")
-    except units.UnitError:
-        return None
-
-
 def carrying_problems(tree: Node) -> Iterator[Problem]:
     """Workers who may have to carry a piece that is heavier than what they carry."""
     legs = _legs(tree)
     for made, product in entries(tree, "products").items():
-        carried, mass_kg = child(product, "carried"), _kg(child(product, "mass"))
+        carried, mass_kg = child(product, "carried"), quantity(child(product, "mass"), "mass")
         if carried is None or carried.value is not True or mass_kg is None:
             continue
         froms = {before for before, after in _moves(product) if (before, after) not in legs}
         for name, worker in entries(tree, "workers").items():
             limit = child(worker, "most_load")
-            most_kg = _kg(limit)
+            most_kg = quantity(limit, "mass")
             station = next((station for station in entries(worker, "skills") if station in froms), None)
             if limit is not None and most_kg is not None and 0 < most_kg < mass_kg and station is not None:
                 found = f"{name} may have to carry {shown(made)} ({mass_kg:g} kg) on from {shown(station)}"
@@ -164,13 +156,6 @@ def _legs(tree: Node) -> set[tuple[str, str]]:
 
 def _words(leg: list) -> bool:
     return all(isinstance(end, str) for end in leg)
-
-
-def _kg(node: Node | None) -> float | None:
-    try:
-        return None if node is None else units.parse(node.value, "mass")
-    except units.UnitError:
-        return None
 
 
 def walking_problems(tree: Node) -> Iterator[Problem]:
