@@ -1,4 +1,4 @@
-# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | known-answers | motion-evidence | real-time-evidence | reach-evidence | emulator-evidence CHECKOUT=path | same-results CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
+# make demo | test | evidence | lint | page | golden-logs [RENEW=1] | made-floors | known-answers | motion-evidence | real-time-evidence | reach-evidence | emulator-evidence CHECKOUT=path | same-results CHECKOUT=path | take-evidence | ocel-evidence | bench | bench-peers | libraries | lock | wheel.  Needs Python >= 3.11 and make; sets everything else up in .venv.
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV := .venv
 PEERS := .venv-peers
@@ -10,7 +10,7 @@ BY_FILE := -n 2 --dist loadfile --no-loadscope-reorder
 PAGE := opsim/viewer/page
 PUBLIC := deep_squat inline_lunge leg_raise shoulder_abduction shoulder_scaption side_lunge sit_to_stand
 
-.PHONY: demo test tests evidence lint page page-packages golden-logs known-answers motion-evidence real-time-evidence reach-evidence emulator-evidence same-results take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
+.PHONY: demo test tests evidence lint page page-packages golden-logs made-floors known-answers motion-evidence real-time-evidence reach-evidence emulator-evidence same-results take-evidence ocel-evidence bench bench-peers libraries lock wheel clean
 .DEFAULT_GOAL := demo
 
 $(READY): requirements.lock pyproject.toml
@@ -75,6 +75,12 @@ page: page-packages
 
 golden-logs: $(READY)
 	$(RUN) tests/golden_logs.py $(if $(RENEW),--renew)
+
+# After a change of what made floors draw from: floors that run, a sample that has every word, and the hashes of all.
+made-floors: $(READY)
+	PYTHONPATH=tests:. $(RUN) -m engine_evidence.floors
+	PYTHONPATH=tests:. $(RUN) -m engine_evidence.sample
+	$(MAKE) --no-print-directory golden-logs RENEW=1
 
 known-answers: $(READY)
 	PYTHONPATH=tests $(RUN) -m known_answers.show

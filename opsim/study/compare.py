@@ -26,7 +26,23 @@ ONLY_WHERE = {
     "learned_share": "people learn ('human: learning')",
     "experience": "people learn ('human: learning')",
     **dict.fromkeys(("on_duty_h", "duty_use", "overtime_h", "absent_share"), "workers have shifts"),
-    **dict.fromkeys(("stops_per_h", "down_s", "wait_for_repair_s", "stop_share"), "stations fail ('stops')"),
+    **dict.fromkeys(
+        ("stops_per_h", "down_s", "wait_for_repair_s", "mean_time_between_failures_s", "stop_share"),
+        "stations have 'breakdowns' or 'maintenance'",
+    ),
+    "repair_team_use": "there are 'repair_teams'",
+    **dict.fromkeys(
+        ("stock", "stock_empty", "stored_per_h", "time_to_store_s", "parts_used_per_h"), "there are 'stores'"
+    ),
+    **dict.fromkeys(("on_conveyor", "conveyor_blocked"), "there are 'conveyors'"),
+    **dict.fromkeys(("transporter_states", "driven_m", "pickup_wait_s"), "there are 'transporters'"),
+    **dict.fromkeys(("tool_use", "tools_waited_for"), "there are 'tools'"),
+    **dict.fromkeys(("incomplete_share", "line_stopped_share"), "there are 'lines'"),
+    "handoff_position": "there are 'crews'",
+    **dict.fromkeys(("scrap_share", "scrap_per_h"), "work can be scrapped ('yield', 'inspect', 'breakdowns')"),
+    **dict.fromkeys(("first_pass_yield", "defects_out_share"), "work can go wrong ('yield')"),
+    "rework_per_h": "an inspection sends work back ('inspect: {then: {rework: ...}}')",
+    **dict.fromkeys(("late_share", "tardiness_s"), "jobs have due dates ('due')"),
 }
 """Figures that there are only where the scenario says something; the others are not listed."""
 

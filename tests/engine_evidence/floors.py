@@ -2,8 +2,8 @@
 
 ``floor_text(number)`` is a scenario as YAML, the same for ever; times are whole seconds more often than not, so that
 ties are real. A floor that the language refuses, that locks or starves, or in which nothing ties is drawn again: which
-attempt is a good one stands in ``attempts.txt``. ``python -m engine_evidence.floors`` looks at all of them, and where
-one is good no more (the language has changed, or a recipe) seeks the first that is.
+attempt is a good one stands in ``attempts.txt``. ``make made-floors`` looks at all of them, and where one is good no
+more (the language has changed, or a recipe) seeks the first that is.
 """
 
 from __future__ import annotations

@@ -1,51 +1,14 @@
-"""Floors that together show the whole vocabulary twice: ``python -m engine_evidence.sample`` chooses them anew."""
+"""Floors that together show the whole vocabulary twice: ``make made-floors`` chooses them anew."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
 from functools import partial
+from pathlib import Path
 
-SAMPLE: tuple[int, ...] = (
-    11,
-    86,
-    101,
-    118,
-    187,
-    198,
-    215,
-    235,
-    259,
-    268,
-    295,
-    306,
-    308,
-    370,
-    381,
-    388,
-    411,
-    465,
-    477,
-    491,
-    545,
-    555,
-    559,
-    586,
-    643,
-    677,
-    746,
-    781,
-    782,
-    815,
-    816,
-    823,
-    835,
-    882,
-    891,
-    907,
-    917,
-    922,
-)
+FILE = Path(__file__).with_name("sample.txt")
+SAMPLE: tuple[int, ...] = tuple(map(int, FILE.read_text().split()))
 TIMES = 2
 """In so many floors of the sample each word is."""
 ROWS_A_WORD = 4000
@@ -66,13 +29,14 @@ def chosen(words: Mapping[int, frozenset[str]], n_rows: Mapping[int, int]) -> tu
 
 
 def main() -> None:
-    """Say them."""
+    """Choose them, and write them down."""
     from engine_evidence.compared import floor_seen
     from engine_evidence.equality import compared
     from engine_evidence.floors import N_FLOORS
 
     found = compared(range(N_FLOORS), partial(floor_seen, simpy_only=True))
-    print(chosen(dict(enumerate(one.words for one in found)), dict(enumerate(one.n_rows for one in found))))
+    words, n_rows = ({number: getattr(one, name) for number, one in enumerate(found)} for name in ("words", "n_rows"))
+    FILE.write_text(" ".join(map(str, chosen(words, n_rows))) + "\n")
 
 
 if __name__ == "__main__":

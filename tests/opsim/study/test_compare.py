@@ -1,4 +1,5 @@
 import json
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ from plans import line, loaded
 
 from opsim.kpi.catalogue import KPIS
 from opsim.scenario import read_scenarios
+from opsim.scenario.json_schema import schema_text
 from opsim.study import run_scenario
 from opsim.study.compare import ONLY_WHERE, NotComparable, compare, holm, paired, remedy
 from opsim.study.intervals import holm as holm_of_paired
@@ -267,7 +269,8 @@ def test_nobody_is_sent_to_the_name_he_wrote():
     [
         ("rest_taken_min_per_h", "people rest by need ('human: rest')"),
         ("overtime_h", "workers have shifts"),
-        ("stock", "these results have none of it"),
+        ("stock", "these results have none of it: there is one only where there are 'stores'"),
+        ("down_s", "stations have 'breakdowns' or 'maintenance'"),
         ("rula_mean", "'outputs' list it"),
         ("throughput_per_hour", "did you mean 'throughput_per_h'?"),
     ],
@@ -276,5 +279,7 @@ def test_why_there_is_none_of_a_figure_is_said(kpi, said):
     assert remedy(kpi, ("throughput_per_h", "walked_m")).endswith(said) or said in remedy(kpi, ("throughput_per_h",))
 
 
-def test_only_figures_have_conditions():
+def test_only_figures_have_conditions_and_these_are_words_of_the_language():
     assert set(ONLY_WHERE) <= set(KPIS)
+    said = {word for why in ONLY_WHERE.values() for word in re.findall(r"'(\w+)", why)}
+    assert {word for word in said if f'"{word}": {{' not in schema_text()} == set()
