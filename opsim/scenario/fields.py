@@ -182,7 +182,6 @@ _CLOCK = "the clock goes in steps of 2^-20 s up to 2^33 s (272 years)"
 _WIDEST_M = 1e6
 HIGHEST_M, DEEPEST_M = 100.0, 2.0
 """Of a level, which only a vehicle may reach; of what hands reach into."""
-
 Seconds = Annotated[float, _quantity("time", above=0, at_least=STEP_S, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 SecondsOrZero = Annotated[float, _quantity("time", at_least=0, at_most=LONGEST_S, why=_CLOCK), _as_text("time")]
 Length = Annotated[float, _quantity("length", at_least=-_WIDEST_M, at_most=_WIDEST_M), _as_text("length")]
@@ -206,8 +205,6 @@ Rating = Annotated[float, Field(ge=0.01, le=10)]
 NameText = Annotated[str, BeforeValidator(_name_text)]
 Name = Annotated[str, AfterValidator(_good_name)]
 Whole = Annotated[int, BeforeValidator(_whole)]
-
-
 EXAMPLES = {
     "move": "bench=6 m, 1 m",
     "swap": "saw,drill",
@@ -314,8 +311,6 @@ Probability = Annotated[
         }
     ),
 ]
-
-
 MOST_PIECES = 10_000
 """Pieces of one part in a product, units in a lot, jobs in a batch."""
 

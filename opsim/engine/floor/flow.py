@@ -271,17 +271,23 @@ def depart_for(floor: Floor, job: Job, station: Station) -> None:
     _bring(floor, job, station, carrier)
 
 
-@step
-def leave_station(floor: Floor, job: Job) -> None:
-    """The job gives its place back; whoever waits behind moves up, and whoever wants in may."""
-    station = job.station
-    station.n_inside -= 1
+@inlined
+def part_with_station(floor: Floor, job: Job) -> None:
+    """Who stayed with the job is free, and who asks for it is told that it has left its station."""
     if job.held_by:
         worker = job.held_by
         job.held_by = NOTHING
         set_free(floor, worker)
     for told in floor.left_station:
-        told.line(floor, told.subject, job, station)
+        told.line(floor, told.subject, job, job.station)
+
+
+@step
+def leave_station(floor: Floor, job: Job) -> None:
+    """The job gives its place back; whoever waits behind moves up, and whoever wants in may."""
+    station = job.station
+    station.n_inside -= 1
+    part_with_station(floor, job)
     if station.vacate:
         station.vacate.line(floor, station, job)
     elif job.seat or station.has_seated:

@@ -233,8 +233,6 @@ def _scrap(floor: Floor, failing: Failing, job: Job) -> None:
 
 
 line_of_may_begin = line_of(may_begin)
-
-
 ORDER = 50
 """Among the preparations of a job on a server: the last, where its operation would begin."""
 BECOMES = {"resume": RESUMES, "restart": RESTARTS, "scrap": SCRAPPED}

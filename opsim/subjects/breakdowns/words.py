@@ -37,11 +37,7 @@ class UniformCycles(Block):
 
 
 CYCLE_KINDS: dict[str, type[Block]] = {"<geometric cycles>": GeometricCycles, "<uniform cycles>": UniformCycles}
-
-
 SO_MANY = "<so many>"
-
-
 Cycles = (
     Annotated[Whole, Field(ge=1, le=MOST_CYCLES), Tag(SO_MANY)]
     | Annotated[GeometricCycles, Tag("<geometric cycles>")]

@@ -17,8 +17,6 @@ from opsim.subjects.exposure.plan import LOAD, NO_LOAD, unsaid
 from opsim.subjects.tasks.checks import moment_problems
 
 HANDS = ("loaded", "handling")
-
-
 Spot = tuple[str, int, int]
 
 
@@ -78,8 +76,6 @@ def _figures(tree: Node) -> Iterator[Problem]:
 
 
 """Keys of tasks that may have a body."""
-
-
 ASK_LOADS = {*SCORED, *LIFTED, *ENERGY}
 """Figures that ask what is in the hands."""
 

@@ -49,23 +49,11 @@ def _deg(angle_rad: float) -> float:
 
 
 GRIPS = ("good", "fair", "poor", "unacceptable")
-
-
 FORCES = ("intermittent", "repeated", "static", "shock")
-
-
 FOREARMS = ("mid", "end")
-
-
 START = Moment(share=0.0)
-
-
 END = Moment(share=1.0)
-
-
 LEGS = ("balanced", "unbalanced")
-
-
 SAID = ("grip", "force", "forearm", "arms_supported", "sitting", "legs", "rapid")
 """What ``handling:`` of a task may say beside its load."""
 
@@ -125,18 +113,12 @@ ALWAYS = {
     "rapid": "REBA is an interval over whether posture changes quickly or the stand is unstable",
 }
 """By key of ``handling``: what it leaves open."""
-
-
 LOADED = {
     "grip": "REBA is an interval over the grip",
     "force": "RULA is an interval over how the load comes, REBA over whether it comes as a blow",
 }
 """The same, where something is, or may be, in the hands."""
-
-
 LOAD = "load"
-
-
 NO_LOAD = "RULA, REBA and OWAS are intervals over what is in the hands, and neither a lifting index nor energy has one"
 
 

@@ -59,8 +59,6 @@ def _length(name: str, description: str) -> Any:
 
 
 _TINY = 1e-9
-
-
 _WHY = {
     "trunk_upright": "the next step of the trunk begins at 20 deg",
     "wrist_straight": "the next step of the wrist begins at 15 deg",

@@ -63,12 +63,8 @@ def _muscles(tree: Node) -> Iterator[Problem]:
 
 MEASURED = ("emulator", "motions", "recorded")
 """Tasks whose times were taken from somebody."""
-
-
 STRONG_BY = {"height_m": "height", "mass_kg": "mass", "sex": "sex"}
 """What strength is made of."""
-
-
 FIGURES_OF = {
     "learned_share": "learning",
     "fatigue_mean": "fatigue",

@@ -268,8 +268,6 @@ def _over(floor: Floor, worker: Worker) -> None:
 
 
 _line_of_over = line_of(over)
-
-
 INSTALL = (
     *(install_clock, install_pace, human_models.install_fatigue, install_rest, install_learning),
     install_errors,

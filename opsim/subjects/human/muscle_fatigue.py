@@ -50,7 +50,6 @@ MUSCLES: dict[str, Muscle] = {
 """F and R: Frey-Law, Looft & Heitsman 2012, J. Biomech. 45, 1803-1808, table 1 ("general" is all joints pooled, and
 stands for the hip, which was not measured). r: Looft, Herkert & Frey-Law 2018, J. Biomech. 77, 16-25: 15 for ankle,
 knee and elbow, 30 for the grip; shoulder, trunk and "general" were not measured and take 15: an assumption."""
-
 ENDURANCE: dict[str, tuple[float, float]] = {
     "shoulder": (14.86, -1.83),
     "elbow": (17.98, -2.21),

@@ -45,8 +45,6 @@ class HumanPlan:
 
 
 NO_EFFECTS = HumanPlan()
-
-
 EFFECTS = ("learning", "forgetting", "fatigue", "state_pace", "circadian", "rest", "errors")
 
 

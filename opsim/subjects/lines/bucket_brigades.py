@@ -49,7 +49,7 @@ from opsim.subjects.lines.crew_lines import (
 )
 from opsim.subjects.lines.plan import BUCKET_BRIGADE, CrewPlan
 from opsim.subjects.people.allocation import send
-from opsim.subjects.people.worker import be_busy, hold, set_free
+from opsim.subjects.people.worker import be_busy, hold, set_free, walk_time_s
 from opsim.subjects.routes.routing import claim_at, give_up_claims, put_claim, stir_gate
 from opsim.subjects.shifts.interruption import take_over
 from opsim.subjects.stations.station import go_on
@@ -192,10 +192,10 @@ def dispatch(floor: Floor, crew: Crew) -> bool:
 @inlined
 def _set_turn(floor: Floor, crew: Crew) -> None:
     """Members in the order in which they are asked: the last of a brigade first; else who is nearest the start."""
-    first, turn, near = crew.stations[0].rank, crew.turn, crew.near
+    turn, near = crew.turn, crew.near
     for member in range(crew.n_members):
         worker = crew.members[member]
-        walk_s = worker.walk_s[worker.place * floor.n_stations + first]
+        walk_s = walk_time_s(floor, worker, crew.stations[0])
         near[member] = -float(member) if crew.is_brigade else walk_s
         at = member
         while at > 0 and near[member] < near[turn[at - 1]]:

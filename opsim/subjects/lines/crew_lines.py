@@ -9,7 +9,7 @@ from opsim.engine.floor.machine import NOTHING, Array, List, inlined, step, stru
 from opsim.engine.floor.records import Hook
 from opsim.engine.floor.state import Gate, Job, Station, Worker
 from opsim.log import ABSENT, AFTER, BLOCKED, BREAK, HELD, NO_PLACE, OFF, QUEUE, TRANSPORT, WALK
-from opsim.subjects.people.worker import be_busy, walk
+from opsim.subjects.people.worker import be_busy, walk, walk_time_s
 from opsim.subjects.routes.routing import may_enter, stir_gate
 
 
@@ -261,7 +261,7 @@ def goes_to(floor: Floor, crew: Crew, member: int, place: int) -> bool:
             at += 1 if place > at else -1 if place < at else 0
         station = crew.stations[at]
         crew.stand[member] = at
-        walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
+        walk_s = walk_time_s(floor, worker, station)
         if walk_s > 0:
             log_worker(floor, worker)
             be_busy(floor, worker)

@@ -20,7 +20,6 @@ from opsim.subjects.routes.routing import alarm
 
 ORDER = 30
 """Among the ways to begin a task: a worker comes to his job first."""
-
 INFINITE_S = rules.INFINITE_S
 _meeting_s, _strolled_m = inlined(rules.meeting_s), inlined(rules.strolled_m)
 _as_along = cast(Along)

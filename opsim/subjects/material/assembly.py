@@ -8,14 +8,13 @@ from __future__ import annotations
 from typing import Any
 
 from opsim.engine.floor.floor_state import Floor
-from opsim.engine.floor.flow import go_to, leave_floor, new_job
+from opsim.engine.floor.flow import go_to, leave_floor, new_job, part_with_station
 from opsim.engine.floor.log_rows import job_now
-from opsim.engine.floor.machine import NOTHING, Array, drop, fresh, give_items_back, inlined, step, struct
+from opsim.engine.floor.machine import Array, drop, fresh, give_items_back, inlined, step, struct
 from opsim.engine.floor.records import Seat
 from opsim.engine.floor.state import Job, Station
 from opsim.log import BLOCKED, HELD, NO_PARTS, SPLIT
 from opsim.subjects.material.stores import Kits, take
-from opsim.subjects.people.worker import set_free
 from opsim.subjects.routes.routing import claim_at, give_up_claims, put_claim, take_claim
 from opsim.subjects.stations.station import proceed, see_seated
 
@@ -213,12 +212,7 @@ def stays_whole(floor: Floor, splits: Splits, job: Job) -> bool:
     if not split:
         return True
     station = job.station
-    if job.held_by:
-        worker = job.held_by
-        job.held_by = NOTHING
-        set_free(floor, worker)
-    for told in floor.left_station:
-        told.line(floor, told.subject, job, station)
+    part_with_station(floor, job)
     leave_floor(floor, job, SPLIT, 0, station.rank, -1)
     n = _make_pieces(floor, split, job)
     _share_seat(floor, station, job, n)

@@ -15,11 +15,7 @@ from opsim.scenario.tree import Block
 
 MOST_INITIAL = 100_000
 """Jobs that may lie in a store at the start."""
-
-
 MOST_PLACES = 1_000_000_000
-
-
 ONLY = ""
 """Stands in ``initial`` for the only product that ends in a store."""
 
@@ -45,23 +41,11 @@ def _by_product(value: object) -> dict[str, int]:
 
 
 _PLACES = {"anyOf": [{"type": "integer", "minimum": 1, "maximum": MOST_PLACES}, {"const": "unlimited"}]}
-
-
 Capacity = Annotated[Whole | None, BeforeValidator(_capacity), WithJsonSchema(_PLACES)]
-
-
 _WHOLE = {"type": "integer", "minimum": 0, "maximum": MOST_INITIAL}
-
-
 _INITIAL = {"anyOf": [_WHOLE, {"type": "object", "additionalProperties": _WHOLE}]}
-
-
 Pieces = Annotated[Whole, Field(ge=1, le=MOST_PIECES)]
-
-
 PiecesByStation = dict[NameText, dict[NameText, Pieces]]
-
-
 Initial = Annotated[dict[str, int], BeforeValidator(_by_product), WithJsonSchema(_INITIAL)]
 
 
@@ -98,16 +82,10 @@ def _names(what: str):
 
 
 _EXAMPLE = {"station": "drill", "product": "[a, b]"}
-
-
 _ONE_OR_MORE = WithJsonSchema(
     {"anyOf": [{"type": "string"}, {"type": "array", "minItems": 1, "items": {"type": "string"}}]}
 )
-
-
 _Points = Annotated[list[str], _names("station"), _ONE_OR_MORE]
-
-
 _Products = Annotated[list[str], _names("product"), _ONE_OR_MORE]
 
 

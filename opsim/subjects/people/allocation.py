@@ -19,10 +19,10 @@ from opsim.plan.compile import LEAST_EXPOSED, evens_out
 from opsim.subjects.human.human_effects import hang
 from opsim.subjects.human.human_models import bodies_of
 from opsim.subjects.human.human_state import dose_so_far
-from opsim.subjects.people.worker import be_busy, clear_bit, may_serve, on_round, walk
+from opsim.subjects.people.worker import be_busy, clear_bit, may_serve, on_round, walk, walk_time_s
 from opsim.subjects.routes.routing import take_claim
 from opsim.subjects.sequencing.plan import MOST_DOWNSTREAM
-from opsim.subjects.stations.station import call_off, perform
+from opsim.subjects.stations.station import call_off, go_and_perform
 
 ORDER = 1
 """Among the ways to begin a task: somebody on patrol has come for one before anything else is looked at."""
@@ -206,12 +206,7 @@ def send(floor: Floor, worker: Worker, station: Station, job: Job) -> None:
     if job.with_tools:
         station.sent.line(floor, station, job)
     worker.job, worker.station = job, station
-    walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
-    if walk_s > 0:
-        walk(floor, worker, station.place, walk_s)
-    else:
-        worker.place = station.place
-        perform(floor, job, worker)
+    go_and_perform(floor, worker, job)
 
 
 @step
@@ -244,7 +239,7 @@ def _walk_on(floor: Floor) -> bool:
             worker.round = (worker.round + 1) % worker.n_patrol
             worker.served = 0
             station = floor.stations[worker.patrol[worker.round]]
-            walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
+            walk_s = walk_time_s(floor, worker, station)
             if walk_s > 0:
                 log_worker(floor, worker)
                 be_busy(floor, worker)
@@ -258,8 +253,6 @@ def _walk_on(floor: Floor) -> bool:
 
 
 _serve_one, _send = here(_serve_best), here(send)
-
-
 _less_gone_through = inlined(rules.less_gone_through)
 
 

@@ -127,7 +127,6 @@ _HOW = {"height_m": "bones are scaled to it", "pace": "moving times of the typic
 _PACE_OF_PERSONS = "moving times of the typical person, or of the recorded one who is named, are divided by it"
 _PACE_OF_ALL = "the mean of everybody's times is divided by it"
 _EXPLAINED = "pace and posture change as the recordings explain them by it"
-
 _ACROSS = {
     "as_recorded": "a worker's own pace in tasks of the same recorded people goes together as theirs did; in other "
     "tasks he may be quick in one and slow in the next",

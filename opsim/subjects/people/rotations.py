@@ -178,7 +178,6 @@ def _first_choice(posts: Posts, post: int) -> int:
 
 COUNT = 1
 """Among what is asked when an operation is done: it is counted before anything becomes of the job."""
-
 FIRST = -1000
 """Each rotation looks who is there before anybody is sent."""
 _turns_away = inlined(turns_away)

@@ -21,11 +21,10 @@ from opsim.subjects.people.worker import (
     task_done,
     units,
     wait_by,
-    walk,
     works,
 )
 from opsim.subjects.routes.routing import give_up_claims, put_claim, take_claim
-from opsim.subjects.stations.station import drawn_s, perform, stand_still
+from opsim.subjects.stations.station import drawn_s, go_and_perform, stand_still
 from opsim.subjects.tools.tool_grips import Want, grip_at, is_free
 from opsim.subjects.tools.tool_store import break_off, grip
 
@@ -252,12 +251,7 @@ def _send(floor: Floor, job: Job, station: Station) -> None:
         be_busy(floor, worker)
         worker.job, worker.station = job, station
     for worker in team:
-        walk_s = worker.walk_s[worker.place * floor.n_stations + station.rank]
-        if walk_s > 0:
-            walk(floor, worker, station.place, walk_s)
-        else:
-            worker.place = station.place
-            perform(floor, job, worker)
+        go_and_perform(floor, worker, job)
 
 
 @step

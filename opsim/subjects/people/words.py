@@ -57,14 +57,10 @@ def skill_tag(value: object) -> str:
 SkillText = Annotated[Annotated[Rating, Tag(RATING)] | Annotated[Skill, Tag(SKILL)], Discriminator(skill_tag)]
 Skills = dict[str, SkillText]
 SkillLevels = dict[Name, SkillText]
-
-
 MOST_WORKERS = 500
 """That a workforce may have."""
 PREFIX = "w"
 USUAL_WALK_M_PER_S = 1.2
-
-
 Repetitions = Annotated[float, Field(ge=0, le=1e9)]
 
 
@@ -207,8 +203,6 @@ def _post(value: object) -> object:
 
 
 _ONE_OR_MORE = WithJsonSchema({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]})
-
-
 Post = Annotated[list[NameText], BeforeValidator(_post), _ONE_OR_MORE]
 
 

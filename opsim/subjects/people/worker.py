@@ -155,6 +155,12 @@ def hold(floor: Floor, worker: Worker, job: Job) -> None:
     job.held_by = worker
 
 
+@inlined
+def walk_time_s(floor: Floor, worker: Worker, station: Station) -> float:
+    """How long a worker walks to a station from where he is."""
+    return worker.walk_s[worker.place * floor.n_stations + station.rank]
+
+
 @step
 def walk(floor: Floor, worker: Worker, place: int, walk_s: float) -> None:
     """The worker walks to a place and cannot be sent elsewhere before he is there."""

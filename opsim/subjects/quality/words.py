@@ -11,8 +11,6 @@ from opsim.scenario.fields import Probability, Whole, plain_error
 from opsim.scenario.tree import Block
 
 _SCRAP = "scrap"
-
-
 _THEN = {
     "anyOf": [
         {"const": _SCRAP},
@@ -53,8 +51,6 @@ def _then(value: object) -> object:
 
 
 Yield = Annotated[Probability, AfterValidator(_some)]
-
-
 LessThanAll = Annotated[Probability, AfterValidator(_not_all)]
 
 

@@ -101,7 +101,6 @@ RELEASE = "release"
 SATURATED, POISSON, RENEWAL, SCHEDULE, BASE_STOCK = "saturated", "poisson", "renewal", "schedule", "base_stock"
 INSIDE = "inside"
 """The kind of a source of jobs that other jobs, or the start of a run, bring about: nothing comes of itself."""
-
 Mix = tuple[tuple[int, float], ...]
 
 

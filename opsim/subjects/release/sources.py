@@ -114,11 +114,7 @@ def ordered(floor: Floor, event: Event) -> None:
 
 
 line_of_arrived, line_of_ordered = line_of(arrived), line_of(ordered)
-
-
 _create, _waits = here(create), here(_wait_for_next)
-
-
 _stock_wanted, _waited = inlined(rules.stock_wanted), here(waited_for)
 
 

@@ -58,8 +58,6 @@ Shares = Annotated[
     WithJsonSchema({"anyOf": [_NAMES, {"type": "object", "additionalProperties": _SHARE, "minProperties": 1}]}),
 ]
 Sequence = Annotated[list[str] | str, BeforeValidator(_order), WithJsonSchema({"anyOf": [_NAMES, {"type": "string"}]})]
-
-
 MOST_AT_ONCE = 100_000
 """Jobs that may come at one instant."""
 

@@ -125,8 +125,6 @@ def _mean(values) -> float:
 
 
 NO_SETUP = -1
-
-
 ANYTHING = -1
 """What a server was last set up for, before its first job: no set-up is needed for whatever comes."""
 

@@ -196,7 +196,6 @@ def set_lines(build: Any, people: Any) -> None:
 
 ORDER = 10
 """Among the ways to begin a task: before all others, since who has to go begins none."""
-
 _stays_on = inlined(stays_on)
 _as_presence, _as_pause = cast(Presence), cast(Pause)
 

@@ -23,7 +23,6 @@ from opsim.subjects.stations.station import go_on
 
 ORDER = 40
 """Among the ways to begin a task: after the way along a moving line, so that he takes over where the job is."""
-
 _new_relief = fresh(Relief)
 _first_relief = inlined(first_relief)
 

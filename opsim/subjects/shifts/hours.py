@@ -15,8 +15,6 @@ from opsim.problems import enumerated
 from opsim.subjects.lines.plan import CrewPlan
 from opsim.subjects.shifts.plan import Duty, Spans, at_least, both, either, together, total_s, without
 
-__all__ = ["Hours"]
-
 
 class Hours:
     """The hours of a Plan's people and stations; each is worked out when it is asked for, once."""

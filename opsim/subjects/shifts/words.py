@@ -13,14 +13,8 @@ from opsim.scenario.fields import Name, NameText, Seconds, plain_error
 from opsim.scenario.tree import Block
 
 _BY_WORD = {word.casefold(): short for short, long in zip(DAYS, LONG_DAYS) for word in (short, long)}
-
-
 _CLOCK = re.compile(r"\s*([0-9]{1,2}):([0-9]{2})(?::([0-9]{2}))?\s*")
-
-
 _SPOKEN = re.compile(r"\s*([0-9]{1,2})(?:[:.]([0-9]{2}))?\s*([ap])\.?m\.?\s*", re.IGNORECASE)
-
-
 _SPAN = re.compile(r"\s*([A-Za-z]+)\s*(?:-|\u2013|to)\s*([A-Za-z]+)\s*")
 
 
@@ -92,15 +86,9 @@ def _as_list(value: object) -> str:
 
 
 _TEXT = {"type": "string", "pattern": r"^\s*([01]?[0-9]|2[0-4]):[0-5][0-9](:[0-5][0-9])?\s*$", "examples": ["06:00"]}
-
-
 _LIST = {"type": "array", "items": {"enum": [*DAYS, *LONG_DAYS]}, "minItems": 1}
-
-
 RULES = Literal["finish", "finish_job", "resume", "resume_any", "hand_over", "restart"]
 """What becomes of the task under way when its worker has to go."""
-
-
 RULES_SAID = (
     "finish: the task under way is done first; finish_job: all tasks of the job at this station (who is in a team: "
     "those that want one); resume: he stops at once, the job waits, and he goes on with the rest when he is back; "
@@ -123,16 +111,10 @@ def _one_or_several(value: object) -> object:
 
 
 _NAMES = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}
-
-
 Clock = Annotated[float, BeforeValidator(clock_s), WithJsonSchema(_TEXT)]
-
-
 Days = Annotated[
     list[Annotated[str, BeforeValidator(_day)]], BeforeValidator(_some), AfterValidator(_days), WithJsonSchema(_LIST)
 ]
-
-
 ShiftNames = Annotated[list[NameText], BeforeValidator(_one_or_several), WithJsonSchema(_NAMES)]
 
 

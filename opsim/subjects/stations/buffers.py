@@ -187,8 +187,6 @@ def _chosen(floor: Floor, gate: Gate, job: Job) -> Station:
 
 _first_gate, _come_in, _depart_for = here(first_gate), here(_enter), here(depart_for)
 _create, _has_next = here(create), here(_next_has_room)
-
-
 PLACE_COMES = 10
 """The place of this among the preparations of a job."""
 _new_ahead = fresh(Ahead)

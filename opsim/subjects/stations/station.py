@@ -6,7 +6,7 @@ from opsim.engine.floor.event_list import new_event, on_grid, push_event, stretc
 from opsim.engine.floor.floor_state import Floor
 from opsim.engine.floor.keys import is_better, keep_best
 from opsim.engine.floor.log_rows import job_now
-from opsim.engine.floor.machine import NOTHING, here, step
+from opsim.engine.floor.machine import NOTHING, here, inlined, step
 from opsim.engine.floor.state import GOES_ON, Event, Job, Station, Worker
 from opsim.engine.rules import COMPLETION
 from opsim.log import HELD, NO_WORKER
@@ -21,6 +21,8 @@ from opsim.subjects.people.worker import (
     set_bit,
     set_free,
     task_of,
+    walk,
+    walk_time_s,
 )
 from opsim.subjects.routes.routing import give_up_claims, put_claim
 
@@ -184,6 +186,17 @@ def go_on(floor: Floor, job: Job) -> None:
         next_task(floor, job, NOTHING)
     else:
         begin_setup(floor, job, job.setup_task)
+
+
+@inlined
+def go_and_perform(floor: Floor, worker: Worker, job: Job) -> None:
+    """A worker who was given a job goes to its station, and performs there."""
+    walk_s = walk_time_s(floor, worker, worker.station)
+    if walk_s > 0:
+        walk(floor, worker, worker.station.place, walk_s)
+    else:
+        worker.place = worker.station.place
+        perform(floor, job, worker)
 
 
 @step

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from opsim.plan.ranks import ranked
 from opsim.problems import natural_key
@@ -22,10 +22,6 @@ from opsim.task_model import TaskModel
 
 if TYPE_CHECKING:
     from opsim.scenario.schema import Scenario
-
-
-T = TypeVar("T", bound=Any)
-"""A ``TaskPlan``, which imports this page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +64,7 @@ def performed_tasks(scenario: Scenario) -> dict[str, Any]:
     return found
 
 
-def with_levels(name: str, task: Any, make: Callable[[str, Any], T]) -> list[T]:
+def with_levels(name: str, task: Any, make: Callable[[str, Any], TaskPlan]) -> list[TaskPlan]:
     """A task; where its height changes, those that stand for it too, and it has their mean time."""
     own = [replace(make(key, one), of=name) for key, one in at_levels(name, task).items()]
     if not own:
@@ -76,7 +72,7 @@ def with_levels(name: str, task: Any, make: Callable[[str, Any], T]) -> list[T]:
     return [*own, replace(own[0], name=name, of=None, model=LevelsMean([one.model for one in own]))]
 
 
-def found_levels(tasks: Sequence[T], said: Mapping[str, Any], products: Sequence[str]) -> tuple[T, ...]:
+def found_levels(tasks: Sequence[TaskPlan], said: Mapping[str, Any], products: Sequence[str]) -> tuple[TaskPlan, ...]:
     """The tasks of a Plan, in their order, each with its ``levels`` where it has some."""
     ranks = {task.name: rank for rank, task in enumerate(tasks)}
     found = [_levels(task.name, said.get(task.name), products, ranks) for task in tasks]
@@ -95,13 +91,13 @@ def _levels(name: str, task: Any, products: Sequence[str], ranks: Mapping[str, i
     return Levels(tuple(ranks[level_name(name, said.get(product, first))] for product in products))
 
 
-def for_product(tasks: Sequence[T], task: int, product: int) -> T:
+def for_product(tasks: Sequence[TaskPlan], task: int, product: int) -> TaskPlan:
     """The task as it is done for a product: at its level, where products decide."""
     levels = tasks[task].levels
     return tasks[task if levels is None or levels.pieces_each else levels.tasks[product]]
 
 
-def performed_ranks(tasks: Sequence[Any], task: int) -> tuple[int, ...]:
+def performed_ranks(tasks: Sequence[TaskPlan], task: int) -> tuple[int, ...]:
     """The ranks of the tasks that are performed where a station names one: itself, or those at its levels."""
     levels = tasks[task].levels
     return (task,) if levels is None else tuple(sorted(set(levels.tasks)))

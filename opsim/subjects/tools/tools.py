@@ -179,8 +179,6 @@ def _somebody_for(floor: Floor, station: Station) -> bool:
 
 
 line_of_proceed, line_of_next = line_of(proceed_with), line_of(next_with)
-
-
 ACT = READY = 50
 """Among the ways to begin a task: after those that look at who begins it."""
 ORDER = 5

@@ -249,25 +249,13 @@ def graph_of(paths: Node) -> dict[str, set[str]]:
 
 FAR = 20
 """Times as far from everything as places usually are from each other."""
-
-
 FAR_M = 50.0
-
-
 NEAR_M = 1.0
-
-
 MOST_PLACES = 300
 """For which each is compared with every other one."""
-
-
 STRAIGHT = 0.99
 """Of the straight line: what is shorter cannot be walked."""
-
-
 LONG = 10
-
-
 Places = Mapping[str, tuple[float, float]]
 
 
