@@ -3,6 +3,9 @@
 They use + - * / comparisons, min and max only, so that a compiled engine can run the same source. Smallest key wins.
 """
 
+LEAST_EXPOSED = "least_exposed"
+"""Its name, among the rules of allocation and among those of rotations."""
+
 
 def longest_queue(n_waiting, oldest_since_s, walk_s, rating, station_rank, worker_rank):
     """The station with most jobs waiting, in its buffer or on servers; then the oldest call, then the nearer worker."""

@@ -30,8 +30,8 @@ from opsim.kpi.window import (
 )
 from opsim.log import BAD, CREATE, FINISH, LEAVING_KINDS, LOST, EventLog
 from opsim.plan import Plan
-from opsim.plan.compile import finishes
 from opsim.plan.loads import station_loads
+from opsim.subjects.material.figures import finishes
 from opsim.subjects.release.plan import due_of
 from opsim.subjects.shifts.hours import has_hours, scheduled
 from opsim.subjects.shifts.plan import Spans, total_s

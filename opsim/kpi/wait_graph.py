@@ -39,7 +39,7 @@ from opsim.log import (
     EventLog,
 )
 from opsim.plan import Plan
-from opsim.plan.compile import has_card
+from opsim.subjects.material.figures import has_card
 from opsim.subjects.material.plan import jobs_on_a_server
 from opsim.subjects.stations.plan import CONVEYOR, STATION, STORE
 

@@ -1,15 +1,6 @@
-"""Scenario -> Plan.
-
-Where on its way a job has a card of a loop.
-
-Where the ways of products end: out of the floor, in a store, or in the pieces they are split into.
-
-The rule that evens out exposure: where a plan has it, the engine counts what each body has gone through so far.
-"""
+"""Scenario -> Plan."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 from opsim.layout import distances_m
 from opsim.plan.plan import Plan
@@ -19,11 +10,11 @@ from opsim.subjects.breakdowns.plan import plan_breakdowns, plan_maintenance, pl
 from opsim.subjects.exposure.plan import plan_ergonomics
 from opsim.subjects.human.plan import plan_human
 from opsim.subjects.lines.plan import plan_crews, plan_lines, plan_shares
-from opsim.subjects.material.plan import CardPlan, plan_assembly, plan_cards
+from opsim.subjects.material.plan import plan_assembly, plan_cards
 from opsim.subjects.people.plan import plan_rotations, plan_walking, plan_workers
 from opsim.subjects.quality.plan import plan_quality, with_detours
 from opsim.subjects.release.plan import plan_sources
-from opsim.subjects.routes.plan import ProductPlan, plan_products
+from opsim.subjects.routes.plan import plan_products
 from opsim.subjects.sequencing.plan import (
     has_priorities,
     looks_ahead,
@@ -33,7 +24,7 @@ from opsim.subjects.sequencing.plan import (
     work_ahead,
 )
 from opsim.subjects.shifts.plan import plan_shifts
-from opsim.subjects.stations.plan import STORE, plan_stations
+from opsim.subjects.stations.plan import plan_stations
 from opsim.subjects.tasks.plan import plan_tasks
 from opsim.subjects.tools.plan import plan_tools
 from opsim.subjects.transport.plan import plan_conveyors, plan_transporters
@@ -102,67 +93,3 @@ def compile_plan(loaded, *, seed: int | None = None) -> Plan:
         posture=scenario.run.posture,
         start_s=scenario.run.start_s,
     )
-
-
-def has_card(card: CardPlan, rank: int, plan: Plan, points: Sequence[int]) -> list[bool]:
-    """(rows,) whether a job of a product had a card in each of its rows, from the points it was at in turn.
-
-    Of a plain route the steps are told apart; else a card is taken wherever one ever is taken. What lies in a store at
-    the start has a card of a loop that ends there, or on the way out. Where the loop may have ended at a station that
-    is only passed, and leaves no row, the job has none.
-    """
-    product = plan.products[rank]
-    steps, has, before, at = set(card.steps[rank]), False, -1, -1
-    taken = {point for step in steps for point in product.route[step].stations}
-    first = {point for _, step in product.start for point in product.route[step].stations}
-    ends = {point for point in card.back if plan.stations[point].kind == "station" and not plan.stations[point].tasks}
-    in_a_row = all(ways == ((1.0, step + 1),) for step, ways in enumerate(product.onward[:-1]))
-    found = []
-    for point in points:
-        if point != before:
-            came, at = at, _next_step(product, at, point) if in_a_row else -1
-            enters = at in steps if at >= 0 else point in taken
-            in_stock = bool(steps) and before < 0 and point in (card.back or (point,)) and point not in first
-            left = before in card.back or _may_have_passed(product, ends, came, at)
-            has = (has and not left) or enters or in_stock
-            before = point
-        found.append(has)
-    return found
-
-
-def _may_have_passed(product: ProductPlan, ends: set[int], came: int, at: int) -> bool:
-    """Whether a job may have been at one of some points between two steps of its route; -1: at any step."""
-    between = product.route[came + 1 : at] if min(came, at) >= 0 else product.route
-    return bool(ends) and any(ends.intersection(operation.stations) for operation in between)
-
-
-def _next_step(product: ProductPlan, at: int, point: int) -> int:
-    """The first step after another at which a job can be at a point; -1 where there is none."""
-    later = range(at + 1, len(product.route))
-    return next((step for step in later if point in product.route[step].stations), -1)
-
-
-def finishes(plan: Plan, product: int) -> bool:
-    """Whether jobs of a product can leave the floor as something finished."""
-    apart = {split.station for split in plan.splits if split.product == product}
-    return any(plan.stations[rank].kind != STORE and rank not in apart for rank in _last_points(plan, product))
-
-
-def stores_of(plan: Plan, product: int) -> list[int]:
-    """The stores in which the ways of a product end, by rank."""
-    return sorted(rank for rank in _last_points(plan, product) if plan.stations[rank].kind == STORE)
-
-
-def _last_points(plan: Plan, product: int) -> set[int]:
-    made = plan.products[product]
-    ends = (step for step, onward in zip(made.route, made.onward) if any(to < 0 for _, to in onward))
-    return {rank for step in ends for rank in step.stations}
-
-
-LEAST_EXPOSED = "least_exposed"
-"""Its name, among the rules of allocation and among those of rotations."""
-
-
-def evens_out(plan: Plan) -> bool:
-    """Whether any rule of a plan asks who is the least exposed."""
-    return LEAST_EXPOSED in (plan.rule, *(rotation.rule for rotation in plan.rotations))

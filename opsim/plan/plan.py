@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from opsim.engine.rules import LEAST_EXPOSED
 from opsim.ergonomics.options import USUAL, Options
 from opsim.plan.subjects import SubjectPlan
 from opsim.problems import natural_key
@@ -136,6 +137,11 @@ class Plan:
         from opsim.notebook import plan_html
 
         return plan_html(self)
+
+    @property
+    def evens_out(self) -> bool:
+        """Whether any rule asks who is the least exposed: then the floor counts what each body has gone through."""
+        return LEAST_EXPOSED in (self.rule, *(rotation.rule for rotation in self.rotations))
 
     @property
     def operations(self) -> tuple[str, ...]:

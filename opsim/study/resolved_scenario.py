@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from opsim.plan.compile import LEAST_EXPOSED
+from opsim.engine.rules import LEAST_EXPOSED
 
 TreePath = tuple[str, ...]
 IN_NOTHING = (("name",), ("run", "seed"), ("run", "replications"))

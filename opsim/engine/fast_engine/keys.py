@@ -8,8 +8,7 @@ from opsim.engine import rules
 from opsim.engine.fast_engine.floor_state import Floor
 from opsim.engine.fast_engine.machine import inlined, new_floats
 from opsim.engine.fast_engine.state import Job, Station, Worker
-from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
-from opsim.plan.compile import LEAST_EXPOSED
+from opsim.engine.rules import ALLOCATION_RULES, LEAST_EXPOSED, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 
 ALLOCATION = tuple(ALLOCATION_RULES)
 """Rules of allocation by their numbers."""

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from opsim.engine.rules import less_gone_through, queue_key
-from opsim.plan.compile import LEAST_EXPOSED
+from opsim.engine.rules import LEAST_EXPOSED, less_gone_through, queue_key
 from opsim.plugins import dispatch_rule, rule_of
 
 

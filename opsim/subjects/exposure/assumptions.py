@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from opsim.engine.rules import LEAST_EXPOSED
 from opsim.ergonomics.anthropometry import HEIGHT_M, MASS_KG
 from opsim.ergonomics.options import NOT_SEEN, RULES, Options, Thresholds
 from opsim.ergonomics.shift.walks import EMPTY_HANDS
@@ -25,7 +26,6 @@ from opsim.ergonomics.strain.posture_limits import EN_1005_4
 from opsim.ergonomics.strain.static_holds import STATIC_WORK
 from opsim.kpi.catalogue import ENERGY, HELD, LIFTED, REGION, REST, SCORED, read_asked
 from opsim.plan import Plan
-from opsim.plan.compile import LEAST_EXPOSED, evens_out
 from opsim.problems import Assumption, listed
 from opsim.subjects.exposure.plan import END, START, Handling, leaves_open, unsaid
 from opsim.subjects.tasks.plan import TaskPlan
@@ -40,7 +40,7 @@ def ergonomics(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:
     if not plan.posture:
         yield "postures", "posture: off: nobody looks at postures, and there is no figure of them; times are as ever"
         return
-    if evens_out(plan):
+    if plan.evens_out:
         yield "exposure", _sent_by_dose()
     asked = {*loaded.scenario.outputs, *(read_asked(one).kpi for one in loaded.scenario.frontier or ())}
     bodies = [task for task in plan.tasks if has_body(task) and task.levels is None]

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from opsim.engine.rules import LEAST_EXPOSED
 from opsim.kpi.catalogue import ENERGY, LIFTED, SCORED, needs_postures, read_asked
-from opsim.plan.compile import LEAST_EXPOSED
 from opsim.problems import Problem, enumerated, natural_key
 from opsim.scenario.schema import Scenario
 from opsim.scenario.tree import Node, Part, child, entries, items, problem

@@ -15,7 +15,7 @@ from opsim.engine.floor.keys import is_better, keep_best, pair_key, pair_numbers
 from opsim.engine.floor.log_rows import log_worker
 from opsim.engine.floor.machine import here, inlined, step
 from opsim.engine.floor.state import Job, Station, Worker
-from opsim.plan.compile import LEAST_EXPOSED, evens_out
+from opsim.engine.rules import LEAST_EXPOSED
 from opsim.subjects.human.human_effects import hang
 from opsim.subjects.human.human_models import bodies_of
 from opsim.subjects.human.human_state import dose_so_far
@@ -258,7 +258,7 @@ _less_gone_through = inlined(rules.less_gone_through)
 
 def install_doses(build: Any) -> None:
     """Doses are counted where a rule of the plan asks for them; ``humans`` tells them who works."""
-    if not evens_out(build.plan):
+    if not build.plan.evens_out:
         return
     bodies = bodies_of(build)
     ask_rate, ask_order = bodies.asks(bodies.answer_rate), bodies.asks(bodies.answer_order)

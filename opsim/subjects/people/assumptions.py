@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from opsim.engine.rules import LEAST_EXPOSED
 from opsim.plan import Plan
-from opsim.plan.compile import LEAST_EXPOSED
 from opsim.problems import Assumption, listed
 from opsim.streams import stream
 from opsim.subjects.people.plan import IN_TURN, RotationPlan, WorkerPlan, start_place

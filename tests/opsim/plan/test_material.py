@@ -15,7 +15,7 @@ import pytest
 from plans import CELL, line, plan
 
 from opsim.engine.rules import source_in_turn, stock_wanted
-from opsim.plan.compile import has_card
+from opsim.subjects.material.figures import has_card
 from opsim.subjects.material.plan import jobs_on_a_server
 from opsim.subjects.release.plan import (
     INSIDE,
