@@ -156,9 +156,7 @@ def _names(tree: Node, card: Node, path: tuple[str, ...]) -> Iterator[Problem]:
     points, products = list(points_of(tree)), list(entries(tree, "products"))
     for key, known, what in (("from", points, "station"), ("to", points, "station"), ("products", products, "product")):
         for node in _said(card, key):
-            if isinstance(node.value, str) and node.value not in known:
-                hint = did_you_mean(node.value, known, otherwise=f"known {what}s")
-                yield problem(node.place, (*path, key), f"no {what} {shown(node.value)}", hint)
+            yield from named(node, known, what, (*path, key))
 
 
 def _passed(tree: Node, card: Node, path: tuple[str, ...]) -> Iterator[Problem]:

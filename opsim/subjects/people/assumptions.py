@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from opsim.engine.rules import LEAST_EXPOSED
-from opsim.plan import Plan
+from opsim.plan.plan import FIXED_WORKFORCE, Plan
 from opsim.problems import Assumption, listed
 from opsim.streams import stream
 from opsim.subjects.people.plan import IN_TURN, RotationPlan, WorkerPlan, start_place
@@ -17,7 +17,6 @@ from opsim.subjects.shifts.assumptions import working_time
 from opsim.subjects.tasks.plan import TaskPlan
 from opsim.subjects.tasks.warnings import tasks_of, unknown_there
 from opsim.task_model import keys_read
-from opsim.worker_effects import worker_effect
 
 if TYPE_CHECKING:
     from opsim.scenario.read import Loaded
@@ -242,7 +241,7 @@ def _beside(key: str, said: dict[tuple[str, str], tuple[str, ...]]) -> str:
 
 def _said(plan: Plan, worker: WorkerPlan, task: TaskPlan) -> tuple[str, ...]:
     """What an emulator says of the body that it was asked for."""
-    effect = worker_effect(task.model, task.stream_name, worker.name, plan.seed, 0, worker.body)
+    effect = plan.worker_effect(plan.workers.index(worker), task, workforce=FIXED_WORKFORCE)
     return tuple(getattr(getattr(effect, "effect", effect), "said", ()))
 
 
