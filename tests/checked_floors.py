@@ -15,7 +15,8 @@ from opsim.laws.audit import CHECKS, audit
 from opsim.log import COLUMNS, EventLog
 from opsim.plan import Plan, compile_plan
 from opsim.plan.warnings import risks_of
-from opsim.scenario.read import Loaded, scenarios_in
+from opsim.scenario.read import scenarios_in
+from opsim.scenario.schema.scenario import Loaded
 
 LOCKS = re.compile(r"nothing moves any more|for ever|never fills|cannot be finished")
 """What ``opsim check`` says of a floor that may lock itself."""

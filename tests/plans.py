@@ -7,7 +7,8 @@ from opsim.laws.audit import audit
 from opsim.log import EventLog
 from opsim.plan import Plan, compile_plan
 from opsim.problems import ScenarioError
-from opsim.scenario.read import Loaded, scenarios_in
+from opsim.scenario.read import scenarios_in
+from opsim.scenario.schema.scenario import Loaded
 
 HERE = Path(__file__).parent
 

@@ -22,7 +22,7 @@ from opsim.cli.progress import engine_option, telling
 from opsim.engine.choice import SIMPY
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 @click.command("run")

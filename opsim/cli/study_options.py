@@ -26,7 +26,7 @@ from opsim.problems import ScenarioError, shown
 
 if TYPE_CHECKING:
     from opsim.report.page import StudyPage
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
     from opsim.scenario.study_checks import Varied
     from opsim.study.jobs import Answers, Source
 

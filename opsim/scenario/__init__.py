@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "Loaded": "opsim.scenario.read",
+    "Loaded": "opsim.scenario.schema.scenario",
     "read_scenarios": "opsim.scenario.read",
     "Scenario": "opsim.scenario.schema",
     "ScenarioError": "opsim.problems",

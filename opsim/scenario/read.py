@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
@@ -15,6 +14,7 @@ from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, sho
 from opsim.scenario.checks.table import check_problems
 from opsim.scenario.messages import schema_problems
 from opsim.scenario.schema import Scenario
+from opsim.scenario.schema.scenario import Loaded
 from opsim.scenario.schema.subjects import scenario_model, subject_problems
 from opsim.scenario.templates import with_includes, without_likes
 from opsim.scenario.tree import Node, problem, written_paths
@@ -25,27 +25,6 @@ from opsim.subjects.people.workforce import with_ratings, with_workforce, withou
 from opsim.threads import without_collecting
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Loaded:
-    """One variant of a scenario file, ready to plan.
-
-    given    : the dotted paths that stand in the file (after ``like`` and overrides), e.g. "workers.ana.walk"
-    resolved : the variant as plain values, quantities still as text, for scenario.resolved.yaml
-    """
-
-    scenario: Scenario
-    variant: str
-    file: Path
-    folder: Path
-    given: frozenset[str]
-    resolved: dict[str, Any]
-
-    def _repr_html_(self) -> str:
-        from opsim.notebook import scenario_html
-
-        return scenario_html(self.scenario, self.variant)
 
 
 def read_scenarios(

@@ -22,7 +22,8 @@ from typing import Any
 from opsim.problems import MOST_FOUND, Problem, ScenarioError, did_you_mean, shown
 from opsim.scenario.checks.names import PLACES, SECTION_OF, figure_problems, move_problems
 from opsim.scenario.fields import EXAMPLES
-from opsim.scenario.read import Loaded, loaded_of, variant_trees
+from opsim.scenario.read import loaded_of, variant_trees
+from opsim.scenario.schema.scenario import Loaded
 from opsim.scenario.tree import Node, Part, child, entries, items, problem, written_paths
 from opsim.scenario.variants import MOST_CHECKED, applied, changes_node, flow_text
 from opsim.shipped import find_scenario

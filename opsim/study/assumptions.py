@@ -41,7 +41,7 @@ from opsim.subjects.transport.checks import by_themselves, vehicles
 from opsim.task_model import behind, fit_report
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 def station_model(plan: Plan) -> Iterator[Assumption]:

@@ -32,7 +32,7 @@ from opsim.scenario.tree import Node, child, problem
 from opsim.study.replication import Timed, timed
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 Chosen = Callable[[Choice], Told | None]
 """Is told which engine is used; what it gives back, if anything, is told how far the compiling is."""

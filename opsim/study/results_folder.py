@@ -34,7 +34,7 @@ from opsim.study.resolved_scenario import (
 )
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 class Busy(ValueError):

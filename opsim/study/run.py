@@ -24,7 +24,7 @@ from opsim.study.replication import Once, Progress, Replicated, missing, replica
 from opsim.study.results_folder import MANIFEST, RESOLVED, digest, manifest_of, say_engine
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 NEEDED = {"libraries": "the library", "recorded": "the file"}
 """What a manifest holds the hashes of, in words."""

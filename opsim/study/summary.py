@@ -31,7 +31,7 @@ from opsim.subjects.human.assumptions import walking_source
 from opsim.subjects.shifts.hours import floor_has_hours
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 QUANTILES = (0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95)

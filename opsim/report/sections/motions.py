@@ -25,7 +25,7 @@ from opsim.report.plot.svg_canvas import figure_of
 from opsim.task_model import behind
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
     from opsim.task_model import TaskModel
 
 SAMPLES = 2

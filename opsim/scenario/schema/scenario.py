@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
@@ -204,3 +206,24 @@ BLOCKS: dict[str, type[Block]] = {
     "ergonomics": Ergonomics,
     "human": Human,
 }
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """One variant of a scenario file, ready to plan.
+
+    given    : the dotted paths that stand in the file (after ``like`` and overrides), e.g. "workers.ana.walk"
+    resolved : the variant as plain values, quantities still as text, for scenario.resolved.yaml
+    """
+
+    scenario: Scenario
+    variant: str
+    file: Path
+    folder: Path
+    given: frozenset[str]
+    resolved: dict[str, Any]
+
+    def _repr_html_(self) -> str:
+        from opsim.notebook import scenario_html
+
+        return scenario_html(self.scenario, self.variant)

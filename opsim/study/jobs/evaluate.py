@@ -37,7 +37,7 @@ from opsim.engine.choice import (
 from opsim.kpi.catalogue import Figure
 from opsim.plan import Plan, compile_plan
 from opsim.problems import Problem, ScenarioError
-from opsim.scenario.read import Loaded
+from opsim.scenario.schema.scenario import Loaded
 from opsim.scenario.study_checks import Varied
 from opsim.scenario.templates import without_likes
 from opsim.scenario.tree import Node

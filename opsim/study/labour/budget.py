@@ -19,7 +19,7 @@ import numpy as np
 
 from opsim.plan import Plan
 from opsim.results import Key
-from opsim.scenario.read import Loaded
+from opsim.scenario.schema.scenario import Loaded
 from opsim.study.compare import ROUNDING
 from opsim.study.intervals import CONFIDENCE, Interval
 from opsim.study.labour.variance_components import CROSSED, mean_interval

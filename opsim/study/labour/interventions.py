@@ -16,7 +16,7 @@ import numpy as np
 
 from opsim.plan import Plan
 from opsim.problems import did_you_mean, natural_key, shown
-from opsim.scenario.read import Loaded
+from opsim.scenario.schema.scenario import Loaded
 from opsim.study.intervals import CONFIDENCE, Interval
 from opsim.study.jobs import Job, Point
 from opsim.study.labour.budget import (

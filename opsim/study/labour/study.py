@@ -19,7 +19,7 @@ from opsim.kpi.catalogue import EXPOSURE, POSTURE, read_asked
 from opsim.plan import Plan
 from opsim.problems import ScenarioError
 from opsim.results import Key
-from opsim.scenario.read import Loaded
+from opsim.scenario.schema.scenario import Loaded
 from opsim.study.intervals import Interval
 from opsim.study.jobs import Answers, Job, Point
 from opsim.study.labour.budget import (

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from opsim.layout import Ways, ways
 from opsim.problems import did_you_mean, enumerated, natural_key, shown
-from opsim.scenario.read import Loaded
+from opsim.scenario.schema.scenario import Loaded
 
 if TYPE_CHECKING:
     from opsim.scenario.schema import Scenario

@@ -43,7 +43,7 @@ from opsim.study.layout.floor import Floor, Movable, NoLayout, floor_of, movable
 from opsim.study.layout.moves import Candidate, clash, what_ifs
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 MOST_SAID, MOVE = 4, "move "

@@ -32,7 +32,7 @@ from opsim.subjects.tasks.plan import TaskPlan
 from opsim.subjects.tasks.warnings import has_body, lacking
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 def ergonomics(loaded: Loaded, plan: Plan) -> Iterator[Assumption]:

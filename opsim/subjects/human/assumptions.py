@@ -18,7 +18,7 @@ from opsim.subjects.tasks.warnings import shifted_by, unmoved
 from opsim.task_model import behind, fit_report, keys_read
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 TOPIC = "human effects"
 ASSUMED = {

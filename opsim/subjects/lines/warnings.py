@@ -22,7 +22,7 @@ from opsim.subjects.shifts.plan import Spans, at_least, both, total_s, without
 from opsim.subjects.tasks.distributions import Fixed
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 def standing_lines(plan: Plan, hours: Hours, by_hand: Collection[int]) -> Iterator[str]:

@@ -19,7 +19,7 @@ from opsim.subjects.tasks.warnings import tasks_of, unknown_there
 from opsim.task_model import keys_read
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
+    from opsim.scenario.schema.scenario import Loaded
 
 
 def assignment(plan: Plan) -> Iterator[Assumption]:

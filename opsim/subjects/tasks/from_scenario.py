@@ -25,8 +25,8 @@ from opsim.subjects.tasks.distributions import (
 )
 
 if TYPE_CHECKING:
-    from opsim.scenario.read import Loaded
     from opsim.scenario.schema import Emulated, Layout, Motions, Step
+    from opsim.scenario.schema.scenario import Loaded
 
 WALK = "walk"
 """What a walk is called in marks, and the task a worker's own effect in it is that of: as in walks between places."""
