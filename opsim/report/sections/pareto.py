@@ -107,6 +107,8 @@ def _hours(frontier: Frontier) -> Iterator[str]:
 
 WIDE, TALL, LEFT, RIGHT, TOP, FOOT = 560, 430, 62, 22, 18, 60
 KEY_ROW = 22
+BESIDE_TITLE, DIGIT = 32.0, 8.9
+"""Room for the name of the upright axis and for a digit of its numbers: long numbers move the picture to the right."""
 FRONT, BEHIND, BEATEN = "front", "behind", "beaten"
 KINDS = {
     FRONT: "no other variant beats it",
@@ -182,8 +184,9 @@ def frontier_svg(frontier: Frontier, hours: bool = False, here: str = "", least_
     here : the variant to mark, with a legend in the picture; "" for none; least_px : no narrower than this
     """
     points = _known(frontier)
-    x = _axis([point.x for point in points], frontier.x[3], LEFT, WIDE - RIGHT)
     y = _axis([point.y for point in points], frontier.y[3], TALL - FOOT, TOP)
+    left = max(LEFT, BESIDE_TITLE + DIGIT * max((len(words) for _, words in y.ticks), default=0))
+    x = _axis([point.x for point in points], frontier.x[3], left, WIDE - RIGHT)
     marks = [_mark(point, x, y) for point in points]
     named = _with_names(marks)
     key = list(_key(marks, here)) if here else []
@@ -194,7 +197,7 @@ def frontier_svg(frontier: Frontier, hours: bool = False, here: str = "", least_
         *(_ring(mark.x, mark.y) for mark in marks if mark.name == here),
         *(_dot(mark) for mark in marks),
         *(_name(mark, *place) for mark, place in zip(named, _places(named))),
-        *_titles(frontier, x.word, y.word, hours),
+        *_titles(frontier, x, y, hours),
         *key,
     ]
     said = escape("; ".join(f"{mark.name}: {KINDS[mark.kind]}" for mark in marks))
@@ -256,8 +259,8 @@ def _grid(x: Axis, y: Axis) -> Iterator[str]:
     for at, words in x.ticks:
         yield f'<path d="M{at:.1f} {TOP}V{foot}" stroke="{GRID}"/>' + _text(words, at, foot + 18, MUTED, "middle")
     for at, words in y.ticks:
-        yield f'<path d="M{LEFT} {at:.1f}H{WIDE - RIGHT}" stroke="{GRID}"/>'
-        yield _text(words, LEFT - 8, at + 4.5, MUTED, "end")
+        yield f'<path d="M{x.begin:g} {at:.1f}H{WIDE - RIGHT}" stroke="{GRID}"/>'
+        yield _text(words, x.begin - 8, at + 4.5, MUTED, "end")
 
 
 def _front_line(marks: Sequence[Mark], better_x: str) -> str:
@@ -310,13 +313,13 @@ def _name(mark: Mark, x: float, y: float, anchor: str) -> str:
     return _text(shortened(mark.name), x, y, INK, anchor, ' font-weight="600"' if mark.kind == FRONT else "")
 
 
-def _titles(frontier: Frontier, word_x: str, word_y: str, hours: bool) -> Iterator[str]:
-    x, y = (
-        f"{_with_unit(axis_name(key, hours), word)} ({better} is better)"
-        for key, word, better in ((frontier.x, word_x, frontier.better_x), (frontier.y, word_y, frontier.better_y))
+def _titles(frontier: Frontier, x: Axis, y: Axis, hours: bool) -> Iterator[str]:
+    across, up = (
+        f"{_with_unit(axis_name(key, hours), axis.word)} ({better} is better)"
+        for key, axis, better in ((frontier.x, x, frontier.better_x), (frontier.y, y, frontier.better_y))
     )
-    yield _text(x, (LEFT + WIDE - RIGHT) / 2, TALL - 14, INK, "middle")
-    yield f'<g transform="translate(15 {TALL / 2:.0f}) rotate(-90)">{_text(y, 0, 0, INK, "middle")}</g>'
+    yield _text(across, (x.begin + WIDE - RIGHT) / 2, TALL - 14, INK, "middle")
+    yield f'<g transform="translate(15 {TALL / 2:.0f}) rotate(-90)">{_text(up, 0, 0, INK, "middle")}</g>'
 
 
 def _with_unit(name: str, word: str) -> str:

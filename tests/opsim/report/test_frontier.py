@@ -9,7 +9,7 @@ import pytest
 from opsim.report.comparison import comparison_html
 from opsim.report.page import Folded, Svg
 from opsim.report.sections import pareto as frontier_shown
-from opsim.report.sections.pareto import frontier_section, frontier_sentences, frontier_svg, usual_pair
+from opsim.report.sections.pareto import DIGIT, frontier_section, frontier_sentences, frontier_svg, usual_pair
 from opsim.report.sections.scenarios import MOST_VARIANTS
 from opsim.report.sections.scenarios import scenarios_section as section
 from opsim.results import Result
@@ -50,6 +50,14 @@ def test_every_variant_has_a_dot_and_a_bar_each_way_and_more_is_to_the_right_and
     floor, hip, slow = dots(svg)
     assert floor[0] < hip[0] and floor[1] < hip[1] < slow[1] and slow[0] < floor[0]
     assert len(re.findall(r'stroke-width="2"/>', svg)) == 3 * 2 and svg.count("stroke-dasharray") == 1
+
+
+@pytest.mark.parametrize("width", [1e-4, 1.0, 1e4])
+def test_long_numbers_move_the_picture_away_from_the_name_of_the_axis(width):
+    values = {name: np.array([[50.0, 51.0], [at, at * 1.1]]) for name, at in (("a", width), ("b", 1.5 * width))}
+    svg = frontier_svg(Frontier(*KEYS, "more", "less", placed(values, np.array([1.0, -1.0])), 2))
+    numbers = re.findall(r'<text x="([\d.]+)"[^>]*text-anchor="end"[^>]*>([^<]*)</text>', svg)
+    assert len(numbers) > 2 and all(float(x) - DIGIT * len(words) >= 21 for x, words in numbers), numbers
 
 
 def test_the_front_is_joined_by_steps_through_its_variants():
