@@ -136,7 +136,8 @@ def overrun(own: EventLog, plan: Plan, limit: int, of_shift: str) -> int | None:
     at_limit = np.flatnonzero((works & (ends == limit)) | stands_by)[-1:]  # at work, or with the others of a team
     before = np.flatnonzero(works & (ends <= limit))[-1:]
     performance = max(own["performance_id"][before], default=-1)  # perhaps he waits for a tool in the middle of it
-    rule, helped = "", (-1, -1)
+    met = before[(ends[before] == limit) & (own["progress_to"][before] < 1.0)]  # help came at that very instant
+    rule, helped = "", (own["task"][met[0]], own["k"][met[0]]) if met.size else (-1, -1)
     job, station = (max(own[name][at_limit], default=-1) for name in ("job", "station"))
     for at in np.flatnonzero(works & (ends > limit)):
         begin = int(ticks(own["start_s"][at]))

@@ -289,3 +289,30 @@ def test_the_order_of_declaration_decides_nothing():
         logs.append(run_plan(p))
         audit(logs[-1], p)
     assert all(np.array_equal(logs[0][name], logs[1][name], equal_nan=name.startswith("p")) for name in logs[0].columns)
+
+
+CHANGE_OF_SHIFTS = """
+opsim: 1
+name: help
+run: {start: Mon 06:00, horizon: 1 h, seed: 1}
+layout: {places: {p: [0 m, 0 m]}}
+tasks: {fit: {fixed: 12 s}}
+stations: {a: {at: p, tasks: [fit]}}
+products: {q: {route: [a]}}
+release: {kind: saturated}
+shifts: {early: {from: 06:00, to: 06:30, at_end: finish}, late: {from: 06:30, to: 07:00}}
+workers:
+  ana: {skills: {a: 1}, shift: early}
+  ben: {skills: {a: 1}, shift: late}
+  joker: {skills: {a: 1}, shift: late}
+lines: {line: {kind: indexed, stations: [a], takt: 16 s, andon: {workers: [joker], at: 8 s, does: help}}}
+"""
+
+
+def test_who_is_helped_from_the_end_of_her_shift_on_finishes_what_she_is_at():
+    p = plan(CHANGE_OF_SHIFTS)
+    log = run_plan(p, 0)
+    audit(log, p)
+    work = log.of(WORK)
+    hers = work.where((work["worker"] == 0) & (work["end_s"] > 1795.0))
+    assert list(zip(hers["start_s"], hers["end_s"])) == [(1792.0, 1800.0), (1800.0, 1802.0)]
