@@ -1,10 +1,10 @@
 """All figures of a replication, and the samples behind the histograms."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from opsim.kpi.catalogue import POSTURE, TRIPS, Figure
+from opsim.kpi.catalogue import EXPOSURE, POSTURE, TRIPS, Figure
 from opsim.kpi.cycle_times import cycle_times, durations, oee, task_durations, work_by_visit
 from opsim.kpi.states import active_time, bottleneck, station_states, worker_states
 from opsim.kpi.throughput import (
@@ -21,8 +21,6 @@ from opsim.log import EventLog
 from opsim.plan import Plan
 from opsim.plugins.subjects import subjects_of
 from opsim.subjects.breakdowns.figures import outages, stops
-from opsim.subjects.exposure.figures import exposure
-from opsim.subjects.exposure.trunk_figures import trunk_flexion
 from opsim.subjects.human.figures import fatigue, learned
 from opsim.subjects.lines.figures import crews, lines
 from opsim.subjects.material.figures import stores
@@ -72,10 +70,18 @@ def figures(log: EventLog, plan: Plan, asked: Iterable[str] = ()) -> list[Figure
     """
     asked = set(asked)
     wanted = asked if plan.posture else set()
-    functions = _FUNCTIONS if wanted.isdisjoint(POSTURE) else (*_FUNCTIONS, trunk_flexion)
+    functions: tuple[Callable[[EventLog, Plan], Iterable[Figure]], ...] = _FUNCTIONS
+    if not wanted.isdisjoint(POSTURE):
+        from opsim.subjects.exposure.trunk_figures import trunk_flexion
+
+        functions = (*functions, trunk_flexion)
     if not set(TRIPS).isdisjoint(asked):
         functions = (*functions, trips)
-    found = [*(figure for function in functions for figure in function(log, plan)), *exposure(log, plan, wanted)]
+    found = [figure for function in functions for figure in function(log, plan)]
+    if not wanted.isdisjoint(EXPOSURE):  # a run that looks at no postures does not load what scores them
+        from opsim.subjects.exposure.figures import exposure
+
+        found += exposure(log, plan, wanted)
     found += [figure for subject, part in subjects_of(plan) for figure in subject.figures(log, plan, part)]
     return [figure._replace(value=float(figure.value)) for figure in found]
 
