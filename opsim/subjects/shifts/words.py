@@ -45,8 +45,9 @@ def _as_clock(value: object) -> str:
     if spoken is not None and 1 <= int(spoken[1]) <= 12 and int(spoken[2] or 0) <= 59:
         hours = int(spoken[1]) % 12 + (12 if spoken[3].casefold() == "p" else 0)
         return f"write {hours:02d}:{int(spoken[2] or 0):02d}"
-    counted = isinstance(value, int) and not isinstance(value, bool) and 60 <= value <= 24 * 60
-    return f"write '{value // 60:02d}:{value % 60:02d}'" if counted else "such as 06:00"  # type: ignore[operator]
+    if isinstance(value, int) and not isinstance(value, bool) and 60 <= value <= 24 * 60:
+        return f"write '{value // 60:02d}:{value % 60:02d}'"
+    return "such as 06:00"
 
 
 def _day(value: object) -> str:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from itertools import combinations, pairwise
-from math import dist, hypot, inf
+from math import dist, inf
 from statistics import median
 
 from opsim.layout import Graph, reached, reverse, rings
@@ -114,11 +114,11 @@ def _straight_m(belt: Node, places: dict[str, Node]) -> float | None:
     """The length of the straight line between the ends; None where it cannot be known."""
     at = [places.get(text(belt, end) or "") for end in ("from", "to")]
     ends = [items(place) or items(place, "at") for place in at]
-    points = [[quantity(coordinate, "length") for coordinate in end] for end in ends]
-    if any(len(point) != 2 or None in point for point in points):
+    said = [[quantity(coordinate, "length") for coordinate in end] for end in ends]
+    points = [[length_m for length_m in point if length_m is not None] for point in said]
+    if any(not len(point) == len(known) == 2 for point, known in zip(said, points)):
         return None
-    (x, y), (u, v) = points
-    return hypot(x - u, y - v)  # type: ignore[operator]
+    return dist(*points)
 
 
 def carrying_problems(tree: Node) -> Iterator[Problem]:
