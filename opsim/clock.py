@@ -39,7 +39,7 @@ def on_the_clock(time_s: float) -> str:
     return f"{text}:{seconds:02d}" if seconds else text
 
 
-_CLOCK = re.compile(r"\s*(?:([A-Za-z]+)\s+)?([0-9]{1,2}):([0-9]{2})(?::([0-9]{2}(?:\.[0-9]+)?))?\s*")
+_CLOCK = r"\s*(?:([A-Za-z]+)\s+)?([0-9]{1,2}):([0-9]{2})(?::([0-9]{2}(?:\.[0-9]+)?))?\s*"
 _DAYS = {name: number for number, names in enumerate(zip(DAYS, LONG_DAYS)) for name in names}
 
 
@@ -67,7 +67,7 @@ def clock_words(at_s: float, start_s: float = 0.0) -> str:
 def _clock_s(text: str, start_s: float, after_s: float) -> float:
     from opsim.problems import did_you_mean, shown
 
-    match = _CLOCK.fullmatch(text)
+    match = re.fullmatch(_CLOCK, text)
     if match is None or int(match[2]) > 23 or int(match[3]) > 59 or float(match[4] or 0) >= 60:
         raise ValueError(f"cannot read {shown(text)} as a clock; write 'Mon 07:30' or '07:30'")
     of_day_s = int(match[2]) * 3600.0 + int(match[3]) * 60.0 + float(match[4] or 0)

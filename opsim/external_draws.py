@@ -16,6 +16,7 @@ from opsim.performance import Drawn, OfBlock
 from opsim.problems import did_you_mean, natural_key, shown
 from opsim.streams import BLOCK, Items, stream
 from opsim.subjects.human.plan import EFFECTS, NO_EFFECTS, HumanPlan, parameters
+from opsim.task_model import takes_shift
 from opsim.threads import one_blas_thread
 from opsim.worker_effects import worker_effect
 
@@ -120,11 +121,6 @@ class Slowed(OfBlock):
     @property
     def row(self) -> int:  # type: ignore[override]
         return self.k % BLOCK
-
-
-def takes_shift(model: Any) -> bool:
-    """Whether a model's ``conditions`` name ``log_duration_shift``: its postures can follow a change of pace."""
-    return "log_duration_shift" in getattr(model, "conditions", ())
 
 
 def _trace(model: Any, number: int) -> Any:

@@ -1,6 +1,6 @@
 """Natural order of names: w2 before w10, so that the order of declaration decides nothing; and names in a sentence.
 
-A user's mistakes: each with its place, what was found, what was expected and the nearest right word.
+A user's mistakes: each with its place, what was found, what was expected and the nearest right word; and a plug-in's.
 """
 
 from __future__ import annotations
@@ -87,6 +87,16 @@ class ScenarioError(Exception):
         files = sorted({problem.file for problem in self.problems})
         total = f"{n} problem{'' if n == 1 else 's'} in {', '.join(files)}"
         return total if n <= MOST_SHOWN else f"{total} (the first {MOST_SHOWN} are shown)"
+
+
+class PluginError(ValueError):
+    """A plug-in's own mistake; the text says which one, what it was doing, and where."""
+
+
+class NoSuchPlugin(ValueError, KeyError):
+    """A name that no installed plug-in has; the text holds the nearest that there is."""
+
+    __str__ = Exception.__str__
 
 
 def shown(value: object) -> str:

@@ -110,6 +110,11 @@ def keys_read(model: Any) -> tuple[str, ...]:
     return tuple(getattr(model, "body_keys", BODY_KEYS))
 
 
+def takes_shift(model: Any) -> bool:
+    """Whether a model's ``conditions`` name ``log_duration_shift``: its postures can follow a change of pace."""
+    return "log_duration_shift" in getattr(model, "conditions", ())
+
+
 def fit_report(model: Any) -> Any:
     """What an emulator tells of its training, beyond the seam: source, licence, n_sequences, n_workers."""
     return model.report

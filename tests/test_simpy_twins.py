@@ -7,7 +7,8 @@ from simpy_twins import TWINS
 from simpy_twins.compared import first_difference, rows_of, whole_seconds
 from simpy_twins.floor import Floor, Row
 
-from opsim.engine.choice import FAST, SIMPY, Choice, make_ready, runner_of
+from opsim.engine import FAST, SIMPY
+from opsim.engine.choice import Choice, make_ready, runner_of
 
 
 @pytest.mark.parametrize("whole", [False, True], ids=["any time", "whole seconds"])

@@ -101,8 +101,7 @@ def mistakes(*only: type[Exception]) -> Iterator[None]:
     only : exceptions that are the user's doing; by default those of reading: ScenarioError, ValueError, OSError.
            A plug-in's own mistake is said in every case: who installed it can do something about it.
     """
-    from opsim.plugins.guard import PluginError
-    from opsim.problems import ScenarioError
+    from opsim.problems import PluginError, ScenarioError
 
     kinds: tuple[type[Exception], ...] = (*(only or (ScenarioError, ValueError, OSError)), PluginError)
     try:

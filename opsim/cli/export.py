@@ -43,7 +43,7 @@ _OF = {
     "date": (*_OCEL, *_ROWS),
 }
 """Options that belong to some formats alone."""
-_NUMBERS = re.compile(r"[0-9]{1,7}(-[0-9]{1,7})?(,[0-9]{1,7}(-[0-9]{1,7})?)*")
+_NUMBERS = r"[0-9]{1,7}(-[0-9]{1,7})?(,[0-9]{1,7}(-[0-9]{1,7})?)*"
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def _replications(
         return (0,) if form in (*_OCEL, BVH) else ()
     if said == "all":
         return tuple(range(most)) if form in (*_OCEL, BVH) else ()
-    if not _NUMBERS.fullmatch(said):
+    if not re.fullmatch(_NUMBERS, said):
         wrong.append(f"--replication {said!r}: found no number, expected such as 3, 0-4, 0,2,5 or all")
         return ()
     found = sorted({n for part in said.split(",") for n in _range(part)})

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
-from opsim.engine.choice import AUTO, ENGINES, SIMPY, Choice, Told, known
-from opsim.threads import Ticking
+from opsim.engine import AUTO, ENGINES, SIMPY
 
 if TYPE_CHECKING:
+    from opsim.engine.choice import Choice, Told
     from opsim.study.engine_choice import Chosen
 
 LINE_EVERY_S = 5.0
@@ -57,6 +57,8 @@ def _bar(what: str) -> Iterator[Report]:
         TimeElapsedColumn,
         TimeRemainingColumn,
     )
+
+    from opsim.threads import Ticking
 
     columns = (
         TextColumn("{task.description}", markup=False),
@@ -153,6 +155,8 @@ class EngineWord(click.Choice):  # type: ignore[type-arg]  # of click 8.1 it tak
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Raises BadParameter."""
+        from opsim.engine.choice import known
+
         try:
             return known(value)
         except ValueError as error:

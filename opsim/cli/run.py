@@ -19,7 +19,7 @@ import click
 
 from opsim.cli.app import mistakes
 from opsim.cli.progress import engine_option, telling
-from opsim.engine.choice import SIMPY
+from opsim.engine import SIMPY
 
 if TYPE_CHECKING:
     from opsim.scenario.schema.scenario import Loaded

@@ -15,7 +15,7 @@ import click
 from opsim.cli.app import mistakes
 from opsim.cli.progress import telling
 from opsim.cli.study_options import Asked, Common, Kind, Told, from_here
-from opsim.engine.choice import FAST, SIMPY
+from opsim.engine import FAST, SIMPY
 
 MOST_SAID = 5
 

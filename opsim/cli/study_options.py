@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from opsim.cli.progress import engine_option
-from opsim.engine.choice import SIMPY
+from opsim.engine import SIMPY
 from opsim.problems import ScenarioError, shown
 
 if TYPE_CHECKING:
@@ -263,7 +263,7 @@ def _plain(value: Any) -> Any:
 
 
 EXAMPLE = "such as 'release.every=40 s..60 s' or 'stations.saw.buffer=1,2,4'"
-_DOTS = re.compile(r"\s*\.\.\s*")
+_DOTS = r"\s*\.\.\s*"
 
 
 def vary_of(texts: Sequence[str]) -> dict[str, Any]:
@@ -290,7 +290,7 @@ def vary_of(texts: Sequence[str]) -> dict[str, Any]:
 
 def _values(text: str) -> Any:
     """A range, or a list of values as YAML has them between brackets."""
-    ends = _DOTS.split(text)
+    ends = re.split(_DOTS, text)
     if len(ends) == 1:
         return _yaml(f"[{text}]")
     if len(ends) > 2 or not all(ends):

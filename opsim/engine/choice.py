@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from opsim.engine import AUTO, ENGINES, FAST, SIMPY
 from opsim.problems import did_you_mean, shown
 
 if TYPE_CHECKING:
@@ -43,8 +44,6 @@ def visits(plan: Plan) -> float:
     return (known_per_h + most_per_h * sum(step.per_job for step in flows.steps)) * plan.horizon_s / 3600
 
 
-ENGINES = ("simpy", "fast", "auto")
-SIMPY, FAST, AUTO = ENGINES
 COMPILING_S, LOADING_S = 8.0, 1.0
 """What the fast engine costs before its first row: compiled on a machine that nothing is known of, and read later."""
 Run = Callable[["Plan", int], "EventLog"]

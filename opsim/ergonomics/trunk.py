@@ -20,7 +20,8 @@ from opsim.ergonomics.angles import TRUNK_JOINTS, trunk_flexion_rad
 from opsim.ergonomics.redraw import Pieces, drawn_again, pieces_in_window
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plugins.guard import PluginError, blamed
+from opsim.plugins.guard import blamed
+from opsim.problems import PluginError
 from opsim.streams import BLOCK
 from opsim.subjects.tasks.plan import TaskPlan
 from opsim.threads import one_blas_thread

@@ -20,8 +20,8 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "NoSuchPlugin": "opsim.plugins.guard",
-    "PluginError": "opsim.plugins.guard",
+    "NoSuchPlugin": "opsim.problems",
+    "PluginError": "opsim.problems",
     "Subject": "opsim.plugins.subjects",
     "dispatch_rule": "opsim.plugins.registry",
     "plugin_model": "opsim.plugins.registry",

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import inspect
 import linecache
+import math
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -19,28 +20,18 @@ from functools import wraps
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
 from opsim.kpi.catalogue import DECLARED
 from opsim.plugins.subjects import STATION, Subject
-from opsim.problems import shown
+from opsim.problems import PluginError, shown
 from opsim.task_model import TaskModel
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
+    import numpy as np
+
 OURS = "opsim"
-
-
-class PluginError(ValueError):
-    """A plug-in's own mistake; the text says which one, what it was doing, and where."""
-
-
-class NoSuchPlugin(ValueError, KeyError):
-    """A name that no installed plug-in has; the text holds the nearest that there is."""
-
-    __str__ = Exception.__str__
 
 
 @dataclass(frozen=True)
@@ -153,7 +144,7 @@ class GuardedModel:
         """As ``TaskModel``, and a positive number."""
         with blamed(self.found, "failed in mean_duration_s"):
             mean_s = float(self._model.mean_duration_s(worker))
-        if not 0 < mean_s < np.inf:
+        if not 0 < mean_s < math.inf:
             raise fault(self.found, f"mean_duration_s gave {mean_s:g}, expected a positive number of seconds")
         return mean_s
 
@@ -164,6 +155,8 @@ class GuardedModel:
 
     def sample(self, n: int, rng: np.random.Generator, *, worker: Any = None, condition: Any = None) -> Any:
         """As ``TaskModel``; n positive durations, and marks for each."""
+        import numpy as np
+
         with blamed(self.found, f"failed as it drew {n} performances"):
             drawn = self._model.sample(n, rng, worker=worker, condition=condition)
             duration_s, mark_s = np.asarray(drawn.duration_s, dtype=float), np.asarray(drawn.mark_s)

@@ -11,8 +11,8 @@ from importlib.metadata import entry_points
 from typing import Any
 
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
-from opsim.plugins.guard import GUARDS, Found, NoSuchPlugin, PluginError, blamed
-from opsim.problems import did_you_mean, natural_key, shown
+from opsim.plugins.guard import GUARDS, Found, blamed
+from opsim.problems import NoSuchPlugin, PluginError, did_you_mean, natural_key, shown
 from opsim.units import UnitError, parse
 
 GROUPS = (

@@ -20,7 +20,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from opsim import __version__
-from opsim.engine.choice import REFERENCE, SIMPY, Choice
+from opsim.engine import SIMPY
+from opsim.engine.choice import REFERENCE, Choice
 from opsim.files import whole_file, write_json, write_text
 from opsim.results import events_in
 from opsim.study.resolved_scenario import (

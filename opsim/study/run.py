@@ -13,7 +13,8 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from opsim.engine.choice import SIMPY, Choice
+from opsim.engine import SIMPY
+from opsim.engine.choice import Choice
 from opsim.kpi.catalogue import read_asked
 from opsim.plan import Plan, compile_plan
 from opsim.results import Result, lacking_rows, read_object

@@ -13,7 +13,8 @@ import numpy as np
 from known_answers.case import HERE
 from recordings import reference
 
-from opsim.engine.choice import SIMPY, able_to, runner_of
+from opsim.engine import SIMPY
+from opsim.engine.choice import able_to, runner_of
 from opsim.laws.audit import audit
 from opsim.log import FINISH
 from opsim.plan import compile_plan

@@ -15,7 +15,7 @@ from known_answers.cases import CASES, Case
 from known_answers.simulate import simulate
 from recordings import data_folder
 
-from opsim.engine.choice import ENGINES, SIMPY
+from opsim.engine import ENGINES, SIMPY
 from opsim.study.intervals import t_interval
 
 MOST_OUTSIDE_95 = 4 / 46

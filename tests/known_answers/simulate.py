@@ -9,7 +9,8 @@ import numpy as np
 from known_answers.cases import HERE, Case
 from known_answers.from_log import FROM_LOG
 
-from opsim.engine.choice import SIMPY, Run, able_to, runner_of
+from opsim.engine import SIMPY
+from opsim.engine.choice import Run, able_to, runner_of
 from opsim.kpi import figures
 from opsim.laws.audit import audit
 from opsim.plan import Plan, compile_plan

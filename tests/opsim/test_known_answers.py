@@ -18,7 +18,7 @@ from known_answers.chains import line_rate
 from known_answers.crews import VELOCITIES, WORK_S, brigade, expected, positions, rates
 from known_answers.simulate import simulate
 
-from opsim.engine.choice import FAST
+from opsim.engine import FAST
 from opsim.study.intervals import t_interval
 
 HERE = [case for case in CASES if (case.file, case.variant) not in TAKE_LONG]

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from opsim.engine.choice import SIMPY
+from opsim.engine import SIMPY
 from opsim.pool import cores
 from opsim.problems import Problem, ScenarioError
 from opsim.results import Key

@@ -23,7 +23,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from opsim.engine.choice import SIMPY
+from opsim.engine import SIMPY
 from opsim.pool import Pool, ProcessLost, cores, pays
 from opsim.study.jobs.evaluate import NotThere, OtherProcess, answer, answer_far_away, made_from
 from opsim.study.jobs.header import made_differ

@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from opsim.engine.choice import REFERENCE, SIMPY, Choice, Told
+from opsim.engine import SIMPY
+from opsim.engine.choice import REFERENCE, Choice, Told
 from opsim.files import write_json
 from opsim.study.engine_choice import Chosen
 from opsim.study.jobs.evaluate import made_from

@@ -15,15 +15,13 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from opsim.ergonomics.measures import missing_scores
-from opsim.external_draws import takes_shift
 from opsim.kpi.catalogue import SCORED
 from opsim.libraries import FINE
 from opsim.plan.plan import Plan
 from opsim.problems import listed
 from opsim.subjects.people.plan import WorkerPlan
 from opsim.subjects.tasks.plan import TaskPlan, performed_ranks
-from opsim.task_model import keys_read
+from opsim.task_model import keys_read, takes_shift
 
 
 def wide_joins(plan: Plan) -> list[str]:
@@ -145,6 +143,8 @@ def has_body(task: TaskPlan) -> bool:
 
 def lacking(tasks: Iterable[TaskPlan]) -> dict[str, list[str]]:
     """Names of tasks by what their skeletons do not tell, each a sentence; nothing where they have every joint."""
+    from opsim.ergonomics.measures import missing_scores
+
     found: dict[str, list[str]] = {}
     for task in tasks:
         model: Any = task.model

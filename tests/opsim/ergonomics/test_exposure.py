@@ -18,7 +18,8 @@ from opsim.ergonomics.trunk import trunk_exposure
 from opsim.history import BY_ANOTHER, HANDED_OVER, RESTARTED, RESUMED, job_pieces
 from opsim.log import WAIT, WORK
 from opsim.plan import compile_plan
-from opsim.plugins.guard import Found, GuardedModel, PluginError
+from opsim.plugins.guard import Found, GuardedModel
+from opsim.problems import PluginError
 from opsim.streams import BLOCK
 from tests.opsim.ergonomics.bodies import standing
 from tests.opsim.ergonomics.made_work import BEND, COOK, COUNT, Bending, Bends, BendsApart, Skeleton, made_plan

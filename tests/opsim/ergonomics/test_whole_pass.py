@@ -19,12 +19,13 @@ from opsim.ergonomics.scores.scoring import bounds_of, score
 from opsim.ergonomics.shift.day import fold
 from opsim.ergonomics.shift.ledger import Booking
 from opsim.ergonomics.strain.posture_limits import repeated_rows
-from opsim.external_draws import OwnLuck, takes_shift
+from opsim.external_draws import OwnLuck
 from opsim.laws.audit import audit
 from opsim.log import SETUP, WORK
 from opsim.streams import BLOCK
 from opsim.subjects.tasks.distributions import Fixed
 from opsim.subjects.tasks.variability import switched
+from opsim.task_model import takes_shift
 
 CELL = """
 opsim: 1

@@ -25,7 +25,7 @@ from known_answers.cases import CASES, TAKE_LONG
 from known_answers.crews import VELOCITIES, brigade, expected, positions, rates
 from known_answers.simulate import plan_of, simulate
 
-from opsim.engine.choice import FAST
+from opsim.engine import FAST
 from opsim.engine.fast_engine import run_plan as run_fast
 from opsim.engine.floor.run import run_plan as run_simpy
 from opsim.plan import compile_plan
