@@ -20,7 +20,7 @@ _HOME = {
     "family": "recordings.family",
     "Alignment": "geometry.alignment",
     "align_to": "geometry.alignment",
-    "resample": "geometry.alignment",
+    "resample": "geometry.flattening",
     "pair_warp": "geometry.elastic",
     "tsrvf": "geometry.elastic",
     "MotionEmulator": "model.emulator",

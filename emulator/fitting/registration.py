@@ -10,8 +10,9 @@ from scipy.interpolate import CubicSpline
 from emulator.fitting.preprocessing import repaired
 from emulator.fitting.settings import CLOCK, FitSettings, Progress
 from emulator.geometry import sphere
-from emulator.geometry.alignment import align, resample
+from emulator.geometry.alignment import align
 from emulator.geometry.base_points import Labels
+from emulator.geometry.flattening import resample
 from emulator.geometry.pauses import Hold, cut
 from emulator.geometry.warps import clr, from_clr
 from emulator.model.decoding import RootChannel

@@ -18,8 +18,7 @@ from emulator.fitting.report import FitReport, TimeFit
 from emulator.fitting.settings import FitSettings
 from emulator.fitting.steps import Parts
 from emulator.geometry import sphere
-from emulator.geometry.alignment import resample
-from emulator.geometry.flattening import Flattening
+from emulator.geometry.flattening import Flattening, resample
 from emulator.judge.clips import Clips, frame_rate_hz
 from emulator.judge.feet import footing
 from emulator.judge.joint_speeds import peak_ratio, share_too_fast

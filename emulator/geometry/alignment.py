@@ -19,9 +19,10 @@ from functools import partial
 
 import numpy as np
 
-from emulator.geometry import elastic, flattening
+from emulator.geometry import elastic
 from emulator.geometry.base_points import NUMBERS, Labels, checked, mean_posture
 from emulator.geometry.elastic import warped
+from emulator.geometry.flattening import resample
 from emulator.geometry.warps import centre as centred_warps
 
 Progress = Callable[[int, int, str], None]
@@ -124,15 +125,6 @@ def align_to(
         template = np.concatenate([template, np.full((len(template), 1), level)], axis=-1)
     warps, _ = _Rounds(fields, n_threads, progress)(template)
     return warps, np.stack([resample(sequence, gamma) for sequence, gamma in zip(sequences, warps)])
-
-
-def resample(directions: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Postures (S, B, 3) of a sequence (T, B, 3), uniform over [0, 1], at the moments ``at`` (S,), along geodesics.
-
-    Raises ValueError where two successive postures are opposite.
-    """
-    directions = np.asarray(directions, float)
-    return flattening.along(directions, np.clip(np.asarray(at, float), 0.0, 1.0) * (len(directions) - 1))
 
 
 def _mean_field(fields: np.ndarray, warps: np.ndarray, level: float) -> np.ndarray:

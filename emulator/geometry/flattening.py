@@ -114,6 +114,15 @@ def along(sequence: np.ndarray, place: np.ndarray) -> np.ndarray:
     return out.reshape(-1, n_bones, 3)
 
 
+def resample(directions: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Postures (S, B, 3) of a sequence (T, B, 3), uniform over [0, 1], at the moments ``at`` (S,), along geodesics.
+
+    Raises ValueError where two successive postures are opposite.
+    """
+    directions = np.asarray(directions, float)
+    return along(directions, np.clip(np.asarray(at, float), 0.0, 1.0) * (len(directions) - 1))
+
+
 def along_numpy(sequence: np.ndarray, place: np.ndarray) -> np.ndarray:
     """The same as ``along`` without compiled code: the definition."""
     low = np.minimum(place.astype(int), len(sequence) - 2)

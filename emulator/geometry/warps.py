@@ -12,6 +12,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from emulator.geometry.flattening import resample
+
 
 def check(gamma: np.ndarray) -> np.ndarray:
     """The warps (..., T) as floats. Raises ValueError where one does not run from 0 to 1, strictly increasing."""
@@ -50,8 +52,6 @@ def invert(gamma: np.ndarray) -> np.ndarray:
 
 def apply(gamma: np.ndarray, directions: np.ndarray) -> np.ndarray:
     """The sequence (T', B, 3), uniform in its own time, at the moments of one warp (T,): (T, B, 3), along geodesics."""
-    from emulator.geometry.alignment import resample
-
     return resample(directions, gamma)
 
 

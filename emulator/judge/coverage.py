@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from emulator.geometry.alignment import resample
+from emulator.geometry.flattening import resample
 from emulator.judge.sequence_distances import stream
 from emulator.model.emulator import MotionEmulator
 from emulator.motion import MotionSet

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from emulator.geometry.alignment import resample
+from emulator.geometry.flattening import resample
 from emulator.motion import MotionSet
 
 N_TIMES = 31

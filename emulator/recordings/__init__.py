@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from emulator.motion import MotionSet
-
-
-class RecordingError(ValueError):
-    """A recording that cannot be read: the message names the file, what was found and what was expected."""
+from emulator.recordings.formats import way_to_npz
+from emulator.recordings.text import RecordingError
 
 
 def read_motions(
@@ -38,14 +36,6 @@ def read_motions(
     return read_npz(
         path, where, task=task, glitches=glitches, mapping_file=None if mapping_file is None else Path(mapping_file)
     )
-
-
-def way_to_npz(path: Path) -> str:
-    """How a file of another form becomes a recording; empty where no reader knows its ending."""
-    from emulator.recordings.importing import FORMATS
-
-    known = path.suffix.lower() in FORMATS
-    return f"; 'opsim motion import {path.name} -o {path.stem}.npz' makes one of it" if known else ""
 
 
 __all__ = ["RecordingError", "read_motions"]

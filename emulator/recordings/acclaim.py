@@ -13,9 +13,8 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from emulator.recordings import RecordingError
 from emulator.recordings.bvh_header import MOST_JOINTS, MOST_TOLD
-from emulator.recordings.text import finite, quoted, text_lines
+from emulator.recordings.text import RecordingError, finite, quoted, text_lines
 
 INCH_M = 0.0254
 ROOT = "root"

@@ -17,10 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.acclaim import INCH_M, Acclaim, Bone, read_asf
 from emulator.recordings.take import Take
-from emulator.recordings.text import finite, quoted, refuse_swelling, text_lines
+from emulator.recordings.text import RecordingError, finite, quoted, refuse_swelling, text_lines
 
 
 @dataclass(frozen=True, eq=False)

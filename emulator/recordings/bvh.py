@@ -13,10 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.bvh_header import CHANNELS, MOST_WORDS, HierarchyReader, words_of
 from emulator.recordings.take import Take
-from emulator.recordings.text import BLOCK_BYTES, decoded, finite, quoted, refuse_swelling, text_blocks
+from emulator.recordings.text import BLOCK_BYTES, RecordingError, decoded, finite, quoted, refuse_swelling, text_blocks
 
 MOST_HEADER_BYTES = 8 << 20
 MOST_WORD_BYTES = 1000

@@ -16,12 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.columns import FASTEST_HZ, SLOWEST_HZ, Columns, rate_of, short, without_missing_frames
 from emulator.recordings.marker_csv import points_of
 from emulator.recordings.orientation import UNITS_M, placed, said_unit
 from emulator.recordings.take import Take
-from emulator.recordings.text import decoded, number_of, quoted, read_table, said_twice
+from emulator.recordings.text import RecordingError, decoded, number_of, quoted, read_table, said_twice
 
 BLOCK = 512
 INTEL, DEC, MIPS = 84, 85, 86

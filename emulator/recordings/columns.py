@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
-from emulator.recordings.text import quoted, text_lines
+from emulator.recordings.text import RecordingError, quoted, text_lines
 
 _COORDINATE = re.compile(r"^(?:pos(?:ition)?[\s_.]*)?([xyz])\d*(?:\s*[\[(].*[\])])?$", re.IGNORECASE)
 _AXIS_LAST = re.compile(r"([xyz])(?:[ \t]*[\[(][^\[\]()]*[\])])?$", re.IGNORECASE)

@@ -14,47 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.columns import refuse_short
+from emulator.recordings.formats import FORMATS, OPTIONS, Format
 from emulator.recordings.joint_names import MappingReport
 from emulator.recordings.keypoints import KEYPOINT_FILES, is_keypoint_folder
 from emulator.recordings.mapping import mapped
 from emulator.recordings.orientation import body_size
 from emulator.recordings.plausibility import SidesFound, checked_body, checked_sides, mirrored, swapped_names
 from emulator.recordings.take import Recording, Take, named
+from emulator.recordings.text import RecordingError
 from emulator.skeleton import Skeleton
-
-
-@dataclass(frozen=True)
-class Format:
-    """A format's name, the module and function that read it, and the options of ``read_take`` that it takes."""
-
-    name: str
-    module: str
-    reader: str
-    options: tuple[str, ...] = ("unit_m", "up")
-
-
-FORMATS = {
-    ".bvh": Format("BVH", "bvh", "read_bvh"),
-    ".amc": Format("ASF/AMC", "amc", "read_amc", ("unit_m", "up", "rate_hz", "asf")),
-    ".c3d": Format("C3D", "c3d", "read_c3d"),
-    ".trc": Format("TRC", "c3d", "read_trc"),
-    ".csv": Format("CSV", "marker_csv", "read_csv", ("unit_m", "up", "rate_hz", "columns", "min_score")),
-    ".tsv": Format("TSV", "marker_csv", "read_csv", ("unit_m", "up", "rate_hz", "columns", "min_score")),
-    ".json": Format("keypoint JSON", "keypoints", "read_json", ("unit_m", "up", "rate_hz", "columns", "min_score")),
-}
-"""Formats by the ending of their files; ``.npz`` besides, which can hold many takes."""
-OPTIONS = {
-    "unit_m": "the unit",
-    "up": "the axis that points up",
-    "rate_hz": "the frame rate",
-    "columns": "names of the columns",
-    "asf": "a skeleton file",
-    "min_score": "a least confidence",
-    "mapping_file": "a mapping file",
-}
-
 
 _FOLDER = f"found a folder, expected a file, or a folder of {KEYPOINT_FILES} with points in space, a file a frame"
 

@@ -20,13 +20,12 @@ from typing import Any
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.columns import FASTEST_HZ, SLOWEST_HZ, read_names, refuse_short
 from emulator.recordings.joint_names import KEYPOINTS, names_by_number
 from emulator.recordings.marker_csv import MIN_SCORE
 from emulator.recordings.orientation import UNITS_M, placed, said_unit
 from emulator.recordings.take import Take
-from emulator.recordings.text import said_twice
+from emulator.recordings.text import RecordingError, said_twice
 
 KEYPOINT_FILES = "*_keypoints.json"
 

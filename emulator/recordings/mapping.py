@@ -16,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.joint_names import MappedJoint, MappingReport, bare_name, joints_of, known_words
 from emulator.recordings.markers import (
     depths,
@@ -26,7 +25,7 @@ from emulator.recordings.markers import (
     without_length,
 )
 from emulator.recordings.take import Take
-from emulator.recordings.text import quoted, text_lines
+from emulator.recordings.text import RecordingError, quoted, text_lines
 from emulator.skeleton import CANONICAL, EXTRA
 
 LEFT_OUT = "-"

@@ -12,13 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.columns import Columns, columns_of, in_threes, rate_of, read_names, without_missing_frames
 from emulator.recordings.joint_names import KEYPOINTS
 from emulator.recordings.markers import PLUG_IN_GAIT
 from emulator.recordings.orientation import UNITS_M, placed
 from emulator.recordings.take import Take
-from emulator.recordings.text import Table, number_of, read_table
+from emulator.recordings.text import RecordingError, Table, number_of, read_table
 
 MIN_SCORE = 0.3
 """A point of less confidence is not there: half of what trackers call certain, and more than their guesses."""

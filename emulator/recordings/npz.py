@@ -16,13 +16,13 @@ import numpy as np
 
 from emulator.archive import MemberError, open_members, read_member
 from emulator.motion import Motion, MotionSet, glitch, motion_from_positions
-from emulator.recordings import RecordingError, way_to_npz
 from emulator.recordings.body_size import MOST_NAMED, first_of, wrong_size
+from emulator.recordings.formats import way_to_npz
 from emulator.recordings.joint_names import joints_of
 from emulator.recordings.npz_form import expected_of, form_mistakes, is_mark, mark_mistakes
 from emulator.recordings.selection import rows_where
 from emulator.recordings.take import Recording, Take
-from emulator.recordings.text import said_twice
+from emulator.recordings.text import RecordingError, said_twice
 from emulator.skeleton import CANONICAL, EXTRA, Skeleton, canonical_names
 
 MAX_BYTES = 4 * 2**30

@@ -16,9 +16,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.joint_names import joints_of, marker_name, without_common_start
 from emulator.recordings.take import Take
+from emulator.recordings.text import RecordingError
 
 LEAST_BEND_RAD = np.radians(20.0)
 """Knees and elbows that are straighter do not show where they bend to."""

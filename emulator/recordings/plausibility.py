@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from emulator.recordings import RecordingError
 from emulator.recordings.orientation import (
     LONGEST_M,
     SHORTEST_M,
@@ -30,6 +29,7 @@ from emulator.recordings.orientation import (
     witnesses_of,
 )
 from emulator.recordings.take import Take
+from emulator.recordings.text import RecordingError
 
 PART_SHARE, SPREAD_SHARE = 0.4, 1.5
 """Points that are no chain from head to feet may show a part of the body only, or arms spread on both sides."""

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from emulator.recordings import RecordingError
+from emulator.recordings.text import RecordingError
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
-from emulator.recordings import RecordingError
+
+class RecordingError(ValueError):
+    """A recording that cannot be read: the message names the file, what was found and what was expected."""
+
 
 BLOCK_BYTES = 1 << 20
 MOST_LINE_BYTES = 1 << 20

@@ -36,7 +36,7 @@ def command(
     Replications with the same number have the same random numbers in every variant, so their differences say more.
     """
     from opsim.cli.app import print_json
-    from opsim.cli.run import Failed
+    from opsim.cli.run_variants import Failed
     from opsim.study.compare import compare
 
     with mistakes():
@@ -78,7 +78,7 @@ def _page(comparison: Any, path: Path, title: str, frontier: Any) -> tuple[Path 
 
 def _results(of: str, out: Path | None, how: dict[str, Any], asked: Any) -> tuple[Path, dict[str, Any]]:
     """asked : base, figures and frontier, which are checked before anything is run"""
-    from opsim.cli.run import run_variants
+    from opsim.cli.run_variants import run_variants
     from opsim.results import variants_in
 
     folder = Path(of)

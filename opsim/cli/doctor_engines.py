@@ -30,7 +30,7 @@ def command(
     """
     from opsim.cli.app import print_json
     from opsim.cli.progress import progress, telling
-    from opsim.cli.run import failures
+    from opsim.cli.run_variants import failures
     from opsim.study.engine_choice import both_engines, planned
     from opsim.threads import lean
 

@@ -29,7 +29,7 @@ def command(of: str, out: Path | None, name: str | None, warm_up: str | None, as
     """
     from opsim.cli.app import print_json
     from opsim.cli.progress import progress
-    from opsim.cli.run import Failed
+    from opsim.cli.run_variants import Failed
     from opsim.cli.study import print_study
     from opsim.files import write_json
     from opsim.report.page import write_study_page
@@ -79,7 +79,7 @@ def _result(of: str, out: Path | None, name: str | None, how: dict[str, Any]) ->
         if given:
             raise ValueError(f"{', '.join(given)}: only where a scenario FILE is run; {of} is a folder of results")
         return _of_folder(folder, name)
-    from opsim.cli.run import run_variants
+    from opsim.cli.run_variants import run_variants
     from opsim.scenario import read_scenarios
 
     known = read_scenarios(of)

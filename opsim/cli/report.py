@@ -1,5 +1,7 @@
 """``opsim report``: the report of a run once more, from what lies in its folder.
 
+Writing the reports of a run: one file a variant, and a word on whatever could not be made.
+
 What ``report``, ``view``, ``export`` and ``sql`` may not write over: the files that results are.
 """
 
@@ -25,7 +27,6 @@ from opsim.cli.app import mistakes
 def command(folder: Path, names: tuple[str, ...], out: Path | None, svg: Path | None, as_json: bool) -> None:
     """Write the report of each variant in the RESULTS of a run (or of one of its variants) again; nothing is run."""
     from opsim.cli.app import print_json
-    from opsim.cli.run import write_reports
     from opsim.study.run import reopened
 
     with mistakes():
@@ -92,6 +93,31 @@ def _check(beside: dict[str, Any], chosen: dict[str, Any], paths: dict[str, Path
     wrong += [words for result in chosen.values() if result.events_files and (words := lacking_rows(result))]
     if wrong:
         raise ValueError("\n".join(dict.fromkeys(wrong)))
+
+
+def write_reports(
+    runs: Mapping[str, Any],
+    results: Mapping[str, Any],
+    paths: Mapping[str, Path],
+    svg: Mapping[str, Path] | None = None,
+) -> dict[str, list[Path]]:
+    """Write the report of each run to its path; returns the SVG files of each, where folders for them are given.
+
+    results : of all variants, which stand beside each other in every report. Raises OSError, and ValueError where
+    figures are wanted as SVG and matplotlib is not there.
+    """
+    from opsim.report import materials, write_report
+
+    drawn: dict[str, list[Path]] = {}
+    for name, material in materials(runs, results):
+        written = write_report(material, paths[name])
+        for reason, which in written.contents.missing:
+            click.echo(f"warning: {name}: the report lacks {which}, which could not be made: {reason}", err=True)
+        if svg is not None:
+            from opsim.report.render import write_figures
+
+            drawn[name] = write_figures(written.contents, svg[name])
+    return drawn
 
 
 def _as_json(name: str, path: Path, drawn: list[Path] | None) -> dict[str, Any]:

@@ -161,7 +161,7 @@ def _shard(kind: Kind, common: Common) -> Any:
 @contextmanager
 def _stopping(out: Path) -> Iterator[None]:
     from opsim.cli.app import stopped
-    from opsim.cli.run import failures
+    from opsim.cli.run_variants import failures
 
     kept = f"finished replications are kept in {out}; the same command goes on from there"
     try:

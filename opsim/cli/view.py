@@ -175,7 +175,7 @@ def run_first(file: str, asked: Asked, engine: str | None = None) -> tuple[Path,
     The folder is ``results/<file's name>_view``; what it holds of another scenario is removed. Raises ScenarioError,
     ValueError with all that is wrong with what is asked for, before anything is run, OSError.
     """
-    from opsim.cli.run import run_variants
+    from opsim.cli.run_variants import run_variants
     from opsim.scenario import read_scenarios
     from opsim.study.results_folder import other_run
 

@@ -19,7 +19,7 @@ from opsim.kpi.throughput import (
 )
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plugins.subjects import subjects_of
+from opsim.plugins.registry import subjects_of
 from opsim.subjects.breakdowns.figures import outages, stops
 from opsim.subjects.human.figures import fatigue, learned
 from opsim.subjects.lines.figures import crews, lines

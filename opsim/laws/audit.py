@@ -6,7 +6,7 @@ from itertools import chain
 from opsim.laws.jobs import Stays, conserved, integral, one_state, places, progress, tiled
 from opsim.log import EventLog
 from opsim.plan import Plan
-from opsim.plugins.subjects import subjects_of
+from opsim.plugins.registry import subjects_of
 from opsim.subjects.breakdowns.figures import one_outage_at_a_time, repair_teams_in_use
 from opsim.subjects.human.figures import pace, rests, shifts
 from opsim.subjects.material.figures import cards_in_use

@@ -1,5 +1,7 @@
 """The door by which parts come in: entry points by group and name, ours as anybody's.
 
+Subjects of the floor that somebody else adds, wherever a plan has them.
+
 What a scenario says to a plug-in: quantities with their units become numbers in SI, all mistakes at once.
 """
 
@@ -7,11 +9,15 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
 from importlib.metadata import entry_points
 from typing import Any
 
 from opsim.engine.rules import ALLOCATION_RULES, ROTATION_RULES, ROUTING_RULES, SEQUENCING_RULES
-from opsim.plugins.guard import GUARDS, Found, blamed
+from opsim.kpi.catalogue import CATALOGUE
+from opsim.plugins.guard import GUARDS, Found, blamed, fault, place_of
+from opsim.plugins.subjects import GROUP, Subject
 from opsim.problems import NoSuchPlugin, PluginError, did_you_mean, natural_key, shown
 from opsim.units import UnitError, parse
 
@@ -89,6 +95,39 @@ def _load(found: Found) -> Any:
     with blamed(found, "cannot be imported"):
         part = found.entry_point.load()
     return part if found.is_ours else GUARDS[found.entry_point.group](found, part)
+
+
+@cache
+def installed() -> dict[str, Subject]:
+    """All subjects that are installed, by key. Their figures are in the catalogue from now on. Raises PluginError."""
+    if not entry_points(group=GROUP):
+        return {}
+    subjects = dict(plugins(GROUP))
+    whose: dict[str, str] = {}
+    for key, name in ((key, kpi.name) for key, one in subjects.items() for kpi in one.kpis):
+        if whose.setdefault(name, key) != key:
+            raise fault(plugins(GROUP).found(key), f"the figure {name} is one of the subject {whose[name]!r} too")
+    CATALOGUE.update((kpi.name, kpi) for one in subjects.values() for kpi in one.kpis)
+    return subjects
+
+
+def subjects_of(plan: Any) -> Iterator[tuple[Subject, Any]]:
+    """The subjects of somebody else that a plan has, each with what the plan keeps of it; in natural order of keys."""
+    for one in plan.subjects:
+        yield installed()[one.key], one.part
+
+
+@contextmanager
+def steps_blamed(plan: Any) -> Iterator[None]:
+    """What goes wrong in a step of a subject is its plug-in's mistake. Raises PluginError."""
+    try:
+        yield
+    except Exception as error:
+        for one in plan.subjects:
+            found = plugins(GROUP).found(one.key)
+            if place := place_of(found, error):
+                raise fault(found, f"failed on the floor: {type(error).__name__}: {error}", place) from error
+        raise
 
 
 KIND_OF_ENDING = {"_m_per_s": "speed", "_kg": "mass", "_s": "time", "_m": "length"}

@@ -5,13 +5,11 @@ It comes in by the entry-point group ``opsim.subjects``. The name of the entry p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any
 
-from opsim.kpi.catalogue import CATALOGUE, Figure, Kpi
+from opsim.kpi.catalogue import Figure, Kpi
 
 GROUP = "opsim.subjects"
 STATION, SCENARIO = "station", "scenario"
@@ -55,44 +53,3 @@ class Subject:
     figures: Callable[[Any, Any, Any], Iterable[Figure]] = nothing
     assumptions: Callable[[Any, Any], Iterable[tuple[str, str]]] = nothing
     sections: tuple[Callable[[Any, Any], Any], ...] = ()
-
-
-@cache
-def installed() -> dict[str, Subject]:
-    """All subjects that are installed, by key. Their figures are in the catalogue from now on. Raises PluginError."""
-    from importlib.metadata import entry_points
-
-    if not entry_points(group=GROUP):
-        return {}
-    from opsim.plugins.guard import fault
-    from opsim.plugins.registry import plugins
-
-    subjects = dict(plugins(GROUP))
-    whose: dict[str, str] = {}
-    for key, name in ((key, kpi.name) for key, one in subjects.items() for kpi in one.kpis):
-        if whose.setdefault(name, key) != key:
-            raise fault(plugins(GROUP).found(key), f"the figure {name} is one of the subject {whose[name]!r} too")
-    CATALOGUE.update((kpi.name, kpi) for one in subjects.values() for kpi in one.kpis)
-    return subjects
-
-
-def subjects_of(plan: Any) -> Iterator[tuple[Subject, Any]]:
-    """The subjects of somebody else that a plan has, each with what the plan keeps of it; in natural order of keys."""
-    for one in plan.subjects:
-        yield installed()[one.key], one.part
-
-
-@contextmanager
-def steps_blamed(plan: Any) -> Iterator[None]:
-    """What goes wrong in a step of a subject is its plug-in's mistake. Raises PluginError."""
-    try:
-        yield
-    except Exception as error:
-        from opsim.plugins.guard import fault, place_of
-        from opsim.plugins.registry import plugins
-
-        for one in plan.subjects:
-            found = plugins(GROUP).found(one.key)
-            if place := place_of(found, error):
-                raise fault(found, f"failed on the floor: {type(error).__name__}: {error}", place) from error
-        raise

@@ -15,7 +15,7 @@ from importlib import import_module
 from pathlib import Path
 
 from opsim.files import whole_file, write_text
-from opsim.plugins.subjects import subjects_of
+from opsim.plugins.registry import subjects_of
 from opsim.report.material import Material
 from opsim.report.numbers import clock
 from opsim.report.page import Card, Chart, Legend, LegendEntry, Picture, Section, Svg, asset, flat, policy, template

@@ -15,7 +15,7 @@ from opsim.kpi.deadlock import Locked
 from opsim.kpi.material_supply import NOBODY, TO_FILL
 from opsim.libraries import HandTarget
 from opsim.plan import Plan
-from opsim.plugins.subjects import subjects_of
+from opsim.plugins.registry import subjects_of
 from opsim.problems import Assumption, listed
 from opsim.scenario.schema import Emulated, Motions
 from opsim.streams import stream

@@ -17,7 +17,7 @@ from opsim.kpi.catalogue import CATALOGUE
 from opsim.laws.audit import CHECKS, BrokenLog, audit
 from opsim.log import SETUP, WORK
 from opsim.plugins import PluginError
-from opsim.plugins.subjects import installed, subjects_of
+from opsim.plugins.registry import installed, subjects_of
 from opsim.scenario.json_schema import json_schema
 from opsim.scenario.schema.subjects import scenario_model
 from opsim.study.assumptions import assumptions_of, task_sources

@@ -13,7 +13,7 @@ from opsim.engine.floor.machine import Arena, Handle, Step, line_of, step_of
 from opsim.engine.rules import INTERRUPTION_RULES
 from opsim.log import IDLE, IS_DOWN, WAIT
 from opsim.plan import Plan
-from opsim.plugins.subjects import subjects_of
+from opsim.plugins.registry import subjects_of
 from opsim.subjects.breakdowns import failures
 from opsim.subjects.human import human_effects
 from opsim.subjects.lines import bucket_brigades, indexed_and_moving_lines, work_sharing

@@ -19,7 +19,7 @@ from opsim.engine.floor.event_list import awaited_event
 from opsim.engine.floor.settle import close, happen, settle, start
 from opsim.log import EventLog, LogWriter, names_of
 from opsim.plan import Plan
-from opsim.plugins.subjects import steps_blamed
+from opsim.plugins.registry import steps_blamed
 from opsim.threads import one_blas_thread
 
 AFTER_EVERYTHING = 2

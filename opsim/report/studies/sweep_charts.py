@@ -22,7 +22,7 @@ from opsim.report.plot.svg_chart import ticks
 from opsim.report.sections.pareto import Axis
 
 if TYPE_CHECKING:
-    from opsim.study.sweep.study import Found
+    from opsim.study.sweep.effects import Found
 
 
 def shortened(words: str, most: int) -> str:

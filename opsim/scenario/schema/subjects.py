@@ -12,7 +12,8 @@ from typing import Any, get_args
 
 from pydantic import Field, create_model
 
-from opsim.plugins.subjects import STATION, Subject, installed
+from opsim.plugins.registry import installed
+from opsim.plugins.subjects import STATION, Subject
 from opsim.problems import Problem
 from opsim.scenario.fields import Name
 from opsim.scenario.schema.scenario import Scenario as OurScenario

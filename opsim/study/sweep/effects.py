@@ -10,12 +10,14 @@ The best of the points, and which others are not told from it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from opsim.kpi.catalogue import LESS, MORE
+from opsim.results import Key
 from opsim.study.intervals import CONFIDENCE, Interval, holm, paired, t_interval
+from opsim.study.sweep.designs import Sensitivity
 from opsim.study.sweep.factors import Factor
 from opsim.study.sweep.response_surface import Response, columns
 
@@ -224,6 +226,29 @@ class Best:
     like_it: int
     better: str
     shared: int
+
+
+@dataclass(frozen=True)
+class Found:
+    """One figure. means : a point each; how : what the changes of ``swings`` are against; noise_share : of the variance
+    of the points' means, how much is luck (nan where it is not known)
+
+    better : MORE or LESS, or "" where nobody said and nobody agrees; values : (P, n) of the replications
+    """
+
+    key: Key
+    means: tuple[Interval, ...]
+    how: str = ""
+    swings: tuple[Swing, ...] = ()
+    response: Response | None = None
+    no_response: str = ""
+    sensitivity: tuple[Sensitivity, ...] = ()
+    best: Best | None = None
+    noise_share: float = float("nan")
+    replications: int = 1
+    factors: tuple[Factor, ...] = field(default=(), repr=False)
+    better: str = ""
+    values: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)), repr=False, compare=False)
 
 
 def best_of(values: np.ndarray, means: Sequence[Interval], better: str) -> Best:

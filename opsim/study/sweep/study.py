@@ -10,7 +10,7 @@ A sweep as plain values, for summary.json.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from opsim.study.compare import remedy
 from opsim.study.intervals import Interval, t_interval
 from opsim.study.jobs import Job, Point
 from opsim.study.sweep.designs import MORRIS_STEP, Sensitivity, morris_effects, sobol_indices
-from opsim.study.sweep.effects import Best, Swing, best_of, effects_by_fit, main_effects, tornado
+from opsim.study.sweep.effects import Found, Swing, best_of, effects_by_fit, main_effects, tornado
 from opsim.study.sweep.factors import AS_IT_IS, UNCHANGED, Factor, Points, points_of
 from opsim.study.sweep.response_surface import Response, block_error, fit_response
 
@@ -32,29 +32,6 @@ if TYPE_CHECKING:
     from opsim.scenario.schema import Scenario
 
 AGAINST_BASE, OVER_OTHERS, BY_FIT = "base", "mean", "fit"
-
-
-@dataclass(frozen=True)
-class Found:
-    """One figure. means : a point each; how : what the changes of ``swings`` are against; noise_share : of the variance
-    of the points' means, how much is luck (nan where it is not known)
-
-    better : MORE or LESS, or "" where nobody said and nobody agrees; values : (P, n) of the replications
-    """
-
-    key: Key
-    means: tuple[Interval, ...]
-    how: str = ""
-    swings: tuple[Swing, ...] = ()
-    response: Response | None = None
-    no_response: str = ""
-    sensitivity: tuple[Sensitivity, ...] = ()
-    best: Best | None = None
-    noise_share: float = float("nan")
-    replications: int = 1
-    factors: tuple[Factor, ...] = field(default=(), repr=False)
-    better: str = ""
-    values: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)), repr=False, compare=False)
 
 
 def found_of(key: Key, better: str, points: Points, values: np.ndarray, seed: int) -> Found:

@@ -122,7 +122,7 @@ def _at(name: str, stop, scenario: Scenario, ranks: Ranks) -> tuple[int, int, in
 
 
 def _every(stop, model_of: Callable) -> TaskModel:
-    from opsim.subjects.tasks.model import count_model
+    from opsim.subjects.tasks.distributions import count_model
 
     return count_model(stop.every) if stop.by == CYCLES else model_of(stop.every)
 

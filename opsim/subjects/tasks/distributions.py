@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from opsim.subjects.tasks.model import ByNumbers, SharedTime, TimeModel
+from opsim.subjects.tasks.model import ByNumbers, SharedTime, TimeModel, UniformCount
 
 if TYPE_CHECKING:
     import numpy as np
@@ -313,3 +313,12 @@ class Empirical(TimeModel):
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
         return self.quantile_s(rng.random(n))
+
+
+def count_model(said: Any) -> TimeModel:
+    """The model of a number of cycles as a scenario says it: always so many, geometric, or uniform."""
+    from opsim.scenario.schema import GeometricCycles
+
+    if isinstance(said, int):
+        return Fixed(float(said))
+    return Geometric(said.mean, 1.0) if isinstance(said, GeometricCycles) else UniformCount(said.low, said.high)

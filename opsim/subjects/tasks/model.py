@@ -194,13 +194,3 @@ class UniformCount(TimeModel):
 
     def _draw_s(self, n: int, rng: np.random.Generator, worker: Any) -> np.ndarray:
         return rng.integers(self.low, self.high, n, endpoint=True).astype(float)
-
-
-def count_model(said: Any) -> TimeModel:
-    """The model of a number of cycles as a scenario says it: always so many, geometric, or uniform."""
-    from opsim.scenario.schema import GeometricCycles
-    from opsim.subjects.tasks.distributions import Fixed, Geometric
-
-    if isinstance(said, int):
-        return Fixed(float(said))
-    return Geometric(said.mean, 1.0) if isinstance(said, GeometricCycles) else UniformCount(said.low, said.high)

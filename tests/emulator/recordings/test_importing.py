@@ -13,7 +13,8 @@ import pytest
 
 from emulator.recordings import RecordingError
 from emulator.recordings.bvh_write import write_bvh
-from emulator.recordings.importing import FORMATS, format_of, imported, read_take, read_takes, together
+from emulator.recordings.formats import FORMATS
+from emulator.recordings.importing import format_of, imported, read_take, read_takes, together
 from emulator.recordings.npz import write_recording
 from emulator.recordings.take import Recording, named, parts_of_name
 from tests.emulator.recordings.body import body, write_c3d

@@ -12,8 +12,8 @@ import pytest
 from scipy import stats
 
 from opsim.scenario.schema import GeometricCycles, UniformCycles
-from opsim.subjects.tasks.distributions import balanced_probability, normal_cut, weibull_shape
-from opsim.subjects.tasks.model import UniformCount, count_model
+from opsim.subjects.tasks.distributions import balanced_probability, count_model, normal_cut, weibull_shape
+from opsim.subjects.tasks.model import UniformCount
 from opsim.tasks import (
     Beta,
     Empirical,
