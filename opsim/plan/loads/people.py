@@ -91,7 +91,8 @@ def crew_load(plan: Plan, flows: Flows | None = None, times: WorkTimes | None = 
         return None
     share, skills = found
     people = sorted({n for rank in skills for n in there[rank]})
-    more = best_share(work, there, hours.share_with_overtime)
+    longer = hours.share_with_overtime
+    more = None if longer == hours.share else best_share(work, there, longer)
     names = tuple(plan.stations[rank].name for rank in skills)
     with_overtime = more[0] if more is not None and more[0] < share * (1 - 1e-9) else None
     return Crew(share, names, tuple(plan.workers[n].name for n in people), with_overtime)
