@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from opsim.external_draws import OwnLuck
-from opsim.laws.audit import BrokenLog
 from opsim.log import CAUSES, IDLE, KINDS, NAMED, ORDER, WAIT, WORK, EventLog, LogWriter, event_log, row
 from opsim.performance import Performance
 from opsim.problems import natural_key
@@ -125,6 +124,8 @@ class WorkerLog:
 
 def audit_work(log: EventLog) -> tuple[str, ...]:
     """Check a worker log against ``CHECKS``; returns them. Raises BrokenLog, naming what is wrong."""
+    from opsim.laws.audit import BrokenLog
+
     for law in (_one_state, _pieces):
         for complaint in law(log):
             raise BrokenLog(f"replication {log.replication}: {complaint}")

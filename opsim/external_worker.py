@@ -30,7 +30,6 @@ from typing import Any
 import simpy
 
 from opsim.clock import on_grid
-from opsim.ergonomics.shift.frames import handlings
 from opsim.external_draws import OwnLuck, human_of
 from opsim.external_log import WorkerLog
 from opsim.libraries import library_tasks, load_library
@@ -239,7 +238,10 @@ class Worker:
         self.turns = simpy.Resource(env, capacity=1)
         models = task_models(tasks)
         self.luck = OwnLuck(name, models, seed, replication, workforce, known_body(name, body, models), across_tasks)
-        self.luck.handling = handlings(handling, models, f"worker {name}: ")
+        if handling is not None:
+            from opsim.ergonomics.shift.frames import handlings
+
+            self.luck.handling = handlings(handling, models, f"worker {name}: ")
         effects = human_of(name, human, experience, models, start_s)
         self._human = OwnHuman(env, self.luck, effects) if effects.any else None
         self._next_k = dict.fromkeys(self.luck.models, 0)

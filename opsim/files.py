@@ -6,7 +6,6 @@ Files that are either whole or not there: written under a temporary name, flushe
 from __future__ import annotations
 
 import errno
-import json
 import math
 import os
 from collections.abc import Iterator
@@ -74,6 +73,8 @@ def write_text(path: Path, text: str) -> None:
 
 def write_json(path: Path, value: Any) -> None:
     """Write JSON whole; keys in the order given; what is not a finite number is null in the file."""
+    import json
+
     write_text(path, json.dumps(_without_nan(value), indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 

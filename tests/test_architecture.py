@@ -196,6 +196,7 @@ def _visit(name: str, graph: dict[str, set[str]], trail: list[str], done: set[st
     ("statement", "absent"),
     [
         ("import opsim", {"numpy", "simpy", "pydantic"}),
+        ("from opsim import Floor, Worker", {"pydantic", "yaml", "scipy", "numba", "duckdb", "emulator"}),
         ("import emulator", {"numpy", "numba"}),
         ("import emulator.model.library", {"numba", "scipy"}),
         ("import opsim.cli.check, opsim.cli.run, opsim.cli.study_options", {"numpy", "yaml", "pydantic", "rich"}),

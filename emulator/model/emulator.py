@@ -6,18 +6,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from emulator.model.conditioning import CONDITIONS, given
 from emulator.model.joint_law import JointLaw
 from emulator.model.performances import MotionPerformances
-from emulator.model.recorded_reach import Reach
-from emulator.model.targets import Target
 from emulator.motion import MotionSet
 from emulator.people.bone_turns import LazyArray
 from emulator.people.workers import WorkerEffect
+
+if TYPE_CHECKING:
+    from emulator.model.recorded_reach import Reach
+    from emulator.model.targets import Target
 
 SCHEME = "Extrinsic/JointPCA/Smoothed"
 SCHEMES = (SCHEME, "SIEM/JointPCA/Smoothed", "SIEM/JointPCA/MVG")
@@ -126,6 +128,8 @@ class MotionEmulator(JointLaw):
 
         Raises ValueError for a joint or a mark that is not there, or a task without marks.
         """
+        from emulator.model.recorded_reach import Reach
+
         return Reach.of(self, joint, mark)
 
     @property

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from opsim.csv_input import read_times, resolve_times
 from opsim.libraries import HandTarget, composite_model, library_model, load_library, resolve_library
 from opsim.problems import natural_key
 from opsim.subjects.tasks.distributions import (
@@ -84,6 +83,8 @@ def task_model(task: Any, loaded: Loaded) -> Any:
         case schema.Motions():
             return motions_model(task, loaded)
         case schema.Recorded():
+            from opsim.csv_input import read_times, resolve_times
+
             times = tuple(read_times(resolve_times(task.recorded, loaded.folder), task.column))
             return Empirical(times) if task.by == "smooth" else Recorded(times, by_index=task.by == "trace")
         case schema.Plugged():

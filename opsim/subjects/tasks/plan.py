@@ -16,7 +16,6 @@ from opsim.plan.ranks import ranked
 from opsim.problems import natural_key
 from opsim.subjects.exposure.plan import NOT_SAID, Handling, handling_of
 from opsim.subjects.tasks.variability import switched
-from opsim.subjects.tasks.words import Layers
 from opsim.subjects.tools.plan import HoldPlan, Needs, hold_of, needs_of
 from opsim.task_model import TaskModel
 
@@ -52,7 +51,7 @@ def at_levels(name: str, task: Any) -> dict[str, Any]:
         return {}
     return {
         level_name(name, height): task.model_copy(update={"hands": {**task.hands, mark: height}})
-        for height in _heights(task.hands[mark])
+        for height in task.heights
     }
 
 
@@ -85,7 +84,7 @@ def _levels(name: str, task: Any, products: Sequence[str], ranks: Mapping[str, i
     if mark is None:
         return None
     said = task.hands[mark]
-    if isinstance(said, Layers):
+    if task.in_turn:
         return Levels(tuple(ranks[level_name(name, height)] for height in said.layers), said.pieces_each)
     first = next(iter(said.values()))
     return Levels(tuple(ranks[level_name(name, said.get(product, first))] for product in products))
@@ -101,10 +100,6 @@ def performed_ranks(tasks: Sequence[TaskPlan], task: int) -> tuple[int, ...]:
     """The ranks of the tasks that are performed where a station names one: itself, or those at its levels."""
     levels = tasks[task].levels
     return (task,) if levels is None else tuple(sorted(set(levels.tasks)))
-
-
-def _heights(said: Any) -> list[float | tuple[str, str]]:
-    return list(said.layers if isinstance(said, Layers) else said.values())
 
 
 class LevelsMean:

@@ -193,6 +193,17 @@ class Emulated(TaskBlock):
         return next((mark for mark, said in self.hands.items() if isinstance(said, Layers | dict)), None)
 
     @property
+    def in_turn(self) -> bool:
+        """Whether they change with the layer, not with the product."""
+        return self.varies is not None and isinstance(self.hands[self.varies], Layers)
+
+    @property
+    def heights(self) -> list[float | tuple[str, str]]:
+        """Those that change: of the layers in turn, or of the products; empty where none do."""
+        said: Any = {} if self.varies is None else self.hands[self.varies]
+        return list(said.layers if self.in_turn else said.values())
+
+    @property
     def library(self) -> str:
         return self.emulator.partition("/")[0]
 
