@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from opsim.plan.loads.bottleneck import Loads, loads_of
+from opsim.plan.loads.people import worked_by_hand
 from opsim.plan.plan import Plan
 from opsim.scenario.schema import Scenario
 from opsim.scenario.warnings.deadlock import held_risks, lock_risks
@@ -35,8 +36,7 @@ def hour_risks(plan: Plan, loads: Loads | None = None) -> list[str]:
     """Every warning in a sentence."""
     loads = loads_of(plan) if loads is None else loads
     hours = Hours(plan)
-    ranks = {station.name: rank for rank, station in enumerate(plan.stations)}
-    by_hand = {ranks[load.skill] for load in loads.skills}
+    by_hand = worked_by_hand(plan, loads.flows)
     return [
         *unmanned(plan, hours, by_hand - in_lines(plan)),
         *standing_lines(plan, hours, by_hand),

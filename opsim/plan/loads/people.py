@@ -98,11 +98,27 @@ def crew_load(plan: Plan, flows: Flows | None = None, times: WorkTimes | None = 
     return Crew(share, names, tuple(plan.workers[n].name for n in people), with_overtime)
 
 
-def _by_hand(plan: Plan, flows: Flows, times: WorkTimes) -> list[HandWork]:
-    """All work of people, by station in natural order."""
+def worked_by_hand(plan: Plan, flows: Flows) -> set[int]:
+    """Ranks of the stations where people have something to do, whichever source lets the jobs in."""
+    times, found = WorkTimes(plan), set()
+    for station, here in _flows_at(flows).items():
+        come = [flow for flow in here if flow.per_h or flow.per_job]
+        work_s = sum(times.by_hand_s(ANYBODY, station, flow.product) for flow in come)
+        if come and work_s + times.setup_by_hand_s(ANYBODY, station, come) > 0:
+            found.add(station)
+    return found
+
+
+def _flows_at(flows: Flows) -> dict[int, list[Flow]]:
     here: defaultdict[int, list[Flow]] = defaultdict(list)
     for flow in flows.steps:
         here[flow.station].append(flow)
+    return here
+
+
+def _by_hand(plan: Plan, flows: Flows, times: WorkTimes) -> list[HandWork]:
+    """All work of people that loads count, by station in natural order; where the floor decides, of what it lets in."""
+    here = _flows_at(flows)
     found = [_hand_work(plan, station, here[station], flows.saturated, times) for station in sorted(here)]
     return [one for one in found if one.per_s * one.anybody_s > 0]
 

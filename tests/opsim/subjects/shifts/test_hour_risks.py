@@ -54,6 +54,17 @@ def test_a_skill_that_nobody_has_on_a_shift_is_told():
     assert risks(late[0]) == []
 
 
+def test_stations_of_jobs_beside_those_that_the_floor_lets_in_are_looked_at_too():
+    products = "products: {a: {route: [cut, oven, pack]}}\nrelease: {kind: poisson, every: 72 s}"
+    two = "products: {a: {route: [cut, oven]}, b: {route: [pack]}}\nsources: {now: {kind: %s, products: [a]}, b: {kind: poisson, every: 72 s, products: [b]}}"
+    edits = [("{cut: 1, pack: 1}", "{cut: 1}"), ("workers:", "workers:\n  eve: {shift: night, skills: {pack: 1}}")]
+    edits += [("shifts:", "shifts:\n  night: {from: '22:00', to: '06:00'}")]
+    said = ["eve is never on shift in this run of 16 h"]
+    said += ["nobody who can work at pack is ever on shift: nothing will happen there"]
+    for kind in ("saturated", "poisson, every: 72 s"):
+        assert risks((products, two % kind), *edits) == said
+
+
 def test_hours_in_which_nobody_works_at_all_are_no_skill_that_is_missing():
     assert risks(("horizon: 16 h", "horizon: 24 h")) == []
 
