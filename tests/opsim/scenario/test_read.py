@@ -263,8 +263,9 @@ def test_a_good_file_with_a_slip_of_the_pen_is_read_or_refused(at, length, piece
 
 
 def test_every_word_of_the_language_is_read():
+    """Each task of ``everything.yaml`` is of another kind."""
     both = scenarios_in(EVERYTHING.encode(), Path("line.yaml"))["both"].scenario
-    assert len({type(task) for task in both.tasks.values()}) == 13
+    assert len({type(task) for task in both.tasks.values()}) == len(both.tasks) >= 13
     assert both.workers["cai"] == both.workers["ben"] and both.workers["ben"].skills["pack"] == 0.9
     assert (both.workers["ana"].walk_m_per_s, both.workers["ana"].patrol) == (1.1, ["unload", "pack", "pack2"])
 
