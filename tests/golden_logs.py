@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -25,6 +24,8 @@ if __name__ == "__main__":
 import numpy as np  # noqa: E402 - the path comes first where this is the program
 from checked_floors import plan_of  # noqa: E402
 from engine_evidence.floors import N_FLOORS, floor_text, replication_of  # noqa: E402
+from rich.console import Console  # noqa: E402
+from rich.progress import track  # noqa: E402
 
 from opsim.engine.floor.run import run_plan  # noqa: E402
 from opsim.log import EventLog  # noqa: E402
@@ -124,12 +125,7 @@ def _all_golden(names: list[str], n_processes: int) -> Iterator[Golden]:
         yield from map(golden, names)
         return
     with ProcessPoolExecutor(n_processes, mp_context=get_context("spawn")) as pool:
-        start_s = time.monotonic()
-        for done, one in enumerate(pool.map(golden, names, chunksize=8), 1):
-            left_s = (time.monotonic() - start_s) / done * (len(names) - done)
-            print(f"\r{done} of {len(names)} floors, {left_s:3.0f} s left ", end="", file=sys.stderr, flush=True)
-            yield one
-        print(file=sys.stderr)
+        yield from track(pool.map(golden, names, chunksize=8), "floors run", len(names), console=Console(stderr=True))
 
 
 def main() -> int:
@@ -145,7 +141,9 @@ def main() -> int:
     for name, (said, _) in found.items():
         print(f"{name}: {said}")
     print(*(f"{name}: is gone" for name in gone), sep="\n", end="\n" if gone else "")
-    print(f"{len(found)} of {len(names)} floors moved")
+    of_shipped = sum(name in found for name in shipped())
+    of_made = len(found) - of_shipped
+    print(f"{of_shipped} of {len(shipped())} shipped variants and {of_made} of {len(made())} made floors moved")
     if options.renew:
         whole = {name: found[name][1] if name in found else before[name] for name in names}
         heading = f"# floor, rows, hashes of {json.dumps(list(PARTS))[1:-1]}; see golden_logs.py"

@@ -43,9 +43,9 @@ def test_every_page_and_picture_is_linked():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
-def test_every_test_example_and_command_of_make_that_is_named_is_there(page):
+def test_every_file_and_command_of_make_that_is_named_is_there(page):
     text = page.read_text("utf-8")
-    files = re.findall(r"(?<![\w/])((?:tests|examples)/[\w/]+(?:\.\w+)?)", text)
+    files = re.findall(r"(?<![\w/.-])((?:tests|examples|opsim|emulator)/[\w/]+(?:\.\w+)?)", text)
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE))
     assert [name for name in files if not (ROOT / name).exists()] == []
     assert set(re.findall(r"(?:`|^)make ([a-z-]+)", text, re.MULTILINE)) <= targets

@@ -179,8 +179,12 @@ def main() -> None:
     """Look at all floors, and write their attempts down."""
     from concurrent.futures import ProcessPoolExecutor
 
+    from rich.console import Console
+    from rich.progress import track
+
     with ProcessPoolExecutor(2) as pool:
-        found = list(pool.map(kept, range(N_FLOORS), chunksize=10))
+        each = pool.map(kept, range(N_FLOORS), chunksize=10)
+        found = list(track(each, "floors drawn", N_FLOORS, console=Console(stderr=True)))
     rows = [" ".join(map(str, found[start : start + 25])) for start in range(0, N_FLOORS, 25)]
     ATTEMPTS.write_text("\n".join(rows) + "\n")
 

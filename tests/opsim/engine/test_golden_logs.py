@@ -5,9 +5,14 @@ from dataclasses import replace
 import golden_logs
 import numpy as np
 import pytest
+from checked_floors import plan_of
+from engine_evidence.floors import N_FLOORS, floor_text
 from golden_logs import PARTS, Golden, log_of, made, moved, shipped, written
 
+from opsim.problems import ScenarioError
+
 EVERY = 100
+SAID = "where a word, a rule or a distribution changed, `make made-floors` draws the floors anew"
 FEW = [*made()[::EVERY], "shipped/pump_assembly/base"]
 
 
@@ -22,7 +27,15 @@ def test_floors_are_no_copies_of_one_another_and_all_of_them_do_something():
 
 
 def test_a_few_floors_write_what_they_wrote():
-    assert [(name, said) for name, said, _ in moved(FEW)] == []
+    assert [(name, said) for name, said, _ in moved(FEW)] == [], SAID
+
+
+@pytest.mark.parametrize("number", range(0, N_FLOORS, EVERY // 2))
+def test_a_made_floor_is_a_scenario_still(number):
+    try:
+        plan_of(floor_text(number))
+    except ScenarioError as error:
+        pytest.fail(f"{error}\n{SAID}")
 
 
 @pytest.mark.slow

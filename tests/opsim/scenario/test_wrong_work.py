@@ -4,8 +4,8 @@ Wrong words about human effects: what is said of each, and where.
 
 Wrong scenarios and the complete answer to each, in ``wrong_files.txt``: a claim, edits of ``good.yaml``, the answer.
 
-After a change of words: ``PYTHONPATH=tests:. python tests/opsim/scenario/test_wrong_work.py`` writes the answers anew; read them before
-they are committed.
+After a change of words ``PYTHONPATH=tests:. python tests/opsim/scenario/test_wrong_work.py`` writes the answers anew;
+read them before they are committed.
 """
 
 import pickle
