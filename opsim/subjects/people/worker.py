@@ -91,6 +91,15 @@ def human_drawn(floor: Floor, station: Station, worker: Worker, task: int, k: in
 
 
 @inlined
+def time_here_s(floor: Floor, station: Station, worker: Worker, task: int, k: int, drawn_s: float) -> float:
+    """How long a drawn time of his takes him at a station now, on the grid: human effects, then his rating."""
+    time_s = drawn_s
+    if worker.human:
+        time_s = human_drawn(floor, station, worker, task, k, drawn_s)
+    return on_grid(time_s / worker.rating[station.rank])
+
+
+@inlined
 def works(floor: Floor, worker: Worker, task: int, until_s: float, done: float, k: int) -> None:
     """He works from now until then, if nothing comes between; ``done`` of it was done before."""
     if worker.human:

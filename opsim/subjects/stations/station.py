@@ -15,12 +15,12 @@ from opsim.subjects.people.worker import (
     clear_bit,
     drawn_run_s,
     has_bit,
-    human_drawn,
     is_ready,
     own_next_s,
     set_bit,
     set_free,
     task_of,
+    time_here_s,
     walk,
     walk_time_s,
 )
@@ -223,8 +223,7 @@ def perform(floor: Floor, job: Job, worker: Worker) -> None:
         k = floor.asked_k
         if worker.human:
             job.asked, job.asked_s, job.asked_done = 1, time_s, 0.0
-            time_s = human_drawn(floor, station, worker, task, k, time_s)
-        duration_s = on_grid(time_s / worker.rating[station.rank])
+        duration_s = time_here_s(floor, station, worker, task, k, time_s)
     begin(floor, job, worker.rank, task, k, duration_s)
     worker.kind, worker.since_s = job.kind, floor.now
     stretch(floor, worker, floor.stretch_line, duration_s)
@@ -237,23 +236,22 @@ def rest_s(floor: Floor, job: Job, worker: Worker, task: int) -> float:
     Where he has done nothing of it yet, human effects are those of now: it truly begins only now. Its number k is in
     ``floor.asked_k``.
     """
-    station = job.station
-    rating, before = worker.rating[station.rank], job.progress_from
+    station, before = job.station, job.progress_from
     if job.worker != worker.rank:
         time_s = own_next_s(floor, worker, task)
         k = floor.asked_k
         if worker.human:
             job.asked, job.asked_s, job.asked_done = 1, time_s, before
-            time_s = human_drawn(floor, station, worker, task, k, time_s)
+        whole_s = time_here_s(floor, station, worker, task, k, time_s)
         floor.asked_k = k
-        return on_grid(on_grid(time_s / rating) * (1.0 - before))
+        return on_grid(whole_s * (1.0 - before))
     if not job.asked or job.asked_done != before or not worker.human:
         floor.asked_k = job.k
         return job.rest_s
-    time_s = human_drawn(floor, station, worker, task, job.k, job.asked_s)
+    whole_s = time_here_s(floor, station, worker, task, job.k, job.asked_s)
     job.pace_shift = worker.pace_shift
     floor.asked_k = job.k
-    return on_grid(on_grid(time_s / rating) * (1.0 - before))
+    return on_grid(whole_s * (1.0 - before))
 
 
 @step
@@ -261,10 +259,9 @@ def drawn_s(floor: Floor, station: Station, worker: Worker, task: int) -> float:
     """The worker's own next duration of a task at a station; its number k is ``floor.asked_k``."""
     time_s = own_next_s(floor, worker, task)
     k = floor.asked_k
-    if worker.human:
-        time_s = human_drawn(floor, station, worker, task, k, time_s)
+    duration_s = time_here_s(floor, station, worker, task, k, time_s)
     floor.asked_k = k
-    return on_grid(time_s / worker.rating[station.rank])
+    return duration_s
 
 
 @step

@@ -11,7 +11,7 @@ from opsim.engine.floor.machine import NOTHING, fresh, give_back, inlined, line_
 from opsim.engine.floor.random_numbers import HOLD, HOLD_RUN, next_held, stream_of
 from opsim.engine.floor.state import Job, Station, Worker
 from opsim.log import CLOSED, NO_TOOL, WAIT, WORK
-from opsim.subjects.people.worker import begin, human_drawn, set_free, stops, wait_by
+from opsim.subjects.people.worker import begin, set_free, stops, time_here_s, wait_by
 from opsim.subjects.stations.station import stand_still
 from opsim.subjects.tools.tool_grips import Doing, Want
 from opsim.subjects.tools.tool_store import IN_HAND, put_back, take
@@ -247,12 +247,9 @@ def _ask_again(floor: Floor, job: Job, doing: Doing) -> None:
 @step
 def _time(floor: Floor, job: Job, doing: Doing) -> None:
     """What is left of the job's task at the pace of what was drawn; all on the grid."""
-    station, worker, time_s, rating = job.station, doing.worker, doing.drawn_s, 1.0
+    whole_s = on_grid(doing.drawn_s)
     if not floor.tasks[doing.task].attended:
-        rating = worker.rating[station.rank]
-        if worker.human:
-            time_s = human_drawn(floor, station, worker, doing.task, doing.k, time_s)
-    whole_s = on_grid(time_s / rating)
+        whole_s = time_here_s(floor, job.station, doing.worker, doing.task, doing.k, doing.drawn_s)
     doing.left_s = on_grid(whole_s * (1.0 - job.progress_from)) if job.rest_s else whole_s
     doing.start_s = on_grid_from_0(doing.drawn_start * whole_s) - (whole_s - doing.left_s)
     doing.end_s = on_grid_from_0(doing.drawn_end * whole_s) - (whole_s - doing.left_s)
