@@ -150,12 +150,18 @@ def places(warps: np.ndarray, own: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _to_control(n_times: int) -> np.ndarray:
-    """(T + 2, T) matrix from values to control points; the third derivative is continuous next to the ends."""
+    """(T + 2, T) matrix from values to control points; the third derivative is continuous next to the ends.
+
+    On one thread of BLAS: it is kept, and its last bits would depend on who asked for it first.
+    """
+    from threadpoolctl import threadpool_limits
+
     rows = np.zeros((n_times + 2, n_times + 2))
     for t in range(n_times):
         rows[t, t : t + 3] = np.array([1.0, 4.0, 1.0]) / 6.0
     rows[-2, :5] = rows[-1, -5:] = 1.0, -4.0, 6.0, -4.0, 1.0
-    return np.ascontiguousarray(np.linalg.inv(rows)[:, :n_times])
+    with threadpool_limits(1, user_api="blas"):
+        return np.ascontiguousarray(np.linalg.inv(rows)[:, :n_times])
 
 
 def _frame(reference: np.ndarray) -> np.ndarray:

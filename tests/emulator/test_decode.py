@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
+from threadpoolctl import threadpool_limits
 
 from emulator.geometry import sphere
 from emulator.geometry.flattening import SIEM, Extrinsic
@@ -116,3 +117,11 @@ def test_places_invert_the_warp_and_hold_its_ends():
     own = np.concatenate([own, warps[:, ::7], np.tile([0.0, 1.0], (8, 1))], axis=1)
     want = np.stack([np.interp(at, warp, np.arange(60.0)) for at, warp in zip(own, warps)])
     assert np.abs(decode.places(warps, own) - want).max() < 1e-11
+
+
+def test_what_is_kept_for_all_does_not_depend_on_how_many_threads_there_were():
+    found = set()
+    for threads in (1, 2):
+        with threadpool_limits(threads, user_api="blas"):
+            found.add(decode._to_control.__wrapped__(101).tobytes())
+    assert len(found) == 1
