@@ -1,6 +1,7 @@
 """``--engine`` of the verbs, with a stand-in for the fast engine."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -81,6 +82,19 @@ def test_a_verb_imports_nothing_heavy_that_it_does_not_need(words, more, said):
     )
     shown = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True, cwd=ROOT).stdout
     assert "HEAVY []" in shown and said in shown
+
+
+def test_a_run_loads_blas_with_one_thread(tmp_path):
+    """numpy is loaded after ``threads.lean``: threads that wait for each other took a fifth of a run's processor time."""
+    words = ["run", "scenarios/queue.yaml", "--horizon", "20 h", "--replications", "1", "--processes", "1", "-o"]
+    look = (
+        "from opsim.cli import main\nfrom threadpoolctl import threadpool_info\n"
+        f"try:\n    main({[*words, str(tmp_path)]!r})\nexcept SystemExit:\n    pass\n"
+        "print('BLAS', {one['num_threads'] for one in threadpool_info() if one['user_api'] == 'blas'})"
+    )
+    free = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    done = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True, cwd=ROOT, env=free)
+    assert "BLAS {1}" in done.stdout
 
 
 def test_the_version_is_that_of_the_package():
