@@ -85,7 +85,7 @@ def test_a_verb_imports_nothing_heavy_that_it_does_not_need(words, more, said):
 
 
 def test_a_run_loads_blas_with_one_thread(tmp_path):
-    """numpy is loaded after ``threads.lean``: threads that wait for each other took a fifth of a run's processor time."""
+    """numpy is loaded after ``threads.lean``: threads that wait for each other took a fifth of a short run."""
     words = ["run", "scenarios/queue.yaml", "--horizon", "20 h", "--replications", "1", "--processes", "1", "-o"]
     look = (
         "from opsim.cli import main\nfrom threadpoolctl import threadpool_info\n"
