@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from emulator.archive import LibraryError, read_archive, read_header, write_archive
-from emulator.model.serialise import pack, unpack
 
 __all__ = ["LibraryError", "MotionLibrary", "file_sha256", "read_header"]
 
@@ -85,6 +84,8 @@ class MotionLibrary(Mapping[str, Any]):
 
     def save(self, path: str | Path) -> None:
         """Write one .npz; the same library gives the same bytes."""
+        from emulator.model.serialise import pack
+
         arrays: dict[str, np.ndarray] = {}
         tasks = {}
         for task, emulator in self.emulators.items():
@@ -96,6 +97,8 @@ class MotionLibrary(Mapping[str, Any]):
     @staticmethod
     def load(path: str | Path) -> MotionLibrary:
         """Read a library. Raises LibraryError for a foreign, broken or hostile file; nothing in it is ever executed."""
+        from emulator.model.serialise import unpack
+
         header, arrays = read_archive(Path(path))
         try:
             _check_shapes(Path(path), header.get("shapes", {}), arrays)

@@ -18,7 +18,6 @@ from opsim.engine.choice import Choice
 from opsim.kpi.catalogue import read_asked
 from opsim.plan import Plan, compile_plan
 from opsim.results import Result, lacking_rows, read_object
-from opsim.study.assumptions import Asked
 from opsim.study.engine_choice import Chosen, compiled_for, engine_of
 from opsim.study.intervals import FEWEST, MOST, Precision, replicate_until
 from opsim.study.replication import Once, Progress, Replicated, missing, replicate, together
@@ -155,6 +154,7 @@ def run_scenario(
     contradicts itself, ProcessLost where a process is killed, ValueError where postures cannot be had.
     """
     from opsim.files import write_json
+    from opsim.study.assumptions import Asked
     from opsim.study.results_folder import (
         LOCK,
         clear_results,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from opsim.libraries import HandTarget, composite_model, library_model, load_library, resolve_library
 from opsim.problems import natural_key
 from opsim.subjects.tasks.distributions import (
     Beta,
@@ -24,6 +23,7 @@ from opsim.subjects.tasks.distributions import (
 )
 
 if TYPE_CHECKING:
+    from opsim.libraries import HandTarget
     from opsim.scenario.schema import Emulated, Layout, Motions, Step
     from opsim.scenario.schema.scenario import Loaded
 
@@ -33,6 +33,8 @@ WALK = "walk"
 
 def motions_model(task: Motions, loaded: Loaded) -> Any:
     """The model of a task's motions, repeats written out. Raises ValueError where their skeletons differ."""
+    from opsim.libraries import composite_model
+
     name = next((name for name, one in loaded.scenario.tasks.items() if one is task), "motions")
     parts = [part for step in task.steps for part in [_part(step, loaded)] * step.repeat]
     return composite_model(name, parts)
@@ -68,6 +70,8 @@ def same_task(emulator: str, loaded: Loaded) -> str:
 
 
 def _model(emulator: str, loaded: Loaded) -> Any:
+    from opsim.libraries import load_library, resolve_library
+
     library, _, task = emulator.partition("/")
     return load_library(resolve_library(loaded.scenario.libraries[library], loaded.folder))[task]
 
@@ -78,6 +82,8 @@ def task_model(task: Any, loaded: Loaded) -> Any:
 
     match task:
         case schema.Emulated():
+            from opsim.libraries import library_model, resolve_library
+
             file = resolve_library(loaded.scenario.libraries[task.library], loaded.folder)
             return library_model(file, task.library_task, hand_targets(task, loaded.scenario.layout))
         case schema.Motions():
@@ -101,6 +107,8 @@ def hand_targets(task: Emulated, layout: Layout) -> tuple[HandTarget, ...]:
 
 
 def _target(mark: str, said: Any, layout: Layout) -> HandTarget:
+    from opsim.libraries import HandTarget
+
     if isinstance(said, float):
         return HandTarget(mark, said)
     name, level = said
